@@ -1,0 +1,56 @@
+"""What can go wrong with what a person gave: one base, every fault with its place and a hint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+class DofkitError(Exception):
+    """The base of every error that dofkit raises on purpose."""
+
+
+class TextError(DofkitError):
+    """A mathematical text that cannot be read.
+
+    ``column`` counts from 1 within the text; ``hint`` says what to write instead.
+    """
+
+    def __init__(self, message: str, column: int | None = None, hint: str | None = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.column = column
+        self.hint = hint
+
+    def __reduce__(self) -> tuple[type[TextError], tuple[str, int | None, str | None]]:
+        return (TextError, (self.message, self.column, self.hint))
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One fault of an input: what was asked, what was found, where, and what to do next.
+
+    ``where`` is the path of keys and list positions from the top of the scene, ``line`` and
+    ``column`` count from 1 (None where the input has no lines, such as a Python mapping).
+    """
+
+    message: str
+    where: tuple[str | int, ...] = ()
+    line: int | None = None
+    column: int | None = None
+    hint: str | None = None
+
+    def __str__(self) -> str:
+        place = f"line {self.line}, column {self.column}: " if self.line is not None else ""
+        return place + self.message + (f" ({self.hint})" if self.hint else "")
+
+
+class SceneError(DofkitError):
+    """An input that is not a scene: all its faults at once, in the order of the file."""
+
+    def __init__(self, faults: tuple[Fault, ...], source: str | None = None) -> None:
+        self.faults = faults
+        self.source = source
+        super().__init__("\n".join(str(fault) for fault in faults))
+
+    def __reduce__(self) -> tuple[type[SceneError], tuple[tuple[Fault, ...], str | None]]:
+        return (SceneError, (self.faults, self.source))

@@ -1,0 +1,120 @@
+"""What is told: the report, its entries and its verdicts. Field names are fixed; see each docstring."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict
+
+Verdict = Literal["proved", "probable", "numeric", "undecided"]
+Form = Literal["finite", "pfaffian", "nonlinear", "inequality"]
+
+#: From the strongest to the weakest.
+VERDICTS: tuple[Verdict, ...] = ("proved", "probable", "numeric", "undecided")
+#: Of several equations, the last of these that occurs names the constraint's form.
+FORMS: tuple[Form, ...] = ("finite", "pfaffian", "nonlinear", "inequality")
+
+
+def weakest(*verdicts: Verdict) -> Verdict:
+    """The weakest of some verdicts; of none, ``proved``.
+
+    >>> weakest("proved", "numeric", "probable")
+    'numeric'
+    """
+    return max(verdicts, key=VERDICTS.index, default="proved")
+
+
+class Model(BaseModel):
+    """The base of what is told: frozen, with no keys beyond the fields."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Count(Model):
+    """The lecture's f = Nd - k: every finite equation that was written, as numbers and as a line of text."""
+
+    particles: int
+    bodies: int
+    dimension: int
+    coordinates: int
+    constraints: int
+    independent: int | None
+    naive_dof: int
+    formula: str
+    errs: str | None
+    """Why the count is wrong, where it is; else None."""
+
+
+class ConstraintEntry(Model):
+    """One constraint's labels.
+
+    ``form`` of the reduced equations; ``holonomic`` in the system and ``holonomic_alone`` without
+    the others; ``scleronomic``: time does not enter, up to factors that never vanish; ``catastatic``:
+    no dt term (None unless ``pfaffian``); ``exact``, ``integrating_factor``, ``integral`` of a
+    Pfaffian form; ``circuit``: what a redundant constraint depends on; ``equations`` and how many are
+    ``independent`` of all before. A None label means undecided, and ``reason`` says why.
+    """
+
+    name: str
+    type: str
+    text: str
+    form: Form
+    holonomic: bool | None
+    holonomic_alone: bool | None
+    scleronomic: bool | None
+    catastatic: bool | None
+    bilateral: bool
+    exact: bool | None
+    integrating_factor: str | None
+    integral: str | None
+    circuit: list[str] | None
+    equations: int
+    independent: int | None
+    verdict: Verdict
+    reason: str
+
+
+class Redundancy(Model):
+    """Constraints of which some minimal dependent sets overlap; ``nullity`` equations too many."""
+
+    nullity: int
+    members: list[str]
+
+
+class ForceEntry(Model):
+    """A force: no constraint, and why."""
+
+    name: str
+    reason: str
+
+
+class Report(Model):
+    """How a system can move; the fields and their meanings are those of the contract.
+
+    ``dof`` is the dimension of the configuration space (hidden finite relations included),
+    ``velocity_dof`` the number of independent velocities of finite motions,
+    ``instantaneous_dof`` what the constraints allow to first order at the reference configuration.
+    A number that could not be decided is None, ``verdict`` is then ``undecided`` and ``warnings`` says why.
+    """
+
+    scene: str
+    consistent: bool | None
+    dof: int | None
+    velocity_dof: int | None
+    instantaneous_dof: int | None
+    singular: bool | None
+    holonomic: bool | None
+    scleronomic: bool | None
+    count: Count
+    redundant_equations: int | None
+    redundant: list[str]
+    redundancies: list[Redundancy]
+    conflicting: list[str]
+    generalized_coordinates: list[str] | None
+    growth_vector: list[int] | None
+    constraints: list[ConstraintEntry]
+    forces: list[ForceEntry]
+    verdict: Verdict
+    method: str
+    modelled: str
+    warnings: list[str]
