@@ -1,0 +1,1 @@
+"""Numbers that can be trusted: expressions over finite fields and balls, points, ranks."""

@@ -1,0 +1,299 @@
+"""Real points as balls (arb): a value whose ball excludes 0 is proved not to be 0.
+
+A real point of {g = 0} is found by Gauss-Newton from random starts in floating point, refined to high
+precision on a regular subset of the relations, and certified by the interval Newton test: the ball then
+contains a true real zero of that subset, and only one.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from flint import arb, arb_mat, ctx, fmpq
+
+from dofkit.exact.program import gradient, values
+from dofkit.exact.ring import Ring, Scalar, Var
+from dofkit.expr import Expr
+
+PRECISION = 256
+#: Relative size below which a singular value of the scaled Jacobian is taken for 0, and above which it is not.
+NOISE, SIGNAL = 1e-9, 1e-6
+STARTS, ITERATIONS = 12, 80
+
+
+class OutsideDomainError(Exception):
+    """A function has no real value at the point."""
+
+
+class _RealPoint:
+    """Values of the symbols, and of unknown functions as they are asked for."""
+
+    def __init__(self, symbols: Mapping[Expr, Any], seed: int) -> None:
+        self.symbols = dict(symbols)
+        self.calls: dict[Any, float] = {}
+        self.rng = random.Random(f"dofkit functions {seed}")
+
+    def call(self, var: Var) -> float:
+        """Any jet is the jet of some smooth function: derivatives are independent numbers."""
+        if var.key not in self.calls:
+            self.calls[var.key] = self.rng.randrange(-999, 999) / 512 or 1.0
+        return self.calls[var.key]
+
+
+class FloatPoint(_RealPoint):
+    """Floating point values; the search for a point uses them, no answer does."""
+
+    def number(self, value: Fraction) -> float:
+        return value.numerator / value.denominator
+
+    def generator(self, var: Var, args: Sequence[Scalar]) -> float:
+        if var.kind == "symbol":
+            return float(self.symbols[var.key])
+        if var.kind == "pi":
+            return math.pi
+        if var.kind == "call":
+            return self.call(var)
+        if var.kind == "root":
+            u = args[0]
+            return u ** (1 / var.degree) if u >= 0 or var.degree % 2 == 0 else -((-u) ** (1 / var.degree))
+        if var.kind == "sign":
+            return math.copysign(1.0, args[0])
+        if var.kind == "atan2":
+            return math.atan2(args[0], args[1])
+        return float(_FLOAT[var.kind](args[0]))
+
+
+_FLOAT: dict[str, Callable[[float], float]] = {
+    "cos": math.cos, "sin": math.sin, "exp": math.exp, "log": math.log, "asin": math.asin, "atan": math.atan,
+}  # fmt: skip
+
+
+class BallPoint(_RealPoint):
+    """Ball values: what is computed contains what is true."""
+
+    def number(self, value: Fraction) -> arb:
+        return arb(fmpq(value.numerator, value.denominator))
+
+    def generator(self, var: Var, args: Sequence[Scalar]) -> arb:
+        value = self._value(var, args)
+        if not value.is_finite():
+            raise OutsideDomainError
+        return value
+
+    def _value(self, var: Var, args: Sequence[Scalar]) -> arb:
+        if var.kind == "symbol":
+            return arb(self.symbols[var.key])
+        if var.kind == "pi":
+            return arb.pi()
+        if var.kind == "call":
+            return arb(self.call(var))
+        if var.kind == "root":
+            return arb(args[0]).root(var.degree) if args[0] > 0 or var.degree % 2 == 0 else -(-args[0]).root(var.degree)
+        if var.kind == "sign":
+            if args[0].contains(0):
+                raise OutsideDomainError
+            return arb(args[0]).sgn()
+        if var.kind == "atan2":
+            return arb.atan2(args[0], args[1])
+        return arb(getattr(args[0], var.kind)())
+
+
+@dataclass(frozen=True)
+class RealPoint:
+    """A real point of the variety.
+
+    ``point``: ball values of all symbols. ``rank``: the numerical rank of the Jacobian there by the
+    unknowns; ``rows`` a regular subset of the relations (certified independent); ``certified``: the ball
+    contains a true zero of these; ``consistent``: the other relations' balls contain 0 too. ``gap``: the ratio of the
+    smallest singular value kept to the largest one dropped.
+    """
+
+    point: BallPoint
+    rank: int
+    rows: tuple[int, ...]
+    certified: bool
+    consistent: bool
+    gap: float
+
+
+def jacobian(
+    ring: Ring, at: Sequence[Scalar], point: Any, nodes: Sequence[int], columns: Sequence[int], zero: Scalar
+) -> list[list[Scalar]]:
+    """The matrix d(node)/d(symbol); ``columns`` are generator indices of symbols."""
+    rows = []
+    for node in nodes:
+        g = gradient(ring, at, point, [(node, zero + 1)])
+        rows.append([g.get(c, zero) for c in columns])
+    return rows
+
+
+class RealSearch:
+    """Looks for real points on the zero set of ``nodes``, moving ``unknowns``."""
+
+    def __init__(self, ring: Ring, nodes: Sequence[int], unknowns: Sequence[Expr], positive: frozenset[Expr]) -> None:
+        self.ring = ring
+        self.nodes = list(nodes)
+        self.unknowns = [u for u in unknowns if ring.var_index(u) is not None]
+        self.columns = [ring.var_index(u) or 0 for u in self.unknowns]
+        self.positive = positive
+        self.upto = max(self.nodes, default=-1) + 1
+
+    def start(self, seed: int, given: Mapping[Expr, float]) -> dict[Expr, float]:
+        """Random dyadic values, so that what is not solved for is an exact number."""
+        rng = random.Random(f"dofkit start {seed}")
+        found = {}
+        for var in self.ring.vars:
+            if var.kind == "symbol":
+                low = 256 if var.key in self.positive or var.key.args[0] in ("time", "parameter") else -1024
+                value = rng.randrange(low, 1025) / 512 or 0.25
+                found[var.key] = given.get(var.key, value)
+        return found
+
+    def search(self, seed: int = 0, given: Mapping[Expr, float] | None = None, starts: int = STARTS) -> RealPoint | None:
+        """The first point found; ``given`` values of symbols are where the search begins."""
+        for attempt in range(starts):
+            symbols = self.start(seed * STARTS + attempt, given or {})
+            found = self.descend(symbols, seed)
+            if found is not None:
+                refined = self.refine(symbols, found, seed)
+                if refined is not None:
+                    return refined
+        return None
+
+    def descend(self, symbols: dict[Expr, float], seed: int) -> np.ndarray | None:
+        """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end."""
+        if not self.nodes:
+            return np.zeros((0, len(self.columns)))
+        previous = math.inf
+        for _ in range(ITERATIONS):
+            try:
+                f, j = self._float_system(symbols, seed)
+            except (ValueError, ZeroDivisionError, OverflowError):
+                return None
+            scale = np.abs(j).max(axis=1, initial=0) + 1e-300
+            residual = float(np.max(np.abs(f) / np.maximum(scale, 1e-3)))
+            if not math.isfinite(residual):
+                return None
+            if residual < 1e-13 or (residual < 1e-11 and residual >= previous / 2):
+                return j
+            previous = residual
+            step = np.linalg.lstsq(j, -f, rcond=1e-12)[0]
+            length = float(np.linalg.norm(step))
+            if length > 1:
+                step /= length
+            for u, s in zip(self.unknowns, step, strict=True):
+                symbols[u] += float(s)
+        return None
+
+    def _float_system(self, symbols: Mapping[Expr, float], seed: int) -> tuple[np.ndarray, np.ndarray]:
+        point = FloatPoint(symbols, seed)
+        at = values(self.ring, point, self.upto)
+        f = np.array([at[n] for n in self.nodes], dtype=float)
+        j = np.array(jacobian(self.ring, at, point, self.nodes, self.columns, 0.0), dtype=float)
+        return f, j.reshape(len(self.nodes), len(self.columns))
+
+    def refine(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
+        """To high precision on independent rows, and the interval Newton test."""
+        if any(symbols[p] <= 0 for p in self.positive if p in symbols):
+            return None
+        rank, gap, rows, columns = independent_part(j)
+        ctx.prec = PRECISION
+        exact = {s: arb(v) for s, v in symbols.items()}
+        if rank:
+            moved = self._newton(exact, rows, columns, seed)
+            if moved is None:
+                return None
+            exact, certified = moved
+        else:
+            certified = True
+        point = BallPoint(exact, seed)
+        try:
+            at = values(self.ring, point, self.upto)
+        except (OutsideDomainError, ZeroDivisionError):
+            return None
+        consistent = all(at[n].contains(0) for n in self.nodes)
+        return RealPoint(point, rank, tuple(rows), certified, consistent, gap)
+
+    def _newton(
+        self, exact: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
+    ) -> tuple[dict[Expr, arb], bool] | None:
+        nodes = [self.nodes[r] for r in rows]
+        unknowns = [self.unknowns[c] for c in columns]
+        indices = [self.columns[c] for c in columns]
+        try:
+            for _ in range(8):
+                f, j = self._ball_system(exact, nodes, indices, seed)
+                step = j.solve(f)
+                for i, u in enumerate(unknowns):
+                    exact[u] = (exact[u] - step[i, 0]).mid()
+            radius = arb(0, arb(2) ** -(PRECISION // 2))
+            boxed = {**exact, **{u: exact[u] + radius for u in unknowns}}
+            f, _ = self._ball_system(exact, nodes, indices, seed)
+            _, j = self._ball_system(boxed, nodes, indices, seed)
+            step = j.solve(f)
+        except (ZeroDivisionError, OutsideDomainError):
+            return None
+        inside = True
+        for i, u in enumerate(unknowns):
+            new = exact[u] - step[i, 0]
+            inside = inside and bool(boxed[u].contains_interior(new))
+            boxed[u] = new
+        return boxed, inside
+
+    def _ball_system(
+        self, exact: Mapping[Expr, arb], nodes: Sequence[int], indices: Sequence[int], seed: int
+    ) -> tuple[arb_mat, arb_mat]:
+        point = BallPoint(exact, seed)
+        at = values(self.ring, point, self.upto)
+        j = jacobian(self.ring, at, point, nodes, indices, arb(0))
+        return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
+
+
+def independent_part(j: np.ndarray) -> tuple[int, float, list[int], list[int]]:
+    """(rank, gap, rows, columns) of a matrix with its rows scaled; rows are taken greedily in their order."""
+    if not j.size:
+        return 0, math.inf, [], []
+    norms = np.linalg.norm(j, axis=1)
+    scaled = j / np.where(norms > 0, norms, 1.0)[:, None]
+    singular = np.linalg.svd(scaled, compute_uv=False)
+    rank = int(np.sum(singular > math.sqrt(NOISE * SIGNAL)))
+    below = float(singular[rank]) if rank < len(singular) else 0.0
+    gap = math.inf if below == 0 or rank == 0 else float(singular[rank - 1]) / below
+    rows = greedy_rows(scaled, rank)
+    columns = greedy_pivots(scaled[rows].T, len(rows))
+    return len(rows), gap, rows, columns
+
+
+def greedy_rows(matrix: np.ndarray, rank: int) -> list[int]:
+    """The first rows, in order, each independent of those before it."""
+    kept: list[int] = []
+    basis = np.zeros((0, matrix.shape[1]))
+    for i, row in enumerate(matrix):
+        rest = row - basis.T @ (basis @ row)
+        rest = rest - basis.T @ (basis @ rest)
+        size = float(np.linalg.norm(rest))
+        if size > math.sqrt(NOISE * SIGNAL):
+            basis = np.vstack([basis, rest / size])
+            kept.append(i)
+        if len(kept) == rank:
+            break
+    return kept
+
+
+def greedy_pivots(matrix: np.ndarray, rank: int) -> list[int]:
+    """Rows chosen for the largest remainder: well conditioned, in no order."""
+    kept: list[int] = []
+    rest = matrix.copy()
+    for _ in range(rank):
+        sizes = np.linalg.norm(rest, axis=1)
+        best = int(np.argmax(sizes))
+        kept.append(best)
+        direction = rest[best] / sizes[best]
+        rest = rest - np.outer(rest @ direction, direction)
+    return sorted(kept)

@@ -1,0 +1,182 @@
+"""From a relation as written to what it says: finite, Pfaffian, nonlinear in velocities, or an inequality.
+
+Factors that never vanish are taken out, powers and sums of squares are replaced by what they force over
+the reals, products become branches. What was done is said in ``notes``.
+
+Differentials are read through dq = qdot dt: a relation homogeneous of degree k in (dq, dt) is divided by dt^k.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from dofkit import expr as ex
+from dofkit.errors import TextError
+from dofkit.expr import Expr
+from dofkit.zeros import zero_set
+
+@dataclass(frozen=True)
+class Finite:
+    """g(q, t) = 0."""
+
+    expr: Expr
+
+
+@dataclass(frozen=True)
+class Pfaffian:
+    """sum a_i dq_i + b dt = 0; ``coefficients`` by coordinate, without zeros."""
+
+    coefficients: Mapping[str, Expr]
+    dt: Expr
+
+    def items(self) -> Iterable[tuple[Expr, Expr]]:
+        """(symbol of the coordinate or of time, coefficient) for every coefficient as written."""
+        for name, coefficient in self.coefficients.items():
+            yield ex.coordinate(name), coefficient
+        if not self.dt.is_zero:
+            yield ex.TIME, self.dt
+
+
+@dataclass(frozen=True)
+class Nonlinear:
+    """f(q, qdot, t) = 0, not linear in the velocities over the reals."""
+
+    expr: Expr
+
+
+@dataclass(frozen=True)
+class Inequality:
+    """g >= 0 or g > 0, finite or in velocities."""
+
+    expr: Expr
+
+
+Piece = Finite | Pfaffian | Nonlinear | Inequality
+#: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
+Branches = tuple[tuple[Piece, ...], ...]
+
+
+@dataclass(frozen=True)
+class Normal:
+    """What a relation says, and what was done to see it."""
+
+    branches: Branches
+    notes: tuple[str, ...] = ()
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """Every piece of every branch."""
+        return tuple(piece for branch in self.branches for piece in branch)
+
+
+# -- differentials and velocities ---------------------------------------------------------------
+
+
+def differential_degree(e: Expr) -> int | None:
+    """The degree in (dq, dt), None for the number 0. Raises TextError where terms differ."""
+    if e.is_zero:
+        return None
+    if not any(s.args[0] in ("differential", "dt") for s in e.symbols):
+        return 0
+    if e.op == "sym":
+        return 1
+    if e.op == "add":
+        degrees = {differential_degree(term) for term in e.args} - {None}
+        if len(degrees) > 1:
+            raise TextError(
+                "differentials and finite terms are added together",
+                hint="divide every term by dt (write qdot), or multiply every term by a differential",
+            )
+        return degrees.pop() if degrees else None
+    if e.op == "mul":
+        return sum(differential_degree(factor) or 0 for factor in e.args)
+    if e.op == "pow" and e.args[1].op == "num":
+        degree = (differential_degree(e.args[0]) or 0) * e.args[1].args[0]
+        if degree.denominator == 1:
+            return int(degree)
+    raise TextError("a differential stands inside a function", hint="differentials may only be added, multiplied and divided")
+
+
+def in_velocities(e: Expr) -> tuple[Expr, bool]:
+    """``e`` in velocities instead of differentials, and whether it had a dt to divide by."""
+    degree = differential_degree(e)
+    if not degree and not any(s.args[0] in ("differential", "dt") for s in e.symbols):
+        return e, False
+    mapping = {s: ex.velocity(s.args[1]) for s in e.symbols if s.args[0] == "differential"}
+    mapping |= {s: ex.ONE for s in e.symbols if s.args[0] == "dt"}
+    return ex.substitute(e, mapping), bool(degree)
+
+
+def velocities_of(e: Expr) -> list[Expr]:
+    """The velocity symbols of an expression, by name."""
+    return sorted((s for s in e.symbols if s.args[0] == "velocity"), key=lambda s: str(s.args[1]))
+
+
+def linear_form(e: Expr) -> Pfaffian | None:
+    """``e`` as a form linear in the velocities as written, else None."""
+    coefficients = {}
+    velocities = velocities_of(e)
+    for v in velocities:
+        coefficient = ex.diff(e, v)
+        if any(s.args[0] == "velocity" for s in coefficient.symbols):
+            return None
+        if not coefficient.is_zero:
+            coefficients[str(v.args[1])] = coefficient
+    return Pfaffian(coefficients, ex.substitute(e, {v: ex.ZERO for v in velocities}))
+
+
+def cleared(e: Expr) -> Expr:
+    """``e`` times the denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
+    denominators: dict[Expr, Expr] = {}
+    for term in e.args if e.op == "add" else (e,):
+        for factor in term.args if term.op == "mul" else (term,):
+            is_below = factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0
+            if is_below and velocities_of(factor):
+                base = factor.args[0]
+                old = denominators.get(base, ex.ONE)
+                denominators[base] = max(old, ex.power(factor, ex.MINUS_ONE), key=repr)
+    if not denominators:
+        return e
+    whole = ex.mul(*denominators.values())
+    return ex.add(*(ex.mul(whole, term) for term in (e.args if e.op == "add" else (e,))))
+
+
+def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
+    """What ``e = 0`` says; ``written`` equations are reduced over the reals, those of joints are regular as they are.
+
+    Raises TextError for accelerations and for sums of differentials with finite terms.
+    """
+    if any(s.args[0] == "acceleration" for s in e.symbols):
+        raise TextError(
+            "a second derivative is no constraint on configurations or velocities",
+            hint="integrate it once, or put it into the equations of motion",
+        )
+    velocity_form, divided = in_velocities(e)
+    if not velocities_of(velocity_form):
+        if divided:
+            return Normal(((Pfaffian({}, velocity_form),),))
+        return _finite(velocity_form, positive, written)
+    form = linear_form(cleared(velocity_form))
+    if form is not None and (form.coefficients or not form.dt.is_zero):
+        return Normal(((form,),))
+    return _nonlinear(velocity_form, positive)
+
+
+def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
+    if not written:
+        return Normal(((Finite(e),),))
+    branches, notes = zero_set(e, positive, frozenset(s for s in e.symbols if s.args[0] in ("coordinate", "time")))
+    return Normal(tuple(tuple(Finite(g) for g in branch) for branch in branches), notes)
+
+
+def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
+    branches, notes = zero_set(e, positive, frozenset(velocities_of(e)))
+    return Normal(tuple(tuple(_velocity_piece(g) for g in branch) for branch in branches), notes)
+
+
+def _velocity_piece(e: Expr) -> Piece:
+    if not velocities_of(e):
+        return Finite(e)
+    form = linear_form(e)
+    return Nonlinear(e) if form is None else form

@@ -1,0 +1,337 @@
+"""The real zero set of one expression: powers, products, sums of squares and factors without zeros.
+
+``zero_set`` returns branches (a union) of lists of expressions that vanish together, each regular where it can
+be made so: g^2 = 0 becomes g = 0, a sum of squares becomes all of its terms, a factor that never vanishes
+is dropped, a product becomes branches. No branch: no real zero.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import product as cartesian
+from typing import Any
+
+from flint import fmpq, fmpq_mat
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit import expr as ex
+from dofkit.exact.canon import Canon, TooLargeError
+from dofkit.exact.ring import Ring
+from dofkit.expr import Expr
+
+#: More branches than this are not told apart: the expression is then kept as it is.
+MAX_BRANCHES = 16
+
+Conjunction = tuple[Expr, ...]
+Zeros = tuple[tuple[Conjunction, ...], tuple[str, ...]]
+
+POWER_NOTE = "a power is zero where its base is: the base is used, because the power's gradient vanishes there"
+SQUARES_NOTE = "a sum of squares is zero over the reals only where every term is: each term is one equation"
+PRODUCT_NOTE = "a product is zero on several branches; each is looked at, and the largest one counts"
+EMPTY_NOTE = "no real configuration satisfies it: every term has the same sign and one never vanishes"
+FACTOR_NOTE = "a factor that never vanishes was taken out"
+
+
+class TooManyBranchesError(Exception):
+    """The zero set has more than `MAX_BRANCHES` branches."""
+
+
+def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> Zeros:
+    """The real zeros of ``e`` in ``variables`` (coordinates, velocities, time), and what was done.
+
+    Symbols outside ``variables`` are generic constants; those of ``positive`` are > 0.
+    """
+    try:
+        return _Zeros(positive, variables).of(e)
+    except (TooLargeError, DomainError, TooManyBranchesError, ZeroDivisionError):
+        return ((e,),), ()
+
+
+class _Zeros:
+    def __init__(self, positive: frozenset[Expr], variables: frozenset[Expr]) -> None:
+        self.positive = positive
+        self.variables = variables
+
+    def of(self, e: Expr) -> Zeros:
+        structural = self._structural(e)
+        return self._polynomial(e) if structural is None else structural
+
+    # -- as written ---------------------------------------------------------------------------
+
+    def _structural(self, e: Expr) -> Zeros | None:
+        if e.op == "num":
+            return (((),), ()) if e.is_zero else ((), (EMPTY_NOTE,))
+        if e.op == "mul":
+            return self._product(e)
+        if e.op == "fn" and e.args[0] == "exp":
+            return (), (EMPTY_NOTE,)
+        if e.op == "fn" and e.args[0] == "abs":
+            return self.of(e.args[1])
+        if e.op == "pow" and e.args[1].op == "num":
+            if e.args[1].args[0] < 0:
+                return (), (FACTOR_NOTE,)
+            inner = self.of(e.args[0])
+            return inner[0], (*inner[1], POWER_NOTE)
+        if e.op == "add":
+            return self._even_sum(e)
+        return None
+
+    def _product(self, e: Expr) -> Zeros | None:
+        branches: list[Conjunction] = []
+        notes: list[str] = []
+        for factor in e.args:
+            if factor.op == "num" or (factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0):
+                continue
+            if self.variables.isdisjoint(factor.symbols):
+                continue
+            found, said = self.of(factor)
+            notes += [n for n in said if n not in (EMPTY_NOTE, FACTOR_NOTE)] if found else [FACTOR_NOTE]
+            branches += [b for b in found if b not in branches]
+        return self._union(branches, notes)
+
+    def _union(self, branches: list[Conjunction], notes: list[str]) -> Zeros:
+        if len(branches) > MAX_BRANCHES:
+            raise TooManyBranchesError
+        if len(branches) > 1:
+            notes.append(PRODUCT_NOTE)
+        return tuple(branches), tuple(dict.fromkeys(notes))
+
+    def _even_sum(self, e: Expr) -> Zeros | None:
+        """A sum of even powers with coefficients of one sign, as written."""
+        signs = {self._even_sign(term) for term in e.args}
+        if len(signs) != 1 or None in signs:
+            return None
+        return self._together([self.of(term) for term in e.args])
+
+    def _even_sign(self, term: Expr) -> int | None:
+        """The sign of a term that cannot change it; None where it can, or where that is unknown."""
+        sign = 1
+        for factor in term.args if term.op == "mul" else (term,):
+            if factor.op == "num":
+                sign = sign if factor.args[0] > 0 else -sign
+            elif not self._never_negative(factor):
+                return None
+        return sign
+
+    def _never_negative(self, factor: Expr) -> bool:
+        if factor in self.positive or (factor.op == "fn" and factor.args[0] in ("exp", "abs", "cosh")):
+            return True
+        if factor.op == "const":
+            return True
+        if factor.op == "pow" and factor.args[1].op == "num":
+            exponent: Fraction = factor.args[1].args[0]
+            even = exponent.denominator == 1 and exponent % 2 == 0
+            return even or exponent.denominator % 2 == 0 or factor.args[0] in self.positive
+        return False
+
+    def _together(self, parts: list[Zeros]) -> Zeros:
+        notes = [SQUARES_NOTE]
+        for branches, _ in parts:
+            if not branches:
+                return (), (EMPTY_NOTE,)
+        combined: list[Conjunction] = []
+        for choice in cartesian(*(branches for branches, _ in parts)):
+            together = tuple(dict.fromkeys(g for conjunction in choice for g in conjunction))
+            if together not in combined:
+                combined.append(together)
+            if len(combined) > MAX_BRANCHES:
+                raise TooManyBranchesError
+        return tuple(combined), tuple(notes)
+
+    # -- as a polynomial in the generators ------------------------------------------------------
+
+    def _polynomial(self, e: Expr) -> Zeros:
+        ring = Ring([e], self.positive)
+        node = ring.node(e)
+        canon = Canon(ring)
+        numerator, _ = canon.quotient(node)
+        if numerator == 0:
+            return ((),), ()
+        signs = Signs(canon, self.positive)
+        branches: list[Conjunction] = []
+        notes: list[str] = []
+        factors = canon.factors(numerator)
+        kept = [(f, k) for f, k in factors if self._depends(canon, f)]
+        for factor, multiplicity in kept:
+            if multiplicity > 1:
+                notes.append(POWER_NOTE)
+            alone = len(kept) == 1 and multiplicity == 1 and len(factors) == 1
+            found, said = self._factor(canon, signs, factor, e if alone else None)
+            notes += said if found or len(kept) == 1 else [FACTOR_NOTE]
+            branches += [b for b in found if b not in branches]
+        if not kept:
+            return (), (EMPTY_NOTE,)
+        return self._union(branches, notes)
+
+    def _depends(self, canon: Canon, factor: Any) -> bool:
+        shown = (canon.ring.var_expr[i] for i in canon.generators_in(factor))
+        return any(not self.variables.isdisjoint(s.symbols) for s in shown)
+
+    def _factor(self, canon: Canon, signs: Signs, factor: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
+        even = sum_of_even(factor, signs)
+        if even is not None:
+            if any(not zeros for zeros in even):
+                return [], [EMPTY_NOTE]
+            if len(even) > 1 or written is None:
+                return self._monomials(canon, even)
+        split = self._semidefinite(canon, signs, factor)
+        if split is not None:
+            if not split:
+                return [], [EMPTY_NOTE]
+            return [tuple(split)], [SQUARES_NOTE]
+        return [(written if written is not None else canon.to_expr(factor),)], []
+
+    def _monomials(self, canon: Canon, even: list[list[int]]) -> tuple[list[Conjunction], list[str]]:
+        """Every monomial vanishes: of each, one generator does."""
+        options = [[self._generator_zero(canon, i) for i in self._varying(canon, zeros)] for zeros in even]
+        found: list[Conjunction] = []
+        for choice in cartesian(*options):
+            together = tuple(dict.fromkeys(choice))
+            if together not in found:
+                found.append(together)
+            if len(found) > MAX_BRANCHES:
+                raise TooManyBranchesError
+        return found, [SQUARES_NOTE] if len(even) > 1 else []
+
+    def _varying(self, canon: Canon, zeros: list[int]) -> list[int]:
+        """The generators that depend on the variables; generic constants do not vanish."""
+        shown = canon.ring.var_expr
+        return [i for i in zeros if not self.variables.isdisjoint(shown[i].symbols)] or zeros
+
+    def _generator_zero(self, canon: Canon, index: int) -> Expr:
+        var = canon.ring.vars[index]
+        shown = canon.ring.var_expr[index]
+        return shown.args[0] if var.kind == "root" else shown
+
+    def _semidefinite(self, canon: Canon, signs: Signs, factor: Any) -> list[Expr] | None:
+        """A semidefinite quadratic polynomial with rational coefficients as the linear forms that vanish with it.
+
+        An empty list: it is definite, with no zero. None: indefinite, or no such polynomial.
+        """
+        if factor.total_degree() != 2:
+            return None
+        present = canon.generators_in(factor)
+        if any(canon.ring.vars[i].kind != "symbol" or i in signs.positive for i in present):
+            return None
+        place = {index: i for i, index in enumerate(present)}
+        form, one = _quadratic_form(canon, factor, place), len(present)
+        rows = _semidefinite_rows(form)
+        if rows is None:
+            return None
+        shown = [canon.ring.var_expr[i] for i in present] + [ex.ONE]
+        reduced, rank = fmpq_mat(rows).rref() if rows else (fmpq_mat(0, one + 1), 0)
+        linear = []
+        for r in range(rank):
+            entries = [reduced[r, c] for c in range(one + 1)]
+            if all(v == 0 for v in entries[:one]):
+                return []
+            linear.append(ex.add(*(ex.mul(ex.num(_fraction(v)), s) for v, s in zip(entries, shown, strict=True))))
+        return linear
+
+
+class Signs:
+    """What is known of the signs of a ring's generators."""
+
+    def __init__(self, canon: Canon, positive: frozenset[Expr]) -> None:
+        self.positive = {
+            var.index
+            for var in canon.ring.vars
+            if var.kind in ("exp", "pi")
+            or (var.kind == "symbol" and var.key in positive)
+            or (var.kind == "root" and isinstance(var.key[0], Expr))
+        }
+        self.nonnegative = {v.index for v in canon.ring.vars if v.kind == "root" and v.degree % 2 == 0}
+        self.circular = {v.index for v in canon.ring.vars if v.kind in ("cos", "sin")}
+        self.n = len(canon.ring.vars)
+
+    def bounded_away(self, poly: Any) -> bool:
+        """True for a polynomial in sines and cosines whose constant outweighs the rest."""
+        constant = rest = Fraction(0)
+        for exponents, coefficient in poly.to_dict().items():
+            present = {self.n - 1 - i for i, k in enumerate(exponents) if k}
+            if not present <= self.circular:
+                return False
+            if present:
+                rest += abs(_fraction(coefficient))
+            else:
+                constant += abs(_fraction(coefficient))
+        return constant > rest
+
+    def monomial(self, exponents: tuple[int, ...]) -> tuple[bool, list[int]]:
+        """(is it >= 0 everywhere, the generators of which one must vanish where it is 0)."""
+        zeros = []
+        for place, exponent in enumerate(exponents):
+            index = self.n - 1 - place
+            if not exponent or index in self.positive:
+                continue
+            if exponent % 2 and index not in self.nonnegative:
+                return False, []
+            zeros.append(index)
+        return True, zeros
+
+
+def sum_of_even(poly: Any, signs: Signs) -> list[list[int]] | None:
+    """For a polynomial all of whose terms are >= 0 (or all <= 0): per term, the generators that may vanish.
+
+    The zero set is then that of every term. An empty list among them: the polynomial never vanishes.
+    None: some term changes sign.
+    """
+    if signs.bounded_away(poly):
+        return [[]]
+    found, overall = [], 0
+    for exponents, coefficient in poly.to_dict().items():
+        even, zeros = signs.monomial(tuple(int(k) for k in exponents))
+        sign = 1 if coefficient > 0 else -1
+        if not even or (overall and sign != overall):
+            return None
+        overall = sign
+        found.append(zeros)
+    return found
+
+
+def never_vanishes(e: Expr, positive: frozenset[Expr]) -> bool:
+    """True where ``e`` is proved to be zero at no real point; False says nothing."""
+    branches, _ = zero_set(e, positive, e.symbols)
+    return not branches
+
+
+def _quadratic_form(canon: Canon, factor: Any, place: dict[int, int]) -> list[list[Fraction]]:
+    """The symmetric matrix of the homogenised quadratic polynomial; the last row and column are for 1."""
+    n, total = len(place), len(canon.ring.vars)
+    form = [[Fraction(0)] * (n + 1) for _ in range(n + 1)]
+    for exponents, coefficient in factor.to_dict().items():
+        slots = [place[total - 1 - i] for i, k in enumerate(exponents) for _ in range(int(k))]
+        a, b = (slots + [n, n])[:2]
+        value = _fraction(coefficient)
+        if a == b:
+            form[a][a] += value
+        else:
+            form[a][b] += value / 2
+            form[b][a] += value / 2
+    return form
+
+
+def _fraction(value: fmpq) -> Fraction:
+    return Fraction(int(value.p), int(value.q))
+
+
+def _semidefinite_rows(form: list[list[Fraction]]) -> list[list[fmpq]] | None:
+    """Rows that span a semidefinite form's range, by Lagrange's reduction; None where it is indefinite."""
+    n = len(form)
+    work = [row[:] for row in form]
+    rows, sign = [], 0
+    for i in range(n):
+        pivot = work[i][i]
+        if pivot == 0:
+            if any(work[i]):
+                return None
+            continue
+        if sign and (pivot > 0) != (sign > 0):
+            return None
+        sign = 1 if pivot > 0 else -1
+        row = work[i][:]
+        rows.append([fmpq(v.numerator, v.denominator) for v in row])
+        for j in range(n):
+            for k in range(n):
+                work[j][k] -= row[j] * row[k] / pivot
+    return rows
