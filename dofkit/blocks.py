@@ -1,0 +1,94 @@
+"""Model no more than a scene needs: relations that share no coordinate are answered apart."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import networkx as nx
+
+from dofkit import expr as ex
+from dofkit.expr import Expr
+from dofkit.normal import Finite, Inequality, Nonlinear, Pfaffian, Piece
+
+
+@dataclass(frozen=True)
+class Row:
+    """One scalar equation after reduction: which constraint wrote it, and what it says."""
+
+    constraint: int
+    piece: Finite | Pfaffian | Nonlinear
+
+
+@dataclass(frozen=True)
+class Block:
+    """Coordinates that belong together, and the rows on them (finite ones first, then as written)."""
+
+    coordinates: tuple[str, ...]
+    rows: tuple[Row, ...]
+
+    @property
+    def finite(self) -> tuple[Row, ...]:
+        return tuple(r for r in self.rows if isinstance(r.piece, Finite))
+
+    @property
+    def forms(self) -> tuple[Row, ...]:
+        return tuple(r for r in self.rows if isinstance(r.piece, Pfaffian))
+
+    @property
+    def nonlinear(self) -> tuple[Row, ...]:
+        return tuple(r for r in self.rows if isinstance(r.piece, Nonlinear))
+
+
+def coordinates_of(piece: Piece) -> frozenset[str]:
+    """Every coordinate a piece mentions, in coefficients, velocities and differentials too."""
+    if isinstance(piece, Pfaffian):
+        found = {str(name) for name in piece.coefficients}
+        symbols = frozenset().union(*(e.symbols for e in (*piece.coefficients.values(), piece.dt)))
+    else:
+        found, symbols = set(), piece.expr.symbols
+    return frozenset(found | {str(s.args[1]) for s in symbols if s.args[0] in ("coordinate", "velocity")})
+
+
+def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block], list[str]]:
+    """(blocks, coordinates that nothing touches). Rows without coordinates are blocks of their own.
+
+    Two rows share a block if they share a coordinate anywhere, coefficients included.
+    """
+    graph: nx.Graph = nx.Graph()
+    touched = [coordinates_of(row.piece) for row in rows]
+    for i, names in enumerate(touched):
+        graph.add_node(i)
+        graph.add_edges_from((i, name) for name in names)
+    blocks = []
+    for component in nx.connected_components(graph):
+        numbers = sorted(i for i in component if isinstance(i, int))
+        members = [rows[i] for i in numbers]
+        ordered = [r for r in members if isinstance(r.piece, Finite)]
+        ordered += [r for r in members if not isinstance(r.piece, Finite)]
+        names = {name for name in component if isinstance(name, str)}
+        blocks.append((numbers[0], Block(tuple(c for c in coordinates if c in names), tuple(ordered))))
+    used = frozenset().union(*touched) if touched else frozenset()
+    return [b for _, b in sorted(blocks, key=lambda pair: pair[0])], [c for c in coordinates if c not in used]
+
+
+def expressions(block: Block) -> list[Expr]:
+    """Everything the block evaluates."""
+    found: list[Expr] = []
+    for row in block.rows:
+        if isinstance(row.piece, Pfaffian):
+            found += [*row.piece.coefficients.values(), row.piece.dt]
+        else:
+            found.append(row.piece.expr)
+    return found
+
+
+def uses_time(block: Block) -> bool:
+    """Does t or dt occur?"""
+    dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in block.rows)
+    return dt or any(ex.TIME in e.symbols for e in expressions(block))
+
+
+def is_inequality(piece: Piece) -> bool:
+    """Unilateral pieces belong to no block."""
+    return isinstance(piece, Inequality)

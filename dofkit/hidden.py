@@ -1,0 +1,67 @@
+"""Hidden finite relations: where dt lies in the span of the rows, motion is confined to a locus.
+
+If lambda A = 0 for the coordinates' columns A and lambda b is not 0 for the time column b, the rows imply
+(lambda b) dt = 0, so motion through an interval of time needs lambda b = 0: a finite relation that nobody wrote
+(x + y = t with xdot + ydot = z forces z = 1). Prolongation in the sense of Cartan.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit import expr as ex
+from dofkit.exact.canon import Canon, TooLargeError
+from dofkit.exact.field import FieldPoint
+from dofkit.exact.program import values
+from dofkit.exact.ring import ADD, MUL, NUM
+from dofkit.expr import Expr
+from dofkit.forms import Rows
+
+
+def hidden_relation(rows: Rows, n: int, point: FieldPoint) -> Expr:
+    """lambda b as an expression, by cross-multiplied elimination; zero is decided at a generic point of the variety.
+
+    ``n`` is the number of coordinate columns; time is column n. Returns 0 where the relation grows too large.
+    """
+    ring = rows.ring
+    zero = ring.emit(NUM, ex.ZERO.args[0])
+    work = [[row.get(c, zero) for c in range(n + 1)] for row in rows.entries]
+    left = list(range(len(work)))
+    for c in range(n):
+        at = values(ring, point)
+        candidates = [r for r in left if at[work[r][c]] != 0]
+        if not candidates:
+            continue
+        pivot = min(candidates, key=lambda r: _size(ring, work[r][c]))
+        left.remove(pivot)
+        for r in left:
+            if r in candidates:
+                work[r] = [_cross(ring, work[pivot][c], work[r][k], work[r][c], work[pivot][k]) for k in range(n + 1)]
+    at = values(ring, point)
+    found = [work[r][n] for r in left if at[work[r][n]] != 0]
+    if not found:
+        return ex.ZERO
+    node = min(found, key=lambda i: _size(ring, i))
+    try:
+        canon = Canon(ring)
+        return canon.to_expr(canon.quotient(node)[0])
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return ex.ZERO
+
+
+def _cross(ring: Any, a: int, b: int, c: int, d: int) -> int:
+    """a b - c d, with the plain cases kept plain."""
+    zero, one = ring.emit(NUM, ex.ZERO.args[0]), ring.emit(NUM, ex.ONE.args[0])
+    left = zero if zero in (a, b) else b if a == one else a if b == one else ring.emit(MUL, (a, b))
+    right = zero if zero in (c, d) else d if c == one else c if d == one else ring.emit(MUL, (c, d))
+    if right == zero:
+        return int(left)
+    return int(ring.emit(ADD, (left, ring.negative(right)) if left != zero else (ring.negative(right),)))
+
+
+def _size(ring: Any, node: int) -> int:
+    from dofkit.exact.ring import reachable
+
+    return len(reachable(ring, [node], through_generators=False))

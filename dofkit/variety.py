@@ -1,0 +1,289 @@
+"""The configuration space of a block: points on it, its dimension, and how sure that is.
+
+Two one-sided engines: a rank over GF(p) is not too small where the point is generic and not too large
+where no relation between functions was missed; a rank certified with balls is not too large. Where they
+agree the rank stands. A real point makes sure that there is a real configuration at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from flint import nmod_mat
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit import expr as ex
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
+from dofkit.exact.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.points import Solver
+from dofkit.exact.program import gradient, values
+from dofkit.exact.ring import Ring
+from dofkit.expr import Expr
+from dofkit.forms import Frame, field_frame
+from dofkit.motion import Local, Manifold, local_dimension
+from dofkit.report import Verdict
+
+#: Blocks with more columns than this are not certified with balls.
+BALL_COLUMNS = 60
+#: Points over GF(p) that must agree.
+SAMPLES = 2
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A block's ring, its finite relations and its columns: coordinates, then time where it occurs.
+
+    ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
+    real search moves: coordinates and generic geometry.
+    """
+
+    ring: Ring
+    nodes: tuple[int, ...]
+    symbols: tuple[Expr, ...]
+    columns: tuple[int, ...]
+    unknowns: tuple[Expr, ...]
+    positive: frozenset[Expr]
+
+    @property
+    def coordinates(self) -> int:
+        """The number of columns that are coordinates."""
+        return sum(s.args[0] == "coordinate" for s in self.symbols)
+
+
+@dataclass
+class Variety:
+    """What was found.
+
+    ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None: not decided).
+    ``samples``: points over GF(p) on it; ``real``: a real point with balls. ``frame`` of the first sample.
+    """
+
+    consistent: bool | None
+    dimension: int | None
+    verdict: Verdict
+    samples: list[FieldPoint] = field(default_factory=list)
+    real: RealPoint | None = None
+    reasons: list[str] = field(default_factory=list)
+
+
+def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None = None) -> list[list[Any]]:
+    """dg/d(columns) over GF(p)."""
+    at = values(chart.ring, point)
+    zero = point.number(ex.ZERO.args[0])
+    place = {c: i for i, c in enumerate(chart.columns) if c >= 0}
+    rows = []
+    for node in chart.nodes if nodes is None else nodes:
+        row = [zero] * len(chart.columns)
+        for c, v in gradient(chart.ring, at, point, [(node, zero + 1)]).items():
+            if c in place:
+                row[place[c]] = v
+        rows.append(row)
+    return rows
+
+
+def on_variety(chart: Chart, point: FieldPoint) -> bool:
+    """Do all finite relations hold at the point?"""
+    try:
+        at = values(chart.ring, point)
+    except (ZeroDivisionError, NoPointError):
+        return False
+    return all(at[n] == 0 for n in chart.nodes)
+
+
+def free_point(chart: Chart, seed: int) -> FieldPoint | None:
+    """A random point of the ambient space at which the program runs."""
+    for attempt in range(60):
+        point = field_point([chart.ring], 1000 * seed + attempt)
+        try:
+            values(chart.ring, point)
+        except (ZeroDivisionError, NoPointError):
+            continue
+        return point
+    return None
+
+
+def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
+    """The point where the symbols have the given exact values and the others are random."""
+    known = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
+    fixed = _settled(chart.ring, known)
+    if fixed is None:
+        return None
+    for attempt in range(60):
+        try:
+            point = field_point([chart.ring], 1000 * seed + attempt)
+            for index, node in fixed:
+                point.set(chart.ring.vars[index], _value(chart.ring, node, point))
+            values(chart.ring, point)
+        except NoPointError:
+            continue
+        except ZeroDivisionError:
+            return None
+        return point
+    return None
+
+
+def _value(ring: Ring, node: int, point: FieldPoint) -> Any:
+    return values(ring, point, node + 1)[node]
+
+
+def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:
+    """(generator, node of its value) for symbols and for the functions of them that have a known value."""
+    settled: dict[int, int] = {}
+    try:
+        for _ in range(3):
+            before = len(ring.vars)
+            for var in list(ring.vars):
+                shown = ring.var_expr[var.index]
+                if var.index in settled or known.keys().isdisjoint(shown.symbols):
+                    continue
+                settled[var.index] = ring.node(ex.substitute(ex.substitute(shown, ring.alias), known))
+            if len(ring.vars) == before:
+                break
+    except ZeroDivisionError:
+        return None
+    return sorted(settled.items(), key=lambda pair: pair[1])
+
+
+def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
+    """Generic points of the configuration space of a block, and its dimension."""
+    if not chart.nodes:
+        points = [p for p in (free_point(chart, seed + k) for k in range(SAMPLES)) if p is not None]
+        real = _real(chart, seed, {})
+        verdict: Verdict = "proved"
+        return Variety(True, chart.coordinates, verdict, points, real)
+    samples = _pose_samples(chart, pose, seed)
+    if samples:
+        return _from_samples(chart, samples, None, seed, pose)
+    solver = Solver(chart.ring, chart.nodes, seed=seed)
+    if solver.plan.contradictory:
+        return Variety(False, None, "probable", reasons=["eliminating the unknowns leaves a number that should be 0 and is not"])
+    drawn = [p for p in (solver.draw(seed + k + 1) for k in range(SAMPLES)) if p is not None]
+    drawn = [p for p in drawn if on_variety(chart, p)]
+    if not drawn:
+        return _numerical(chart, seed)
+    return _from_samples(chart, drawn, solver, seed, {})
+
+
+def _pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[FieldPoint]:
+    if not pose:
+        return []
+    found = []
+    for k in range(SAMPLES):
+        point = pose_point(chart, pose, seed + k)
+        if point is None or not on_variety(chart, point):
+            return []
+        found.append(point)
+    return found
+
+
+def _real(chart: Chart, seed: int, start: Mapping[Expr, float], starts: int = 12) -> RealPoint | None:
+    if len(chart.columns) > BALL_COLUMNS:
+        return None
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive)
+    try:
+        return search.search(seed, start, starts)
+    except (OverflowError, ValueError, DomainError):
+        return None
+
+
+def split_time(chart: Chart, matrix: list[list[Any]]) -> list[list[Any]]:
+    """The rows without the time column."""
+    n = chart.coordinates
+    return [row[:n] for row in matrix]
+
+
+def rank_of(matrix: list[list[Any]], p: int) -> int:
+    """Rank over GF(p)."""
+    if not matrix or not matrix[0]:
+        return 0
+    return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())
+
+
+def _from_samples(
+    chart: Chart, samples: list[FieldPoint], solver: Solver | None, seed: int, pose: Mapping[Expr, Expr]
+) -> Variety:
+    ranks = [rank_of(field_jacobian(chart, p), p.p) for p in samples]
+    rank = max(ranks)
+    samples = [p for p, r in zip(samples, ranks, strict=True) if r == rank]
+    columns = len(chart.columns)
+    timed = columns - chart.coordinates
+    dimension: int | None = columns - rank - timed
+    verdict: Verdict = "proved" if rank == len(chart.nodes) else "probable"
+    reasons: list[str] = []
+    if rank < len(chart.nodes):
+        local = local_at(chart, samples[0], None, 0)
+        if local.dimension is None or local.dimension < columns - rank:
+            bound = _free_dimension(chart, solver)
+            exact = local.dimension if local.dimension is not None else None
+            if exact is None and bound is not None and bound == columns - rank - 1:
+                exact = bound
+            dimension = None if exact is None else exact - timed
+            verdict = "undecided" if exact is None else "probable"
+            reasons.append(local.reason)
+    real = _real(chart, seed, {}) if len(chart.columns) <= BALL_COLUMNS else None
+    return _with_reality(chart, Variety(True, dimension, verdict, samples, real, reasons), rank)
+
+
+def _free_dimension(chart: Chart, solver: Solver | None) -> int | None:
+    """How many columns were drawn at random when every parameter stayed free: a lower bound of the dimension."""
+    if solver is None:
+        return None
+    of = {c: i for i, c in enumerate(chart.columns) if c >= 0}
+    moved = {unit[1] for _, unit in solver.plan.steps if unit[0] == "var"}
+    if any(index not in of for index in moved):
+        return None
+    return sum(c < 0 or c not in moved for c in chart.columns)
+
+
+def _with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
+    """Hold the real point against what the field said."""
+    real = found.real
+    if len(chart.columns) > BALL_COLUMNS:
+        found.verdict = max(found.verdict, "probable", key=_WEAKNESS.index)
+        return found
+    if real is None:
+        found.consistent, found.dimension, found.verdict = None, None, "undecided"
+        found.reasons.append("no real configuration was found, and none was ruled out")
+        return found
+    if not real.certified or not real.consistent or real.rank != rank:
+        found.verdict = max(found.verdict, "probable", key=_WEAKNESS.index)
+        if real.certified and real.consistent and real.rank != rank and real.gap > 1e3:
+            found.verdict, found.dimension = "undecided", None
+            found.reasons.append("real points and points over GF(p) disagree about the rank: the set has several parts")
+    return found
+
+
+_WEAKNESS: tuple[Verdict, ...] = ("proved", "probable", "numeric", "undecided")
+
+
+def _numerical(chart: Chart, seed: int) -> Variety:
+    """Without points over GF(p): real points only."""
+    real = _real(chart, seed, {})
+    if real is None:
+        return Variety(None, None, "undecided", reasons=["no configuration was found that satisfies all finite relations"])
+    columns = len(chart.columns)
+    timed = columns - chart.coordinates
+    if real.certified and real.consistent and real.rank == len(chart.nodes):
+        rank_by_columns = real.rank
+        return Variety(True, columns - rank_by_columns - timed, "proved", [], real)
+    if real.certified and real.consistent and real.gap > 1e3:
+        return Variety(True, columns - real.rank - timed, "numeric", [], real, [f"the gap between singular values is {real.gap:.1e}"])
+    return Variety(None, None, "undecided", [], real, ["the only points found are singular"])
+
+
+def frame_at(chart: Chart, point: FieldPoint) -> Frame:
+    """Independent relations and dependent columns at a point."""
+    return field_frame(field_jacobian(chart, point), len(chart.columns), point.p)
+
+
+def local_at(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int) -> Local:
+    """The local dimension at a point of the variety, time counted where it is a column."""
+    frame = frame_at(chart, point)
+    try:
+        field_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
+        ball_manifold = None if ball is None else Manifold(chart.ring, chart.nodes, chart.columns, frame, ball)
+        return local_dimension(field_manifold, ball_manifold, rigid)
+    except (ZeroDivisionError, OutsideDomainError, NoPointError):
+        return Local(None, "undecided", "the relations could not be followed along a curve through this configuration")
