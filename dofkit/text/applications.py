@@ -192,8 +192,8 @@ def unknown(parser: Parser, token: Token) -> Expr:
     if primes is not None and wanted != 1:
         hint = f"write `diff({name}(...), x)` with the argument that is meant"
         parser.fail(f"`{name}` has {wanted} arguments, so a prime does not say by which to differentiate", primes, hint)
-    found = call(name, given, (primes.count,) if primes is not None else None)
-    return moved(parser, token, found, token.count)
+    found = call(name, given, (primes.amount,) if primes is not None else None)
+    return moved(parser, token, found, token.amount)
 
 
 def own_arguments(parser: Parser, token: Token) -> list[Expr]:
@@ -211,6 +211,11 @@ def own_arguments(parser: Parser, token: Token) -> list[Expr]:
         if meaning.expr.op == "sym":
             parser.check_allowed(meaning.expr, token)
         given.append(meaning.expr)
+    after = parser.next
+    if after.kind == "value" and after.expr in given:
+        shown = parser.source(after.start, after.end)
+        hint = f"write `{name}({shown})` or `{name}({shown})*{shown}`"
+        parser.fail(f"`{name} {shown}` may be a value of `{name}` or a product", token, hint)
     return given
 
 

@@ -65,14 +65,15 @@ class Names:
 
 
 class UnknownNameError(TextError):
-    """A word that is not declared; ``name`` is the word as it was written."""
+    """A word that is not declared; its message shows it between backquotes."""
 
-    def __init__(self, message: str, column: int | None = None, hint: str | None = None, name: str = "") -> None:
-        super().__init__(message, column, hint)
-        self.name = name
+    @property
+    def name(self) -> str:
+        """The word as it was written."""
+        return self.message.split("`")[1]
 
-    def __reduce__(self) -> tuple[type[UnknownNameError], tuple[str, int | None, str | None, str]]:
-        return (UnknownNameError, (self.message, self.column, self.hint, self.name))
+    def __reduce__(self) -> tuple[type[UnknownNameError], tuple[str, int | None, str | None]]:
+        return (UnknownNameError, (self.message, self.column, self.hint))
 
 
 _NUMBERED = re.compile(r"(.*[A-Za-z])(_?)(\d+)", re.ASCII)

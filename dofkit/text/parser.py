@@ -215,7 +215,7 @@ class Parser:
             self.at += 1
             if self.next.kind in ("^", "superscript"):
                 self.fail("one power stands on another here", self.next, "write parentheses")
-            return self.raise_to(base, num(token.count), token)
+            return self.raise_to(base, num(token.amount), token)
         if token.kind != "^":
             return base
         self.at += 1
@@ -296,8 +296,8 @@ class Parser:
         if found.op == "sym":
             self.check_allowed(found, token)
         after = self.next
-        if after.kind == "(" and after.start == self.last.end and found not in (TIME, PI, E, DT):
-            self.check_call(token, found)
+        if after.kind == "(" and found not in (TIME, PI, E, DT):
+            self.check_call(token, found, after.start == self.last.end)
         return found
 
     def primed(self, token: Token, found: Expr) -> Expr:
@@ -307,7 +307,7 @@ class Parser:
         if found.op != "sym" or found.args[0] != "coordinate":
             hint = "a prime means the derivative of a coordinate by time or of a declared function"
             self.fail(f"`{name}` is no coordinate, so `{name}'` has no meaning", primes, hint)
-        moved = derivative(found.args[1], primes.count)
+        moved = derivative(found.args[1], primes.amount)
         if moved is None:
             self.fail("derivatives higher than the second are not read", primes, "write at most two primes")
         return moved
@@ -326,8 +326,8 @@ class Parser:
         shown = self.source(token.start, self.last.end)
         self.fail(f"`{shown}` is {what}, which has no place here", token, "write it without")
 
-    def check_call(self, token: Token, found: Expr) -> None:
-        """After a name, `(t)` is read over; `(2)`, `(y)` are questions; `(y + 1)` is a product."""
+    def check_call(self, token: Token, found: Expr, touching: bool) -> None:
+        """After a name, `(t)` is read over; `(2)`, `(y)` right after it are questions; `(y + 1)` is a product."""
         inside, closing = self.tokens[self.at + 1], self.tokens[min(self.at + 2, len(self.tokens) - 1)]
         if closing.kind != ")":
             return
@@ -338,10 +338,10 @@ class Parser:
         elif inside.expr == TIME:
             hint = f"write `{name}*{shown}`, or declare `{name}` under functions, with the argument t"
             self.fail(f"`{name}` is a constant, so `{name}({shown})` has no meaning", token, hint)
-        elif inside.kind == "number":
+        elif touching and inside.kind == "number":
             hint = f"write `{name}*{shown}`; a value at one time is no part of a relation"
             self.fail(f"`{name}({shown})` may be a product or a value at {shown}", token, hint)
-        elif inside.kind == "value":
+        elif touching and inside.kind == "value":
             hint = f"write `{name}*{shown}`, or declare `{name}` under functions"
             self.fail(f"`{name}({shown})` may be a product or a function", token, hint)
 

@@ -33,7 +33,7 @@ class Token(NamedTuple):
     end: int
     expr: Expr | None = None
     name: str = ""
-    count: int = 0
+    amount: int = 0
 
 
 class Tokens(NamedTuple):

@@ -7,8 +7,9 @@ from functools import cache
 from typing import NamedTuple
 
 from dofkit.errors import TextError
+from dofkit.expr import PI, E
 from dofkit.text.characters import spelled
-from dofkit.text.names import ELEMENTARY, MAX_NAME, Lookup, Meaning, UnknownNameError, unmarked
+from dofkit.text.names import ELEMENTARY, MAX_NAME, SYNONYMS, Lookup, Meaning, UnknownNameError, unmarked
 
 #: Words that belong to programs; each gets its own advice unless it is declared.
 _FOREIGN: dict[str, str] = {
@@ -70,7 +71,8 @@ def _pieces(word: str, start: int, after_function: bool, lookup: Lookup) -> list
         end = start
         while end < len(word) and word[end].isdigit():
             end += 1
-        return [Piece(None, start, end)] if after_function else []
+        logarithm = word[:start].endswith(("log", "ln"))  # `log10` and `log2` name other functions
+        return [Piece(None, start, end)] if after_function and not logarithm else []
     found = []
     for end in range(start + 1, min(len(word), start + lookup.longest + 4) + 1):
         if end < len(word) and not (word[end].isalpha() or word[end].isdigit()):
@@ -80,10 +82,15 @@ def _pieces(word: str, start: int, after_function: bool, lookup: Lookup) -> list
             continue
         if end < len(word) and word[end].isdigit() and meaning.kind != "function":
             continue
-        if spelled(word[start:end]) == "E" and "E" not in lookup.declared:
+        if _alone(word, start, end) and meaning.expr in (PI, E):
             continue
         found.append(Piece(meaning, start, end))
     return found
+
+
+def _alone(word: str, start: int, end: int) -> bool:
+    """True for Latin letters that are a number only where they begin a word: `piR`, never `spin`."""
+    return start > 0 and word[start:end].isascii()
 
 
 def _several(word: str, ways: list[tuple[Piece, ...]], column: int) -> TextError:
@@ -93,19 +100,22 @@ def _several(word: str, ways: list[tuple[Piece, ...]], column: int) -> TextError
 
 def _unknown(word: str, lookup: Lookup, column: int, called: bool) -> UnknownNameError:
     if word in _FOREIGN:
-        return UnknownNameError(f"`{word}` has no meaning here", column, _FOREIGN[word], word)
+        return UnknownNameError(f"`{word}` has no meaning here", column, _FOREIGN[word])
     near = nearest(word, lookup, called)
     what = f"there is no function `{word}`" if called else f"`{word}` is not declared"
     if word == "e":
-        return UnknownNameError(what, column, "write `E` for Euler's number, or `exp(x)` for its powers", word)
+        return UnknownNameError(what, column, "write `E` for Euler's number, or `exp(x)` for its powers")
     if word == "d":
         hint = "write the differential of `x` as `dx`, its velocity as `xdot`"
-        return UnknownNameError(what, column, hint, word)
+        return UnknownNameError(what, column, hint)
     if near:
-        return UnknownNameError(what, column, f"did you mean `{near}`?", word)
+        return UnknownNameError(what, column, f"did you mean `{near}`?")
+    if called:
+        known_functions = ", ".join([*list(lookup.names.functions)[:8], *(f for f in ELEMENTARY if f not in SYNONYMS)])
+        return UnknownNameError(what, column, f"the functions are {known_functions}")
     known = lookup.declared
     listed = ", ".join(known[:8]) + (", ..." if len(known) > 8 else "")
-    return UnknownNameError(what, column, f"declared are: {listed}" if known else "no names are declared", word)
+    return UnknownNameError(what, column, f"declared are: {listed}" if known else "no names are declared")
 
 
 def nearest(word: str, lookup: Lookup, called: bool = False) -> str | None:
