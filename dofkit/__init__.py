@@ -1,0 +1,61 @@
+"""How a mechanical system can move: degrees of freedom, constraint labels, integrability and redundancy.
+
+>>> import dofkit
+>>> dofkit.classify(dofkit.load({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]})).dof
+1
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from dofkit.errors import DofkitError, SceneError, TextError
+
+if TYPE_CHECKING:
+    from dofkit.catalog import catalog_names, catalog_text
+    from dofkit.classify import classify
+    from dofkit.linkage import redundant_links
+    from dofkit.reading import load, loads
+    from dofkit.report import Report
+    from dofkit.scene import Scene
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "DofkitError",
+    "Report",
+    "Scene",
+    "SceneError",
+    "TextError",
+    "catalog_names",
+    "catalog_text",
+    "classify",
+    "load",
+    "loads",
+    "redundant_links",
+]
+
+#: Where the other names live: what they need is imported when they are first asked for.
+_HOMES = {
+    "Report": "dofkit.report",
+    "Scene": "dofkit.scene",
+    "catalog_names": "dofkit.catalog",
+    "catalog_text": "dofkit.catalog",
+    "classify": "dofkit.classify",
+    "load": "dofkit.reading",
+    "loads": "dofkit.reading",
+    "redundant_links": "dofkit.linkage",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'dofkit' has no attribute '{name}'")
+    found = getattr(import_module(_HOMES[name]), name)
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOMES})
