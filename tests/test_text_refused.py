@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import time
+from typing import Any
 
 import pytest
 
@@ -223,9 +224,9 @@ def test_hostile_text_is_refused_within_ten_milliseconds(text: str) -> None:
     assert min(times) < 0.010
 
 
-@pytest.mark.parametrize("text", {**DOUBTFUL, **MISTAKEN}, ids=ascii)
+@pytest.mark.parametrize("text", DOUBTFUL | MISTAKEN, ids=ascii)
 def test_refusal_says_what_where_and_what_to_do(text: str) -> None:
-    column, message, hint = {**DOUBTFUL, **MISTAKEN}[text]
+    column, message, hint = (DOUBTFUL | MISTAKEN)[text]
     error = refusal(text)
     assert (error.column, message in error.message) == (column, True), error.message
     assert error.hint
@@ -233,8 +234,8 @@ def test_refusal_says_what_where_and_what_to_do(text: str) -> None:
 
 
 @pytest.mark.parametrize("value", [None, 3, 1.5, ["x"]])
-def test_only_text_is_read(value: object) -> None:
-    assert "a text is needed" in refusal(value).message  # type: ignore[arg-type]
+def test_only_text_is_read(value: Any) -> None:
+    assert "a text is needed" in refusal(value).message
 
 
 def test_a_value_holds_no_relation() -> None:
@@ -246,7 +247,7 @@ def test_a_value_holds_no_relation() -> None:
 def test_letters_together_need_one_reading() -> None:
     names = Names(frozenset(), {name: parameter(name) for name in ("a", "b", "ab", "ba")})
     error = refusal("2 + abab", names)
-    assert (error.column, error.message.count("*")) == (5, 2 + error.message.count("ab*ab*")), error.message
+    assert (error.column, error.message) == (5, "`abab` can be read as `a*b*a*b` or `a*b*ab`")
     assert parse_expression("ab", names) == parameter("ab")
 
 

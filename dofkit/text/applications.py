@@ -8,19 +8,18 @@ from typing import TYPE_CHECKING, NoReturn
 from dofkit.expr import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, diff, mul
 from dofkit.text.arithmetic import UndefinedError, applied, inverse, product
 from dofkit.text.derivatives import (
-    MAX_DIFFERENTIATED,
     by_time,
     over_dt,
     raise_order,
     size,
     total_differential,
 )
+from dofkit.text.limits import MAX_DIFFERENTIATED, MAX_ORDER
 from dofkit.text.tokens import Token
 
 if TYPE_CHECKING:
     from dofkit.text.parser import Parser
 
-MAX_ORDER = 6
 _BARE = frozenset({"number", "value", "motion", "call", "function", "root", "frac", "|"})
 
 

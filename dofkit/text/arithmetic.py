@@ -5,9 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from dofkit.expr import MINUS_ONE, Expr, children, fn, mul, nodes, num, power
-
-MAX_EXPONENT = 64
-MAX_BITS = 2048
+from dofkit.text.limits import MAX_BITS, MAX_EXPONENT
 
 
 class UndefinedError(Exception):

@@ -18,9 +18,6 @@ from dofkit.expr import (
     velocity,
 )
 
-#: An expression with more nodes than this is not differentiated while it is being read.
-MAX_DIFFERENTIATED = 150
-
 
 def size(e: Expr, limit: int) -> int:
     """The number of different nodes of ``e``, counted up to ``limit``."""

@@ -11,8 +11,8 @@ from typing import Literal, NamedTuple
 from dofkit.errors import TextError
 from dofkit.expr import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity
 from dofkit.text.characters import DOT, TWO_DOTS, check_name_characters, spelled
+from dofkit.text.limits import MAX_NAME
 
-MAX_NAME = 64
 SYNONYMS: dict[str, str] = {
     "arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctan2": "atan2", "ln": "log", "cosec": "csc",
 }  # fmt: skip

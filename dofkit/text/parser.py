@@ -22,10 +22,10 @@ from dofkit.expr import DT, MINUS_ONE, PI, TIME, ZERO, E, Expr, add, fn, mul, nu
 from dofkit.text import applications
 from dofkit.text.arithmetic import UndefinedError, check_numbers, inverse, product, raised
 from dofkit.text.derivatives import is_differential, over_dt
+from dofkit.text.limits import MAX_DEPTH
 from dofkit.text.names import Names, derivative
 from dofkit.text.tokens import Token, Tokens
 
-MAX_DEPTH = 60
 RelationSign = Literal["=", "<=", ">=", "<", ">"]
 #: The kinds of tokens that begin a factor which may stand right after another one.
 STARTS = frozenset({"value", "motion", "function", "call", "operator", "(", "|", "frac", "root"})

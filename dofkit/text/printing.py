@@ -6,8 +6,10 @@ from fractions import Fraction
 from itertools import chain, repeat
 
 from dofkit.expr import HALF, TIME, Expr, num, power
+from dofkit.text.limits import MAX_DIGITS, MAX_EXPONENT
 
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)
+_LONGEST = 10**MAX_DIGITS
 _SYMBOLS = {"velocity": "{}dot", "acceleration": "{}ddot", "differential": "d{}", "dt": "d{}"}
 Printed = tuple[str, int]
 
@@ -27,11 +29,26 @@ def _within(e: Expr, strength: int) -> str:
     return text if own >= strength else f"({text})"
 
 
+def _digits(value: int) -> str:
+    """A whole number from 0, in pieces that the tokenizer reads."""
+    if value < _LONGEST:
+        return str(value)
+    zeros = 0
+    while zeros < MAX_EXPONENT and value % 10 == 0:
+        value, zeros = value // 10, zeros + 1
+    if zeros:
+        return f"({_digits(value)}*10^{zeros})"
+    above, below = divmod(value, _LONGEST)
+    return f"({_digits(above)}*10^{MAX_DIGITS} + {below})"
+
+
 def _number(e: Expr) -> Printed:
     value: Fraction = e.args[0]
+    sign = "-" if value < 0 else ""
+    text = sign + _digits(abs(value.numerator))
     if value.denominator == 1:
-        return str(value), _ATOM if value >= 0 else _SUM
-    return f"{value.numerator}/{value.denominator}", _PRODUCT if value >= 0 else _SUM
+        return text, _SUM if sign else _ATOM
+    return f"{text}/{_digits(value.denominator)}", _SUM if sign else _PRODUCT
 
 
 def _symbol(e: Expr) -> Printed:

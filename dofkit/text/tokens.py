@@ -11,14 +11,9 @@ from dofkit.errors import TextError
 from dofkit.expr import Expr, num, sym
 from dofkit.text.characters import DOT, FRACTIONS, GREEK_LETTERS, SUPERSCRIPTS, TWO_DOTS, fold
 from dofkit.text.latex import FRACTION_MARK, unlatex
+from dofkit.text.limits import MAX_CHARACTERS, MAX_DIGITS, MAX_EXPONENT, MAX_NODES, MAX_TEXT_BITS
 from dofkit.text.names import Lookup, Meaning
 from dofkit.text.words import read_word
-
-MAX_CHARACTERS = 2000
-MAX_NODES = 1500
-MAX_DIGITS = 30
-MAX_EXPONENT = 64
-MAX_BITS = 8192
 
 
 class Token(NamedTuple):
@@ -146,7 +141,7 @@ def _check_size(found: list[Token], columns: Sequence[int]) -> None:
         if token.kind == "number" and token.expr is not None:
             value: Fraction = token.expr.args[0]
             total += value.numerator.bit_length() + value.denominator.bit_length() - 2
-            if total > MAX_BITS:
+            if total > MAX_TEXT_BITS:
                 message = "the numbers in this text have too many digits together"
                 raise TextError(message, columns[token.start], "split it into several texts, or choose other units")
 

@@ -9,7 +9,8 @@ from typing import NamedTuple
 from dofkit.errors import TextError
 from dofkit.expr import PI, E
 from dofkit.text.characters import spelled
-from dofkit.text.names import ELEMENTARY, MAX_NAME, SYNONYMS, Lookup, Meaning, UnknownNameError, unmarked
+from dofkit.text.limits import MAX_NAME
+from dofkit.text.names import ELEMENTARY, SYNONYMS, Lookup, Meaning, UnknownNameError, unmarked
 
 #: Words that belong to programs; each gets its own advice unless it is declared.
 _FOREIGN: dict[str, str] = {
