@@ -4,23 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from typing import Any
 
-from flint import arb
+import numpy as np
+from flint import arb, nmod, nmod_mat
 
 from dofkit import expr as ex
-from dofkit.blocks import Block, Row, expressions, uses_time
-from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
+from dofkit.blocks import Block, Row, expressions, split, uses_time
+from dofkit.chart import Chart
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch, independent_part
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, linear_terms
 from dofkit.expr import Expr
-from dofkit.forms import Frame, Rows, Span, field_frame, lie_span, pairing
+from dofkit.forms import Frame, Rows, Span, certified_rank, field_frame, lie_span, pairing
 from dofkit.hidden import hidden_relation
+from dofkit.local import AtReference, at_reference
+from dofkit.measured import measure
 from dofkit.normal import Finite, Nonlinear, Pfaffian
+from dofkit.rank import rank_of
 from dofkit.report import Verdict, weakest
-from dofkit.variety import BALL_COLUMNS, Chart, Variety, find, rank_of
+from dofkit.system import Coordinate
+from dofkit.variety import BALL_COLUMNS, Variety, field_jacobian, find, on_variety, pose_point
 from dofkit.zeros import never_vanishes, zero_set
 
 #: Rounds of prolongation: each finds one hidden finite relation.
@@ -56,6 +63,7 @@ class Answer:
     matrix: list[list[int]] = field(default_factory=list)
     modulus: int = 2
     degenerate: bool = False
+    instantaneous: int | None = None
     dependent: tuple[str, ...] = ()
     growth: tuple[int, ...] | None = None
     method: str = ""
@@ -68,6 +76,10 @@ class Setting:
     positive: frozenset[Expr]
     generic: tuple[Expr, ...] = ()
     pose: Mapping[Expr, Expr] = field(default_factory=dict)
+    reference: Mapping[Expr, Expr] | None = None
+    roles: tuple[Coordinate, ...] = ()
+    tolerance: Fraction | None = None
+    size: float = 1.0
 
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
@@ -120,11 +132,15 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
         symbols = (*symbols, ex.TIME)
     columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
     unknowns = (*(s for s in symbols if s != ex.TIME), *setting.generic)
-    return Chart(ring, nodes, symbols, columns, unknowns, setting.positive)
+    return Chart(ring, nodes, symbols, columns, unknowns, setting.positive, setting.roles)
 
 
 def _finite_answer(block: Block, setting: Setting) -> Answer:
     chart = make_chart(block, setting)
+    if setting.reference is not None:
+        drawn = _drawn_answer(chart, setting, setting.reference)
+        if drawn is not None:
+            return drawn
     found = find(chart, setting.pose)
     result = Answer(found.consistent, found.dimension, found.dimension, found.verdict, reasons=list(found.reasons))
     result.method = "rank over GF(p)" + (" and balls" if found.real else "")
@@ -136,9 +152,44 @@ def _finite_answer(block: Block, setting: Setting) -> Answer:
     return result
 
 
-def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:
-    from dofkit.variety import field_jacobian
+def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]) -> Answer | None:
+    """At the reference configuration; None where the relations do not hold there."""
+    found = at_reference(chart, reference, exact=setting.tolerance is None)
+    if found is None:
+        return None
+    if setting.tolerance is not None:
+        return _measured_answer(chart, setting, found)
+    result = Answer(True, found.local.dimension, found.local.dimension, found.local.verdict)
+    result.method = "rank over GF(p) at the given configuration"
+    result.instantaneous = found.instantaneous
+    result.matrix, result.modulus = found.matrix, found.modulus
+    rows = [[nmod(v, found.modulus) for v in row] for row in found.matrix]
+    result.dependent = _dependent_names(rows, chart, found.modulus)
+    n = chart.coordinates
+    if found.confined:
+        result.consistent, result.dof, result.velocity_dof, result.verdict = False, None, None, "probable"
+        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
+    elif found.rank < len(found.matrix):
+        result.reasons.append(found.local.reason)
+        result.degenerate = found.local.dimension != n - (found.rank if not found.confined else 0)
+    return result
 
+
+def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answer:
+    """Measured geometry: the rank within the tolerance."""
+    at = {s: float(v.mid()) for s, v in found.ball.symbols.items()} if found.ball is not None else {}
+    told = measure(chart, at, setting.roles, float(setting.tolerance or 0), setting.size, found.rigid)
+    result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
+    result.method = "singular values within the tolerance at the given configuration"
+    result.instantaneous = told.instantaneous
+    result.reasons.append(f"{told.reason}; the gap between singular values is {told.gap:.1e}")
+    result.matrix, result.modulus = told.dependencies, 2
+    result.dependent = tuple(str(chart.symbols[c].args[1]) for c in told.columns)
+    result.degenerate = told.dimension != told.instantaneous
+    return result
+
+
+def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:
     point = found.samples[0]
     matrix = field_jacobian(chart, point)
     n = chart.coordinates
@@ -188,8 +239,29 @@ def codistribution(block: Block, setting: Setting, extra: Sequence[Expr]) -> Cod
 
 
 def _mixed_answer(block: Block, setting: Setting) -> Answer:
+    result = _prolonged(block, setting, Answer())
+    if setting.reference is not None:
+        result.instantaneous = _first_order(block, setting, setting.reference)
+    return result
+
+
+def _first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> int | None:
+    """Velocities that the rows allow at the reference configuration; None where it is not on the variety."""
+    if block.nonlinear:
+        return None
+    forms = codistribution(block, setting, ())
+    point = pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 3)
+    if point is None or not on_variety(forms.chart, point):
+        return None
+    try:
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
+    except (ZeroDivisionError, NoPointError):
+        return None
+    return forms.n - rank_of([row[: forms.n] for row in matrix], point.p)
+
+
+def _prolonged(block: Block, setting: Setting, result: Answer) -> Answer:
     extra: list[Expr] = []
-    result = Answer()
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
         found = find(forms.chart, setting.pose)
@@ -350,8 +422,6 @@ def _label(
 
 def _integrable_names(forms: Codistribution, sampled: Sampled, point: FieldPoint) -> tuple[str, ...]:
     """Dependent coordinates: pivots of the annihilator of the Lie algebra."""
-    from flint import nmod_mat
-
     vectors = nmod_mat([[int(v) for v in vector] for vector in sampled.span.vectors], point.p)
     basis, nullity = vectors.nullspace()
     rows = [[basis[i, k] for i in range(basis.nrows())] for k in range(nullity)]
@@ -360,12 +430,8 @@ def _integrable_names(forms: Codistribution, sampled: Sampled, point: FieldPoint
 
 def _ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> None:
     """With real points only: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
-    from dofkit.exact.balls import independent_part
-
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
-    import numpy as np
-
     rank, gap, rows, columns = independent_part(np.array([[float(v.mid()) for v in row] for row in matrix]))
     total, n = len(forms.chart.symbols), forms.n
     frame = Frame(tuple(rows), tuple(columns), tuple(c for c in range(total) if c not in set(columns)))
@@ -431,8 +497,6 @@ def _nonlinear_rank(
         result.matrix += [[*(int(v) for v in row), *([0] * timed)] for row in rows[linear:]]
         result.verdict = weakest(result.verdict, "proved" if rank == len(rows) else "probable")
     else:
-        from dofkit.forms import certified_rank
-
         rank = certified_rank(rows)
         result.verdict = weakest(result.verdict, "numeric")
     result.velocity_dof = len(columns) - rank
@@ -450,10 +514,8 @@ def _form_rate(form: Pfaffian) -> Expr:
 
 def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:
     """A constraint's own rows with the others forgotten."""
-    from dofkit.blocks import split
-
     blocks, _ = split(coordinates, rows)
-    answers = [answer(b, replace(setting, pose={})) for b in blocks]
+    answers = [answer(b, replace(setting, pose={}, reference=None)) for b in blocks]
     merged = Answer()
     for a in answers:
         merged.verdict = weakest(merged.verdict, a.verdict)

@@ -42,7 +42,16 @@ def nearest_name(name: str, known: list[str]) -> str | None:
     import difflib
 
     close = difflib.get_close_matches(name, known, 1, 0.6)
-    return close[0] if close else None
+    if close:
+        return close[0]
+    words = set(_words(name))
+    shared = [(len(words & set(_words(other))) / len(words | set(_words(other))), other) for other in known]
+    best = max(shared, key=lambda pair: pair[0], default=(0.0, ""))
+    return best[1] if best[0] >= 0.4 else None
+
+
+def _words(name: str) -> list[str]:
+    return re.split(r"[\W_]+", name.lower())
 
 
 @cache
@@ -51,7 +60,7 @@ def _files() -> dict[str, Traversable]:
     root = _root()
     folders = sorted((entry for entry in root.iterdir() if entry.is_dir()), key=lambda entry: entry.name)
     for folder in folders:
-        for file in sorted(folder.iterdir(), key=lambda entry: entry.name):
+        for file in sorted(folder.iterdir(), key=lambda entry: entry.name.split(".")):
             if file.name.endswith(".yaml"):
                 found.setdefault(file.name.removesuffix(".yaml"), file)
     return found

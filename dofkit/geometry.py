@@ -7,20 +7,60 @@ between them are polynomial. For every other frame w is 1.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Literal, NamedTuple
 
-from dofkit.expr import MINUS_ONE, ONE, TWO, ZERO, Expr, add, coordinate, fn, mul, power, sqrt, velocity
+from dofkit.expr import MINUS_ONE, ONE, TWO, ZERO, Expr, add, coordinate, fn, mul, num, power, sqrt, velocity
 
 Vec = tuple[Expr, ...]
 Matrix = tuple[Vec, ...]
 Chart = Literal["fixed", "line", "plane", "gibbs", "euler"]
 
 
+_Number = int | Fraction
+
+
+def total(parts: Iterable[tuple[_Number, Expr]]) -> Expr:
+    """The sum of numbers times expressions, equal terms collected: `add` for many short sums.
+
+    Whole numbers are kept as int while they are added, which is several times faster than Fraction.
+    """
+    found: dict[Expr, _Number] = {}
+    for factor, e in parts:
+        for term in e.args if e.op == "add" else (e,):
+            number: _Number = factor
+            if term.op == "num":
+                number, term = factor * _whole(term.args[0]), ONE
+            elif term.op == "mul" and term.args[0].op == "num":
+                number = factor * _whole(term.args[0].args[0])
+                rest = term.args[1:]
+                term = rest[0] if len(rest) == 1 else Expr("mul", rest)
+            found[term] = found[term] + number if term in found else number
+    terms = [_times(number, term) for term, number in found.items() if number]
+    if len(terms) > 1:
+        return Expr("add", tuple(terms))
+    return terms[0] if terms else ZERO
+
+
+def _whole(number: Fraction) -> _Number:
+    return number.numerator if number.denominator == 1 else number
+
+
+def _times(number: _Number, term: Expr) -> Expr:
+    if number == 1:
+        return term
+    factor = MINUS_ONE if number == -1 else num(number)
+    if term is ONE:
+        return factor
+    return Expr("mul", (factor, *term.args) if term.op == "mul" else (factor, term))
+
+
 def plus(*vectors: Vec) -> Vec:
     """The sum."""
-    return tuple(add(*parts) for parts in zip(*vectors, strict=True))
+    return tuple(total([(1, part) for part in parts]) for parts in zip(*vectors, strict=True))
 
 
 def minus(a: Vec, b: Vec) -> Vec:
@@ -29,10 +69,10 @@ def minus(a: Vec, b: Vec) -> Vec:
 
 
 def difference(a: Expr, b: Expr) -> Expr:
-    """a - b, with the common case of a zero kept cheap."""
-    if b.is_zero:
-        return a
-    return add(a, mul(MINUS_ONE, b))
+    """a - b."""
+    if a.op == "sym" and b.op == "sym" and a != b:
+        return Expr("add", (a, Expr("mul", (MINUS_ONE, b))))
+    return a if b.is_zero else total(((1, a), (-1, b)))
 
 
 def scaled(factor: Expr, a: Vec) -> Vec:
@@ -42,12 +82,20 @@ def scaled(factor: Expr, a: Vec) -> Vec:
 
 def dot(a: Vec, b: Vec) -> Expr:
     """a . b."""
-    return add(*(mul(p, q) for p, q in zip(a, b, strict=True)))
+    return total([_product(p, q) for p, q in zip(a, b, strict=True)])
+
+
+def _product(p: Expr, q: Expr) -> tuple[_Number, Expr]:
+    if q.op == "num":
+        return _whole(q.args[0]), p
+    return (_whole(p.args[0]), q) if p.op == "num" else (1, mul(p, q))
 
 
 def square(a: Vec) -> Expr:
     """a . a."""
-    return add(*(power(part, TWO) for part in a))
+    if all(part.op == "num" for part in a):
+        return num(sum(_whole(part.args[0]) ** 2 for part in a))
+    return total([(1, Expr("pow", (p, TWO)) if p.op in ("sym", "add") else power(p, TWO)) for p in a])
 
 
 def length(a: Vec) -> Expr:

@@ -128,6 +128,21 @@ def local_dimension(field: Manifold, ball: Manifold | None, rigid: int) -> Local
     return _second_order(ball, m, rigid)
 
 
+def numeric_dimension(ball: Manifold, rigid: int) -> Local:
+    """The same from one approximate point: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
+    m = len(ball.frame.free)
+    if not ball.others or m == rigid:
+        return Local(m, "numeric", "the relations kept are independent within the precision")
+    direction = [arb(ball.base.rng.randrange(64, 512)) / 256 for _ in range(m)]
+    along = ball.follow(direction, ORDER)
+    if all(s.coefficient(k).contains(0) for s in along for k in range(ORDER)):
+        return Local(m, "numeric", "the dependent relations hold along a random curve of the motion within the precision")
+    if m - rigid == 1:
+        return Local(rigid, "numeric", "the one motion left to first order breaks a relation")
+    found = _second_order(ball, m, rigid)
+    return Local(found.dimension, "numeric" if found.dimension is not None else "undecided", found.reason)
+
+
 def _second_order(ball: Manifold | None, m: int, rigid: int) -> Local:
     undecided = Local(None, "undecided", "the relations are dependent here and the second order does not decide what moves")
     if ball is None:

@@ -16,6 +16,7 @@ from dofkit.errors import TextError
 from dofkit.expr import Expr
 from dofkit.zeros import zero_set
 
+
 @dataclass(frozen=True)
 class Finite:
     """g(q, t) = 0."""
@@ -123,7 +124,7 @@ def linear_form(e: Expr) -> Pfaffian | None:
             return None
         if not coefficient.is_zero:
             coefficients[str(v.args[1])] = coefficient
-    return Pfaffian(coefficients, ex.substitute(e, {v: ex.ZERO for v in velocities}))
+    return Pfaffian(coefficients, ex.substitute(e, dict.fromkeys(velocities, ex.ZERO)))
 
 
 def cleared(e: Expr) -> Expr:

@@ -11,45 +11,26 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from flint import nmod_mat
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
+from dofkit.chart import Chart
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
-from dofkit.exact.ring import Ring
+from dofkit.exact.ring import VAR, Ring, reachable
 from dofkit.expr import Expr
 from dofkit.forms import Frame, field_frame
 from dofkit.motion import Local, Manifold, local_dimension
-from dofkit.report import Verdict
+from dofkit.rank import free_point, rank_of
+from dofkit.report import Verdict, weakest
+from dofkit.singular import numeric_local
 
 #: Blocks with more columns than this are not certified with balls.
 BALL_COLUMNS = 60
 #: Points over GF(p) that must agree.
 SAMPLES = 2
-
-
-@dataclass(frozen=True)
-class Chart:
-    """A block's ring, its finite relations and its columns: coordinates, then time where it occurs.
-
-    ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
-    real search moves: coordinates and generic geometry.
-    """
-
-    ring: Ring
-    nodes: tuple[int, ...]
-    symbols: tuple[Expr, ...]
-    columns: tuple[int, ...]
-    unknowns: tuple[Expr, ...]
-    positive: frozenset[Expr]
-
-    @property
-    def coordinates(self) -> int:
-        """The number of columns that are coordinates."""
-        return sum(s.args[0] == "coordinate" for s in self.symbols)
 
 
 @dataclass
@@ -90,18 +71,6 @@ def on_variety(chart: Chart, point: FieldPoint) -> bool:
     except (ZeroDivisionError, NoPointError):
         return False
     return all(at[n] == 0 for n in chart.nodes)
-
-
-def free_point(chart: Chart, seed: int) -> FieldPoint | None:
-    """A random point of the ambient space at which the program runs."""
-    for attempt in range(60):
-        point = field_point([chart.ring], 1000 * seed + attempt)
-        try:
-            values(chart.ring, point)
-        except (ZeroDivisionError, NoPointError):
-            continue
-        return point
-    return None
 
 
 def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
@@ -181,7 +150,7 @@ def _pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[Fi
 def _real(chart: Chart, seed: int, start: Mapping[Expr, float], starts: int = 12) -> RealPoint | None:
     if len(chart.columns) > BALL_COLUMNS:
         return None
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
     try:
         return search.search(seed, start, starts)
     except (OverflowError, ValueError, DomainError):
@@ -192,13 +161,6 @@ def split_time(chart: Chart, matrix: list[list[Any]]) -> list[list[Any]]:
     """The rows without the time column."""
     n = chart.coordinates
     return [row[:n] for row in matrix]
-
-
-def rank_of(matrix: list[list[Any]], p: int) -> int:
-    """Rank over GF(p)."""
-    if not matrix or not matrix[0]:
-        return 0
-    return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())
 
 
 def _from_samples(
@@ -241,21 +203,48 @@ def _with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
     """Hold the real point against what the field said."""
     real = found.real
     if len(chart.columns) > BALL_COLUMNS:
-        found.verdict = max(found.verdict, "probable", key=_WEAKNESS.index)
+        found.verdict = weakest(found.verdict, "probable")
         return found
     if real is None:
-        found.consistent, found.dimension, found.verdict = None, None, "undecided"
-        found.reasons.append("no real configuration was found, and none was ruled out")
-        return found
-    if not real.certified or not real.consistent or real.rank != rank:
-        found.verdict = max(found.verdict, "probable", key=_WEAKNESS.index)
-        if real.certified and real.consistent and real.rank != rank and real.gap > 1e3:
-            found.verdict, found.dimension = "undecided", None
-            found.reasons.append("real points and points over GF(p) disagree about the rank: the set has several parts")
+        return _without_reality(chart, found)
+    if not real.certified or not real.consistent:
+        return _singular(chart, found)
+    if real.rank != rank:
+        found.verdict, found.dimension = "undecided", None
+        found.reasons.append("real points and points over GF(p) disagree about the rank: the set has several parts")
     return found
 
 
-_WEAKNESS: tuple[Verdict, ...] = ("proved", "probable", "numeric", "undecided")
+def _without_reality(chart: Chart, found: Variety) -> Variety:
+    """No real point: an unknown function may be chosen so that there is one; else nothing is known."""
+    calls = any(chart.ring.vars[i].kind == "call" for i in generators_of(chart))
+    if calls:
+        found.verdict = weakest(found.verdict, "probable")
+        found.reasons.append("for an unknown function that allows real configurations")
+        return found
+    found.consistent, found.dimension, found.verdict = None, None, "undecided"
+    found.reasons.append("no real configuration was found, and none was ruled out")
+    return found
+
+
+def generators_of(chart: Chart) -> set[int]:
+    """The generators that the finite relations reach."""
+    code = chart.ring.code
+    return {code[i][1] for i in reachable(chart.ring, chart.nodes) if code[i][0] == VAR}
+
+
+def _singular(chart: Chart, found: Variety) -> Variety:
+    """All real points that were found are singular: the dimension is that of the set near one of them."""
+    real = found.real
+    local = None if real is None else numeric_local(chart, real)
+    if local is None or local.dimension is None:
+        found.verdict, found.dimension = "undecided", None
+        found.reasons.append("every real configuration that was found is singular, and what moves there was not decided")
+        return found
+    found.dimension = local.dimension - (len(chart.columns) - chart.coordinates)
+    found.verdict = weakest(found.verdict, "numeric")
+    found.reasons.append(f"every real configuration that was found is singular: {local.reason}")
+    return found
 
 
 def _numerical(chart: Chart, seed: int) -> Variety:
@@ -268,7 +257,9 @@ def _numerical(chart: Chart, seed: int) -> Variety:
     if real.certified and real.consistent and real.rank == len(chart.nodes):
         rank_by_columns = real.rank
         return Variety(True, columns - rank_by_columns - timed, "proved", [], real)
-    if real.certified and real.consistent and real.gap > 1e3:
+    if not real.certified or not real.consistent:
+        return _singular(chart, Variety(True, None, "proved", [], real))
+    if real.gap > 1e3:
         return Variety(True, columns - real.rank - timed, "numeric", [], real, [f"the gap between singular values is {real.gap:.1e}"])
     return Variety(None, None, "undecided", [], real, ["the only points found are singular"])
 

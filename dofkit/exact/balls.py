@@ -25,6 +25,8 @@ PRECISION = 256
 #: Relative size below which a singular value of the scaled Jacobian is taken for 0, and above which it is not.
 NOISE, SIGNAL = 1e-9, 1e-6
 STARTS, ITERATIONS = 12, 80
+#: After this many singular points no regular one is looked for.
+SINGULAR_TRIES = 4
 
 
 class OutsideDomainError(Exception):
@@ -134,11 +136,23 @@ def jacobian(
 
 
 class RealSearch:
-    """Looks for real points on the zero set of ``nodes``, moving ``unknowns``."""
+    """Looks for real points on the zero set of ``nodes``, moving ``unknowns``.
 
-    def __init__(self, ring: Ring, nodes: Sequence[int], unknowns: Sequence[Expr], positive: frozenset[Expr]) -> None:
+    Generic geometry is among the unknowns: it is whatever the point makes it.
+    """
+
+    def __init__(
+        self,
+        ring: Ring,
+        nodes: Sequence[int],
+        unknowns: Sequence[Expr],
+        positive: frozenset[Expr],
+        ranked: Sequence[Expr] | None = None,
+    ) -> None:
+        """``ranked``: the symbols by which the rank is meant, where it is not all unknowns."""
         self.ring = ring
         self.nodes = list(nodes)
+        self.ranked = None if ranked is None else [i for s in ranked if (i := ring.var_index(s)) is not None]
         self.unknowns = [u for u in unknowns if ring.var_index(u) is not None]
         self.columns = [ring.var_index(u) or 0 for u in self.unknowns]
         self.positive = positive
@@ -156,15 +170,20 @@ class RealSearch:
         return found
 
     def search(self, seed: int = 0, given: Mapping[Expr, float] | None = None, starts: int = STARTS) -> RealPoint | None:
-        """The first point found; ``given`` values of symbols are where the search begins."""
+        """The first certified point found, else any; ``given`` values of symbols are where the search begins."""
+        singular: RealPoint | None = None
+        tries = 0
         for attempt in range(starts):
             symbols = self.start(seed * STARTS + attempt, given or {})
             found = self.descend(symbols, seed)
-            if found is not None:
-                refined = self.refine(symbols, found, seed)
-                if refined is not None:
-                    return refined
-        return None
+            refined = None if found is None else self.refine(symbols, found, seed)
+            if refined is not None and refined.certified and refined.consistent:
+                return refined
+            tries += refined is not None
+            singular = singular or refined
+            if tries == SINGULAR_TRIES:
+                break
+        return singular
 
     def descend(self, symbols: dict[Expr, float], seed: int) -> np.ndarray | None:
         """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end."""
@@ -218,7 +237,15 @@ class RealSearch:
         except (OutsideDomainError, ZeroDivisionError):
             return None
         consistent = all(at[n].contains(0) for n in self.nodes)
+        if self.ranked is not None and rank:
+            rank, gap, rows = self._rank_at(point, at)
         return RealPoint(point, rank, tuple(rows), certified, consistent, gap)
+
+    def _rank_at(self, point: BallPoint, at: Sequence[Scalar]) -> tuple[int, float, list[int]]:
+        """The numerical rank by the ranked symbols only."""
+        j = jacobian(self.ring, at, point, self.nodes, self.ranked or [], arb(0))
+        rank, gap, rows, _ = independent_part(np.array([[float(v.mid()) for v in row] for row in j]))
+        return rank, gap, rows
 
     def _newton(
         self, exact: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int

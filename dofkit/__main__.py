@@ -1,0 +1,5 @@
+"""``python -m dofkit``."""
+
+from dofkit.cli import main
+
+main()

@@ -1,0 +1,383 @@
+"""From a scene to its report: orders the passes; the only module that knows them all."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import product as cartesian
+
+from dofkit import expr as ex
+from dofkit.analysis import Answer, Setting, alone, answer
+from dofkit.blocks import Block, Row, split
+from dofkit.count import Facts, count
+from dofkit.entries import Told, entry
+from dofkit.errors import Fault, SceneError, TextError
+from dofkit.expr import Expr
+from dofkit.lowering import lower
+from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, normalise
+from dofkit.redundancy import Redundancies, Rows, analyse
+from dofkit.report import ConstraintEntry, ForceEntry, Redundancy, Report, Verdict, weakest
+from dofkit.scene import Scene
+from dofkit.system import Constraint, System
+
+#: Choices of branches that are looked at.
+MAX_CHOICES = 16
+#: Constraints of a conflict that are tried one by one for a minimal set, and the seconds spent on it.
+MAX_CONFLICT, CONFLICT_SECONDS = 60, 5.0
+
+_BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """A constraint with every relation reduced; ``inequalities`` apart."""
+
+    constraint: Constraint
+    normals: tuple[Normal, ...]
+    inequalities: tuple[Inequality, ...]
+
+    @property
+    def equations(self) -> int:
+        return len(self.normals)
+
+
+@dataclass
+class Outcome:
+    """The blocks of one choice of branches and their answers."""
+
+    rows: list[Row]
+    blocks: list[Block]
+    answers: list[Answer]
+    untouched: list[str]
+    impossible: list[int] = field(default_factory=list)
+
+    @property
+    def consistent(self) -> bool | None:
+        if self.impossible or any(a.consistent is False for a in self.answers):
+            return False
+        return None if any(a.consistent is None for a in self.answers) else True
+
+    @property
+    def dof(self) -> int | None:
+        return self._total([a.dof for a in self.answers])
+
+    @property
+    def velocity_dof(self) -> int | None:
+        return self._total([a.velocity_dof for a in self.answers])
+
+    def _total(self, parts: Sequence[int | None]) -> int | None:
+        if not self.consistent or any(p is None for p in parts):
+            return None
+        return len(self.untouched) + sum(p for p in parts if p is not None)
+
+    @property
+    def size(self) -> tuple[int, int, int]:
+        """What makes one choice of branches larger than another."""
+        return (int(self.consistent is not False), -1 if self.dof is None else self.dof, self.velocity_dof or 0)
+
+
+def classify(scene: Scene | System, budget: float | None = None) -> Report:
+    """How the system of ``scene`` can move.
+
+    ``budget``: seconds after which no new part of the scene is begun; what is not finished is undecided.
+    Raises `SceneError` with every fault where the scene cannot be read as mathematics.
+    """
+    system = scene if isinstance(scene, System) else lower(scene)
+    deadline = None if budget is None else time.monotonic() + budget
+    positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
+    positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
+    reduced = reduce_all(system, positive)
+    setting = Setting(
+        positive,
+        tuple(ex.parameter(p) for p in system.generic),
+        system.pose,
+        system.reference,
+        system.coordinates,
+        system.tolerance,
+        system.size,
+    )
+    outcome = solve(system, reduced, setting, deadline)
+    return _report(system, reduced, setting, outcome)
+
+
+def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
+    """Every relation of every constraint as what it says; all that cannot be one are faults together."""
+    found, faults = [], []
+    for i, constraint in enumerate(system.constraints):
+        normals, inequalities = [], []
+        written = constraint.type in ("equation", "on")
+        for relation in constraint.relations:
+            if relation.sense != "=":
+                inequalities.append(Inequality(relation.expr))
+                continue
+            try:
+                normals.append(normalise(relation.expr, positive, written))
+            except TextError as error:
+                faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
+        found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
+    if faults:
+        raise SceneError(tuple(faults), system.name)
+    return found
+
+
+def solve(system: System, reduced: Sequence[Reduced], setting: Setting, deadline: float | None) -> Outcome:
+    """The largest of the branches, answered block by block."""
+    normals = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
+    options = [range(len(normal.branches)) or (None,) for _, normal in normals]
+    best: Outcome | None = None
+    cache: dict[tuple[int, ...], Answer] = {}
+    for number, choice in enumerate(cartesian(*options)):
+        if number == MAX_CHOICES:
+            break
+        rows, impossible = [], []
+        for (i, normal), branch in zip(normals, choice, strict=True):
+            if branch is None:
+                impossible.append(i)
+            else:
+                rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
+        outcome = _answered(system, rows, impossible, setting, deadline, cache)
+        if best is None or outcome.size > best.size:
+            best = outcome
+    return best or Outcome([], [], [], [c.name for c in system.coordinates])
+
+
+def _answered(
+    system: System,
+    rows: list[Row],
+    impossible: list[int],
+    setting: Setting,
+    deadline: float | None,
+    cache: dict[tuple[int, ...], Answer],
+) -> Outcome:
+    blocks, untouched = split([c.name for c in system.coordinates], rows)
+    answers = []
+    for block in blocks:
+        key = tuple(id(row.piece) for row in block.rows)
+        known = cache.get(key)
+        if known is None:
+            if deadline is not None and time.monotonic() > deadline:
+                known = Answer(None, verdict="undecided", reasons=["the time allowed for the scene was used up"])
+            else:
+                known = cache[key] = answer(block, setting)
+        answers.append(known)
+    return Outcome(rows, blocks, answers, untouched, impossible)
+
+
+# -- the report ------------------------------------------------------------------------------------------
+
+
+def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Report:
+    names = [c.name for c in system.constraints]
+    conflicting = _conflict(system, reduced, setting, outcome) if outcome.consistent is False else []
+    redundancies = _redundancies(outcome)
+    entries = _entries(reduced, setting, outcome, redundancies, names)
+    equations = sum(r.equations for r in reduced)
+    dof, velocity_dof = outcome.dof, outcome.velocity_dof
+    instantaneous = _instantaneous(system, outcome)
+    verdict = weakest(*(e.verdict for e in entries), *(a.verdict for a in outcome.answers))
+    if outcome.consistent is None:
+        verdict = "undecided"
+    told = count(
+        system,
+        Facts(
+            sum(_finite_equations(r) for r in reduced),
+            dof,
+            outcome.consistent,
+            sum(len(a.hidden) for a in outcome.answers),
+            0,
+            entries,
+        ),
+    )
+    redundant_equations = None if velocity_dof is None else max(0, equations - (len(system.coordinates) - velocity_dof))
+    return Report(
+        scene=system.name,
+        consistent=outcome.consistent,
+        dof=dof,
+        velocity_dof=velocity_dof,
+        instantaneous_dof=instantaneous,
+        singular=None if instantaneous is None or velocity_dof is None else instantaneous != velocity_dof,
+        holonomic=_all([e.holonomic for e in entries]),
+        scleronomic=_all([e.scleronomic for e in entries]),
+        count=told,
+        redundant_equations=redundant_equations,
+        redundant=[names[i] for i in sorted(i for r in redundancies for i in r.redundant)],
+        redundancies=[
+            Redundancy(nullity=nullity, members=[names[i] for i in members])
+            for r in redundancies
+            for nullity, members in r.groups
+        ],
+        conflicting=[names[i] for i in conflicting],
+        generalized_coordinates=_generalized(system, outcome),
+        growth_vector=None,
+        constraints=entries,
+        forces=[ForceEntry(name=f.name, reason=f.reason) for f in system.forces],
+        verdict=verdict,
+        method="; ".join(dict.fromkeys(a.method for a in outcome.answers if a.method)) or "count",
+        modelled=_modelled(system, outcome),
+        warnings=_warnings(system, reduced, outcome),
+    )
+
+
+def _all(labels: Sequence[bool | None]) -> bool | None:
+    """True where all are, False where one is not, else None."""
+    if any(label is False for label in labels):
+        return False
+    return None if any(label is None for label in labels) else True
+
+
+def _finite_equations(r: Reduced) -> int:
+    return sum(all(isinstance(p, Finite) for p in normal.pieces) for normal in r.normals)
+
+
+def _instantaneous(system: System, outcome: Outcome) -> int | None:
+    if system.reference is None or outcome.consistent is not True:
+        return None
+    parts = [a.instantaneous for a in outcome.answers]
+    if any(p is None for p in parts):
+        return None
+    return len(outcome.untouched) + sum(p for p in parts if p is not None)
+
+
+def _redundancies(outcome: Outcome) -> list[Redundancies]:
+    """Block by block; nothing where the block is undecided or its rank is no measure of dependence."""
+    found = []
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        rows = [r for r in block.rows]
+        if not rows or a.velocity_dof is None:
+            continue
+        matrix = _without_hidden(block, a)
+        if len(matrix) != len(rows) or a.degenerate:
+            found.append(Redundancies({r.constraint: 0 for r in rows}, [], [], {}) if a.degenerate else _unknown(block))
+            continue
+        owners = [r.constraint for r in rows]
+        finite = [isinstance(r.piece, Finite) for r in rows]
+        found.append(analyse(Rows(matrix, owners, finite, a.modulus)))
+    return found
+
+
+def _unknown(block: Block) -> Redundancies:
+    del block
+    return Redundancies({}, [], [], {})
+
+
+def _without_hidden(block: Block, a: Answer) -> list[list[int]]:
+    """The matrix without the rows of hidden relations."""
+    first = len(block.finite)
+    return a.matrix[:first] + a.matrix[first + len(a.hidden) :]
+
+
+def _entries(
+    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, redundancies: list[Redundancies], names: list[str]
+) -> list[ConstraintEntry]:
+    independent: dict[int, int] = {}
+    for r in redundancies:
+        for i, k in r.independent.items():
+            independent[i] = independent.get(i, 0) + k
+    circuits = {i: c for r in redundancies for i, c in r.circuits.items()}
+    told: dict[int, list[Told]] = {i: [] for i in range(len(reduced))}
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        linear = [r for r in block.rows if not isinstance(r.piece, Nonlinear)]
+        for i, row in enumerate(linear):
+            told[row.constraint].append(Told(row, a.labels.get(i), a))
+        for row in block.rows:
+            if isinstance(row.piece, Nonlinear):
+                told[row.constraint].append(Told(row, None, a))
+    coordinates = [c.name for b in outcome.blocks for c in ()] or [n for b in outcome.blocks for n in b.coordinates]
+    entries = []
+    for i, r in enumerate(reduced):
+        own = [t.row for t in told[i]]
+        sharing = {t.answer.method for t in told[i]}
+        by_itself = None
+        if any(isinstance(row.piece, Pfaffian) for row in own):
+            by_itself = alone(own, setting, coordinates)
+        circuit = circuits.get(i)
+        entries.append(
+            entry(
+                r.constraint,
+                r.normals,
+                r.inequalities,
+                told[i],
+                by_itself,
+                setting.positive,
+                independent.get(i, 0 if not told[i] else None),
+                None if circuit is None else [names[j] for j in circuit],
+            )
+        )
+        del sharing
+    return entries
+
+
+def _generalized(system: System, outcome: Outcome) -> list[str] | None:
+    if outcome.dof is None:
+        return None
+    dependent = {name for a in outcome.answers for name in a.dependent}
+    chosen = [c.name for c in system.coordinates if c.name not in dependent]
+    return chosen if len(chosen) == outcome.dof else None
+
+
+def _modelled(system: System, outcome: Outcome) -> str:
+    parts = []
+    touched = len(system.coordinates) - len(outcome.untouched)
+    if outcome.blocks:
+        many = len(outcome.blocks)
+        parts.append(f"{touched} coordinates in {many} independent part{'s' if many > 1 else ''}")
+    if outcome.untouched:
+        shown = ", ".join(outcome.untouched[:12]) + (", ..." if len(outcome.untouched) > 12 else "")
+        parts.append(f"counted but not computed with, because nothing constrains them: {shown}")
+    finite = sum(not b.forms and not b.nonlinear for b in outcome.blocks)
+    if finite:
+        parts.append("no integrability test where all relations are finite (d(dg) = 0)")
+    if system.forces:
+        parts.append("forces are left out: they do not constrain")
+    return "; ".join(parts) or "nothing constrains anything"
+
+
+def _warnings(system: System, reduced: Sequence[Reduced], outcome: Outcome) -> list[str]:
+    found = list(system.warnings)
+    for r in reduced:
+        for normal in r.normals:
+            found += [f"'{r.constraint.name}': {note}" for note in normal.notes]
+            if len(normal.branches) > 1:
+                found.append(_BRANCH_WARNING.format(name=r.constraint.name))
+        found += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
+    for a in outcome.answers:
+        found += a.reasons
+        found += [f"hidden finite relation: {shown(g)} = 0" for g in a.hidden]
+    return list(dict.fromkeys(found))
+
+
+def shown(e: Expr) -> str:
+    """An expression as text."""
+    from dofkit.text import to_text
+
+    return to_text(e)
+
+
+# -- conflicts -------------------------------------------------------------------------------------------
+
+
+def _conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[int]:
+    """A minimal set of constraints that cannot hold together: leaving one out at a time, the last written first."""
+    if outcome.impossible:
+        return [outcome.impossible[0]]
+    guilty = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
+    kept = sorted({row.constraint for row in guilty.rows})
+    if len(kept) > MAX_CONFLICT:
+        return kept
+    until = time.monotonic() + CONFLICT_SECONDS
+    for i in reversed(list(kept)):
+        if time.monotonic() > until:
+            break
+        fewer = [j for j in kept if j != i]
+        if fewer and _inconsistent(system, reduced, setting, fewer):
+            kept = fewer
+    return kept
+
+
+def _inconsistent(system: System, reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> bool:
+    some = [r if i in set(numbers) else Reduced(r.constraint, (), ()) for i, r in enumerate(reduced)]
+    return solve(system, some, setting, None).consistent is False
+
+
+__all__ = ["Verdict", "classify"]

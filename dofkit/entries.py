@@ -1,0 +1,185 @@
+"""One constraint's entry in the report: its labels, how sure they are, and sentences for a student."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from dofkit.analysis import Answer, Label
+from dofkit.blocks import Row
+from dofkit.expr import Expr
+from dofkit.labels import catastatic, exact, scleronomic
+from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
+from dofkit.proofs import Integrability, integrability
+from dofkit.report import FORMS, ConstraintEntry, Form, Verdict, weakest
+from dofkit.system import Constraint
+
+
+@dataclass(frozen=True)
+class Told:
+    """A row, its label in the system (None: finite or nonlinear), and its block's answer."""
+
+    row: Row
+    label: Label | None
+    answer: Answer
+
+
+def form_of(piece: Piece) -> Form:
+    """The report's word for a piece."""
+    if isinstance(piece, Finite):
+        return "finite"
+    if isinstance(piece, Pfaffian):
+        return "pfaffian"
+    return "nonlinear" if isinstance(piece, Nonlinear) else "inequality"
+
+
+def entry(
+    constraint: Constraint,
+    normals: Sequence[Normal],
+    inequalities: Sequence[Inequality],
+    told: Sequence[Told],
+    by_itself: Answer | None,
+    positive: frozenset[Expr],
+    independent: int | None,
+    circuit: list[str] | None,
+) -> ConstraintEntry:
+    """Everything that is told of one constraint."""
+    pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(inequalities)
+    form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
+    forms = [p for p in pieces if isinstance(p, Pfaffian)]
+    proofs = _proofs(form, forms, by_itself, positive)
+    times = [scleronomic(p, positive) for p in pieces]
+    in_system, sure = _in_system(told, inequalities, proofs, forms)
+    own, sure_own = _alone(form, by_itself, proofs, forms, inequalities)
+    equations = len(normals)
+    verdict = weakest(sure, sure_own, *(v for _, v in times))
+    return ConstraintEntry(
+        name=constraint.name,
+        type=constraint.type,
+        text=constraint.text,
+        form=form,
+        holonomic=in_system,
+        holonomic_alone=own,
+        scleronomic=_together([t for t, _ in times]),
+        catastatic=all(catastatic(f, positive) for f in forms) if form == "pfaffian" else None,
+        bilateral=not inequalities,
+        exact=all(exact(f, positive) for f in forms) if form == "pfaffian" else None,
+        integrating_factor=_joined([p.factor for p in proofs]),
+        integral=_joined([p.integral for p in proofs]) if own else None,
+        circuit=circuit,
+        equations=equations,
+        independent=None if independent is None else min(independent, equations),
+        verdict=verdict,
+        reason=_reason(form, in_system, own, proofs, told, circuit),
+    )
+
+
+def _proofs(
+    form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, positive: frozenset[Expr]
+) -> list[Integrability]:
+    if form != "pfaffian" or by_itself is None:
+        return []
+    labels = [label.holonomic for label in by_itself.labels.values()]
+    single = labels[0] if len(labels) == 1 else None
+    return [integrability(f, positive, single) for f in forms]
+
+
+def _together(labels: Sequence[bool | None]) -> bool | None:
+    if any(label is False for label in labels):
+        return False
+    return None if any(label is None for label in labels) else True
+
+
+def _joined(parts: Sequence[str | None]) -> str | None:
+    found = [p for p in parts if p is not None]
+    return "; ".join(found) if found and len(found) == len(parts) else None
+
+
+def _in_system(
+    told: Sequence[Told], inequalities: Sequence[Inequality], proofs: Sequence[Integrability], forms: Sequence[Pfaffian]
+) -> tuple[bool | None, Verdict]:
+    """(holonomic, verdict): all rows are consequences of finite relations; an inequality never is."""
+    if inequalities:
+        return False, "proved"
+    proved = {id(f) for f, p in zip(forms, proofs, strict=False) if p.proved}
+    labels: list[bool | None] = []
+    verdicts: list[Verdict] = []
+    for t in told:
+        if isinstance(t.row.piece, Finite) or id(t.row.piece) in proved:
+            labels.append(True)
+        elif isinstance(t.row.piece, Nonlinear):
+            labels.append(False)
+            verdicts.append("probable" if t.answer.verdict == "probable" else "proved")
+        elif t.label is None:
+            labels.append(None)
+            verdicts.append("undecided")
+        else:
+            labels.append(t.label.holonomic)
+            verdicts.append(t.label.verdict)
+    together = _together(labels)
+    if together is False:
+        return False, min((v for v, h in zip(verdicts, [x for x in labels if x is not True], strict=False)), default="proved")
+    return together, weakest(*verdicts)
+
+
+def _alone(
+    form: Form,
+    by_itself: Answer | None,
+    proofs: Sequence[Integrability],
+    forms: Sequence[Pfaffian],
+    inequalities: Sequence[Inequality],
+) -> tuple[bool | None, Verdict]:
+    if inequalities or form == "nonlinear":
+        return False, "proved"
+    if by_itself is None or (forms and all(p.proved for p in proofs)):
+        return True, "proved"
+    labels = [label for label in by_itself.labels.values()]
+    if by_itself.consistent is not True or not labels:
+        return None, "undecided"
+    together = _together([label.holonomic for label in labels])
+    if together is False:
+        return False, min((x.verdict for x in labels if x.holonomic is False), default="proved")
+    return together, weakest(*(x.verdict for x in labels))
+
+
+def _reason(
+    form: Form,
+    in_system: bool | None,
+    own: bool | None,
+    proofs: Sequence[Integrability],
+    told: Sequence[Told],
+    circuit: list[str] | None,
+) -> str:
+    if form == "inequality":
+        reason = "An inequality keeps to one side (unilateral): it is not holonomic and takes no freedom away."
+    elif form == "finite":
+        reason = "A relation between coordinates (and time): holonomic." if told else "It relates no coordinates and holds always."
+    elif form == "nonlinear":
+        reason = "It is not linear in the velocities and no finite relation gives it: non-holonomic; it limits velocities only."
+    else:
+        reason = _pfaffian_reason(in_system, own, proofs, told)
+    if circuit:
+        reason += f" It follows from {', '.join(circuit)}."
+    elif circuit is not None:
+        reason += " It takes nothing away."
+    return reason
+
+
+def _pfaffian_reason(in_system: bool | None, own: bool | None, proofs: Sequence[Integrability], told: Sequence[Told]) -> str:
+    undecided = next((t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason), "")
+    if in_system is None:
+        return f"Not decided: {undecided or 'the engines found no regular point to decide at'}."
+    if in_system and own:
+        shown = _joined([p.integral for p in proofs])
+        if shown:
+            return f"It integrates to {shown}: holonomic; the constant is set by the initial state."
+        how = next((p.reason for p in proofs if p.reason), "d(omega) ^ omega = 0")
+        return f"It is integrable ({how}), though no integral was found in closed form; the constant is set by the initial state."
+    if in_system:
+        return "Alone it is not integrable; together with the other constraints it is, so in this system it is holonomic."
+    if own:
+        return "Alone it is integrable."
+    return (
+        "Its curvature does not vanish on the velocities that are left (Frobenius): no function of the coordinates "
+        "has it as a consequence, so it is non-holonomic and limits velocities only."
+    )

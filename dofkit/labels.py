@@ -1,0 +1,173 @@
+"""Labels that one piece carries by itself: scleronomic, catastatic, exact."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit import expr as ex
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
+from dofkit.exact.canon import Canon, TooLargeError
+from dofkit.exact.field import NoPointError, field_point
+from dofkit.exact.points import Solver
+from dofkit.exact.program import values
+from dofkit.exact.ring import Ring
+from dofkit.expr import Expr
+from dofkit.normal import Finite, Inequality, Pfaffian, Piece, velocities_of
+from dofkit.report import Verdict
+from dofkit.zeros import never_vanishes
+
+Told = tuple[bool | None, Verdict]
+
+
+def scleronomic(piece: Piece, positive: frozenset[Expr]) -> Told:
+    """Time enters neither as t nor as dt, once factors that never vanish are taken out."""
+    if isinstance(piece, Pfaffian):
+        return _pfaffian_without_time(piece, positive)
+    if isinstance(piece, Inequality):
+        return _factors_without_time(piece.expr, positive), "proved"
+    if isinstance(piece, Finite):
+        return _finite_without_time(piece.expr, positive)
+    return ex.TIME not in piece.expr.symbols and _homogeneous(piece.expr), "proved"
+
+
+def _finite_without_time(g: Expr, positive: frozenset[Expr]) -> Told:
+    """dg/dt = 0 on g = 0."""
+    if ex.TIME not in g.symbols or _factors_without_time(g, positive):
+        return True, "proved"
+    slope = ex.diff(g, ex.TIME)
+    ring = Ring([g, slope], positive)
+    node, rate = ring.node(g), ring.node(slope)
+    point = Solver(ring, [node]).draw(1)
+    if point is not None:
+        try:
+            if values(ring, point)[rate] == 0:
+                return True, "probable"
+        except (ZeroDivisionError, NoPointError):
+            return None, "undecided"
+    real = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive).search()
+    if real is not None and real.certified and not values(ring, real.point)[rate].contains(0):
+        return False, "proved"
+    return False, "probable" if point is not None else "undecided"
+
+
+def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
+    """True where time is left in no factor that can vanish (the numerator's, over the rationals)."""
+    if ex.TIME not in e.symbols:
+        return True
+    try:
+        ring = Ring([e], positive)
+        node = ring.node(e)
+        canon = Canon(ring)
+        factors = canon.factors(canon.quotient(node)[0])
+        shown = [canon.to_expr(f) for f, _ in factors]
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return False
+    return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
+
+
+def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr]) -> Told:
+    if not form.dt.is_zero and not is_zero(form.dt, positive):
+        return False, "proved"
+    coefficients = list(form.coefficients.values())
+    if all(ex.TIME not in e.symbols for e in coefficients):
+        return True, "proved"
+    turning = [
+        a * ex.diff(b, ex.TIME) - b * ex.diff(a, ex.TIME) for a, b in combinations(coefficients, 2)
+    ]
+    if not all(is_zero(e, positive) for e in turning):
+        return False, "proved"
+    return _common_factor_without_zeros(coefficients, positive), "proved"
+
+
+def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[Expr]) -> bool:
+    """The direction does not turn: is the factor that carries the time free of zeros?"""
+    try:
+        ring = Ring(coefficients, positive)
+        nodes = [ring.node(e) for e in coefficients]
+        canon = Canon(ring)
+        common = canon.quotient(nodes[0])[0]
+        for node in nodes[1:]:
+            common = common.gcd(canon.quotient(node)[0])
+        shown = [canon.to_expr(f) for f, _ in canon.factors(common)]
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return False
+    return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
+
+
+def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Zero identically: in the canonical ring (a proof), or else at random points over GF(p)."""
+    if e.is_zero:
+        return True
+    ring = Ring([e], positive)
+    node = ring.node(e)
+    try:
+        return Canon(ring).is_zero(node)
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return _zero_at_points(ring, node)
+
+
+def _zero_at_points(ring: Ring, node: int) -> bool:
+    seen = 0
+    for seed in range(60):
+        try:
+            if values(ring, field_point([ring], seed))[node] != 0:
+                return False
+        except (ZeroDivisionError, NoPointError):
+            continue
+        seen += 1
+        if seen == 3:
+            return True
+    return False
+
+
+def _homogeneous(e: Expr) -> bool:
+    """Homogeneous in the velocities: no dt is hidden in it."""
+    velocities = velocities_of(e)
+    try:
+        ring = Ring([e])
+        node = ring.node(e)
+        canon = Canon(ring)
+        numerator, denominator = canon.quotient(node)
+        places = {i for v in velocities if (i := ring.var_index(v)) is not None}
+        n = len(ring.vars)
+        degrees = []
+        for poly in (numerator, denominator):
+            found = {sum(int(k) for i, k in enumerate(m) if n - 1 - i in places) for m in poly.to_dict()}
+            degrees.append(len(found))
+        inside = [ring.var_expr[v.index] for v in ring.vars if v.kind != "symbol"]
+        return max(degrees) == 1 and not any(velocities_of(u) for u in inside)
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return False
+
+
+def catastatic(form: Pfaffian, positive: frozenset[Expr]) -> bool:
+    """No dt term."""
+    return form.dt.is_zero or is_zero(form.dt, positive)
+
+
+def exact(form: Pfaffian, positive: frozenset[Expr]) -> bool:
+    """Closed as written: d(omega) = 0 in (q, t). Exactness is not integrability: x dy - y dx integrates and is not closed."""
+    items = list(form.items())
+    symbols = dict(items)
+    others = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - set(symbols)
+    everything = [*items, *((s, ex.ZERO) for s in others)]
+    return all(
+        is_zero(ex.diff(b, s) - ex.diff(a, u), positive) for (s, a), (u, b) in combinations(everything, 2)
+    )
+
+
+def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:
+    """A ball at a random real point excludes 0."""
+    ring = Ring([e], positive)
+    node = ring.node(e)
+    search = RealSearch(ring, [], [], positive)
+    for seed in range(6):
+        point = BallPoint(search.start(seed, {}), seed)
+        try:
+            if not values(ring, point)[node].contains(0):
+                return True
+        except (OutsideDomainError, ZeroDivisionError):
+            continue
+    return False

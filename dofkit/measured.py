@@ -1,0 +1,150 @@
+"""Measured geometry: ranks with a tolerance, in floating point, and the gap they rest on.
+
+The columns of positions are scaled by the scene's size and every row to length 1, so that a singular value
+says by what fraction of the size a relation can be met otherwise. Those below the tolerance (times `SLACK`) count as 0.
+A motion is followed for a finite step and brought back onto the relations by least squares: it is a motion where
+they can then be met within the tolerance.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dofkit import expr as ex
+from dofkit.chart import Chart
+from dofkit.exact.balls import FloatPoint, greedy_pivots, jacobian
+from dofkit.exact.program import values
+from dofkit.expr import Expr
+from dofkit.system import Coordinate
+
+#: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY nothing is decided.
+SLACK, GREY = 3.0, 30.0
+STEP, ROUNDS = 0.12, 60
+
+
+@dataclass(frozen=True)
+class Measured:
+    """``dimension`` None where the tolerance does not decide.
+
+    ``dependencies``: a matrix over GF(2) with the same pattern of dependent rows as the Jacobian has within the
+    tolerance: independent rows are unit vectors, the others sums of those they depend on. ``columns`` are dependent coordinates.
+    """
+
+    instantaneous: int | None
+    dimension: int | None
+    dependencies: list[list[int]]
+    columns: tuple[int, ...]
+    gap: float
+    reason: str
+
+
+class _Scene:
+    def __init__(self, chart: Chart, roles: Sequence[Coordinate], size: float) -> None:
+        self.chart = chart
+        lengths = {c.name for c in roles if c.role in ("x", "y", "z")}
+        self.symbols = [s for s in chart.symbols if s != ex.TIME]
+        self.scale = np.array([size if str(s.args[1]) in lengths else 1.0 for s in self.symbols])
+        self.columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
+
+    def system(self, at: Mapping[Expr, float]) -> tuple[Any, Any]:
+        """(residuals as fractions of the size, scaled Jacobian)."""
+        point = FloatPoint(at, 0)
+        out = values(self.chart.ring, point)
+        f = np.array([out[n] for n in self.chart.nodes], dtype=float)
+        j = np.array(jacobian(self.chart.ring, out, point, self.chart.nodes, self.columns, 0.0), dtype=float)
+        j = j.reshape(len(f), len(self.symbols)) * self.scale
+        norms = np.linalg.norm(j, axis=1)
+        norms = np.where(norms > 0, norms, 1.0)
+        return f / norms, j / norms[:, None]
+
+
+def measure(
+    chart: Chart, at: Mapping[Expr, float], roles: Sequence[Coordinate], tolerance: float, size: float, rigid: int
+) -> Measured:
+    """The freedom at a measured configuration; ``rigid`` counts the motions of the whole."""
+    scene = _Scene(chart, roles, size)
+    n = len(scene.symbols)
+    if not chart.nodes:
+        return Measured(n, n, [], (), float("inf"), "")
+    _, j = scene.system(at)
+    singular = np.linalg.svd(j, compute_uv=False)
+    rank = int(np.sum(singular > tolerance * SLACK))
+    below = float(singular[rank]) if rank < len(singular) else 0.0
+    gap = float(singular[rank - 1]) / below if rank and below > 0 else float("inf")
+    if np.any((singular > tolerance * SLACK) & (singular < tolerance * GREY)):
+        return Measured(None, None, [], (), gap, "a singular value lies so near the tolerance that the rank is not decided")
+    pattern = dependency_pattern(j, rank, tolerance)
+    columns = tuple(greedy_pivots(j.T, rank))
+    first = n - rank
+    dimension, reason = _finite(scene, at, j, rank, tolerance, rigid)
+    return Measured(first, dimension, pattern, columns, gap, reason)
+
+
+def _finite(
+    scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance: float, rigid: int
+) -> tuple[int | None, str]:
+    """(dimension of the finite motion, why)."""
+    first = j.shape[1] - rank
+    if rank == j.shape[0]:
+        return first, "all relations are independent within the tolerance"
+    if first == rigid:
+        return first, "nothing but motions of the whole is possible to first order"
+    if all(_moves(scene, at, j, rank, tolerance, seed) for seed in range(2)):
+        return first, "the motion was followed for a finite step within the tolerance"
+    if first - rigid == 1:
+        return rigid, "the one motion left to first order breaks the relations beyond the tolerance"
+    return None, "some of the motions to first order are no finite motions; which was not decided"
+
+
+def dependency_pattern(j: Any, rank: int, tolerance: float) -> list[list[int]]:
+    """Which rows depend on which earlier ones, as a matrix over GF(2)."""
+    rows = independent_rows(j, rank, tolerance)
+    place = {r: i for i, r in enumerate(rows)}
+    pattern = []
+    for r in range(len(j)):
+        entry = [0] * max(len(rows), 1)
+        if r in place:
+            entry[place[r]] = 1
+        else:
+            weights = np.linalg.lstsq(j[rows].T, j[r], rcond=None)[0]
+            for i, w in enumerate(weights):
+                entry[i] = int(abs(w) > 1e-3)
+        pattern.append(entry)
+    return pattern
+
+
+def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:
+    """The first rows, in order, independent of those before them within the tolerance."""
+    kept: list[int] = []
+    for r in range(len(j)):
+        if len(kept) == rank:
+            break
+        if float(np.linalg.svd(j[[*kept, r]], compute_uv=False)[-1]) > tolerance * SLACK:
+            kept.append(r)
+    return kept
+
+
+def _moves(scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance: float, seed: int) -> bool:
+    rng = random.Random(f"dofkit measured {seed}")
+    _, _, right = np.linalg.svd(j)
+    null = right[rank:]
+    direction = np.array([rng.uniform(-1, 1) for _ in null]) @ null
+    direction *= STEP / np.linalg.norm(direction)
+    moved = {**at}
+    step = direction
+    residual = float("inf")
+    for _ in range(ROUNDS):
+        for s, d, scale in zip(scene.symbols, step, scene.scale, strict=True):
+            moved[s] = moved[s] + float(d) * float(scale)
+        f, jac = scene.system(moved)
+        residual = float(np.max(np.abs(f)))
+        step = np.linalg.lstsq(jac, -f, rcond=tolerance * SLACK)[0]
+        if float(np.linalg.norm(step)) < tolerance * 1e-3:
+            break
+    away = sum(((moved[s] - at[s]) / k) ** 2 for s, k in zip(scene.symbols, scene.scale, strict=True)) ** 0.5
+    return residual <= tolerance * SLACK and away > STEP / 3

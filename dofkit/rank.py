@@ -1,0 +1,30 @@
+"""Ranks over GF(p), and random points of the ambient space."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import nmod_mat
+
+from dofkit.chart import Chart
+from dofkit.exact.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.program import values
+
+
+def rank_of(matrix: list[list[Any]], p: int) -> int:
+    """Rank over GF(p)."""
+    if not matrix or not matrix[0]:
+        return 0
+    return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())
+
+
+def free_point(chart: Chart, seed: int) -> FieldPoint | None:
+    """A random point of the ambient space at which the program runs."""
+    for attempt in range(60):
+        point = field_point([chart.ring], 1000 * seed + attempt)
+        try:
+            values(chart.ring, point)
+        except (ZeroDivisionError, NoPointError):
+            continue
+        return point
+    return None

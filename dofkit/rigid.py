@@ -1,0 +1,68 @@
+"""Motions of the whole as one rigid body."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from dofkit import expr as ex
+from dofkit.chart import Chart, Displacement, displacement_fields
+from dofkit.exact.field import FieldPoint
+from dofkit.exact.program import gradient, values
+from dofkit.rank import free_point, rank_of
+
+
+def rigid_motions(chart: Chart, point: FieldPoint) -> int:
+    """The dimension, at the point, of the displacements of everything as one body that keep all relations.
+
+    A displacement counts only if every relation is unchanged by it at a random point of the ambient space.
+    """
+    fields = displacement_fields(chart)
+    away = free_point(chart, 11)
+    if not fields or away is None:
+        return 0
+    kept = [f for f in fields if _keeps(chart, away, f)]
+    vectors = [_at(chart, point, f) for f in kept]
+    return rank_of(vectors, point.p) if vectors else 0
+
+
+def rigid_motions_real(chart: Chart, value: Callable[[int], float]) -> int:
+    """The same at a real point; ``value`` of a generator index."""
+    away = free_point(chart, 11)
+    if away is None:
+        return 0
+    rows = []
+    for field in displacement_fields(chart):
+        if not _keeps(chart, away, field):
+            continue
+        row = [0.0] * len(chart.columns)
+        for column, terms in field.items():
+            row[column] = sum(f * (1.0 if o is None else value(chart.columns[o])) for f, o in terms)
+        rows.append(row)
+    return int(np.linalg.matrix_rank(np.array(rows), tol=1e-9)) if rows else 0
+
+
+def _at(chart: Chart, point: FieldPoint, field: Displacement) -> list[Any]:
+    zero = point.number(ex.ZERO.args[0])
+    vector = [zero] * len(chart.columns)
+    at = values(chart.ring, point)
+    for column, terms in field.items():
+        for factor, other in terms:
+            index = -1 if other is None else chart.columns[other]
+            value = zero + 1 if other is None else at[chart.ring.var_node[index]] if index >= 0 else zero
+            vector[column] = vector[column] + value * factor
+    return vector
+
+
+def _keeps(chart: Chart, point: FieldPoint, field: Displacement) -> bool:
+    vector = _at(chart, point, field)
+    at = values(chart.ring, point)
+    one = point.number(ex.ONE.args[0])
+    of = {c: vector[i] for i, c in enumerate(chart.columns) if c >= 0}
+    for node in chart.nodes:
+        g = gradient(chart.ring, at, point, [(node, one)])
+        if sum((v * of[c] for c, v in g.items() if c in of), one * 0) != 0:
+            return False
+    return True

@@ -1,0 +1,1 @@
+"""Rendering of what was found."""

@@ -1,0 +1,88 @@
+"""Singular real configurations without exact coordinates: brought to high precision, then looked at to second order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from flint import arb, arb_mat, ctx
+
+from dofkit.chart import Chart
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, independent_part, jacobian
+from dofkit.exact.program import values
+from dofkit.forms import Frame
+from dofkit.motion import Local, Manifold, numeric_dimension
+from dofkit.rigid import rigid_motions_real
+
+#: Working precision, steps (each halves the distance to the singular point), and the radius given to the result.
+BITS, STEPS, RADIUS_BITS = 700, 110, 84
+MAX_ROWS = 40
+
+
+def numeric_local(chart: Chart, real: RealPoint) -> Local | None:
+    """The local dimension near a singular point that a real search ran into; None where it cannot be told."""
+    if len(chart.nodes) > MAX_ROWS:
+        return None
+    old = ctx.prec
+    ctx.prec = BITS
+    try:
+        return _look(chart, real)
+    except (ZeroDivisionError, OutsideDomainError):
+        return None
+    finally:
+        ctx.prec = old
+
+
+def _look(chart: Chart, real: RealPoint) -> Local | None:
+    point = _converge(chart, real)
+    if point is None:
+        return None
+    at = values(chart.ring, point)
+    columns = [c for c in chart.columns if c >= 0]
+    place = [i for i, c in enumerate(chart.columns) if c >= 0]
+    j = np.array([[float(v.mid()) for v in row] for row in jacobian(chart.ring, at, point, chart.nodes, columns, arb(0))])
+    _, gap, rows, pivots = independent_part(j)
+    if gap < 1e6:
+        return None
+    dependent = tuple(place[c] for c in pivots)
+    free = tuple(i for i in range(len(chart.columns)) if i not in set(dependent))
+    manifold = Manifold(chart.ring, chart.nodes, chart.columns, Frame(tuple(rows), dependent, free), point)
+    rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
+    timed = len(chart.columns) - chart.coordinates
+    return numeric_dimension(manifold, rigid + timed)
+
+
+def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
+    """Gauss-Newton with minimal steps in high precision; at a singular point each step halves the error."""
+    symbols: dict[Any, arb] = {s: arb(v.mid()) if isinstance(v, arb) else arb(v) for s, v in real.point.symbols.items()}
+    moved = [s for s in chart.unknowns if chart.ring.var_index(s) is not None]
+    indices = [chart.ring.var_index(s) or 0 for s in moved]
+    size = arb(1)
+    for _ in range(STEPS):
+        point = BallPoint(symbols, 0)
+        at = values(chart.ring, point)
+        f = [arb(at[n].mid()) for n in chart.nodes]
+        if max(abs(v) for v in f) < arb(2) ** (-4 * RADIUS_BITS):
+            break
+        step = _minimal_step(jacobian(chart.ring, at, point, chart.nodes, indices, arb(0)), f)
+        for s, d in zip(moved, step, strict=True):
+            symbols[s] = (symbols[s] - d).mid()
+        size = max(abs(d) for d in step)
+    if not size < arb(2) ** (-RADIUS_BITS - 8):
+        return None
+    radius = arb(0, arb(2) ** -RADIUS_BITS)
+    return BallPoint({s: v + radius if s in set(moved) else v for s, v in symbols.items()}, 0)
+
+
+def _minimal_step(j: Sequence[Sequence[arb]], f: Sequence[arb]) -> list[arb]:
+    """J^T (J J^T)^-1 f."""
+    matrix = arb_mat([[v.mid() for v in row] for row in j])
+    gram = matrix * matrix.transpose()
+    n = gram.nrows()
+    shift = arb(2) ** (-BITS // 2)
+    for i in range(n):
+        gram[i, i] = gram[i, i] + shift
+    weights = gram.solve(arb_mat([[v] for v in f]))
+    step = matrix.transpose() * weights
+    return [step[i, 0].mid() for i in range(step.nrows())]
