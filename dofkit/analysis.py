@@ -19,7 +19,7 @@ from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, linear_terms
 from dofkit.expr import Expr
-from dofkit.forms import Frame, Rows, Span, certified_rank, field_frame, lie_span, pairing
+from dofkit.forms import Frame, Rows, Span, certified_rank, field_frame, growth, lie_span, pairing
 from dofkit.hidden import hidden_relation
 from dofkit.local import AtReference, at_reference
 from dofkit.measured import measure
@@ -365,7 +365,7 @@ def _field_labels(
     rank = len(sampled.frame.rows)
     result.velocity_dof = n - rank
     result.dof = n - integrable
-    result.growth = sampled.span.dimensions
+    result.growth = growth(forms.rows, sampled.frame, point, sampled.span.dimension)
     rank_finite = rank_of(sampled.matrix[: forms.finite], point.p)
     if found.dimension is None or found.dimension != n - rank_finite:
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True

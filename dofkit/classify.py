@@ -9,7 +9,7 @@ from itertools import product as cartesian
 
 from dofkit import expr as ex
 from dofkit.analysis import Answer, Setting, alone, answer
-from dofkit.blocks import Block, Row, split
+from dofkit.blocks import Block, Row, split, uses_time
 from dofkit.count import Facts, count
 from dofkit.entries import Told, entry
 from dofkit.errors import Fault, SceneError, TextError
@@ -20,6 +20,7 @@ from dofkit.redundancy import Redundancies, Rows, analyse
 from dofkit.report import ConstraintEntry, ForceEntry, Redundancy, Report, Verdict, weakest
 from dofkit.scene import Scene
 from dofkit.system import Constraint, System
+from dofkit.zeros import never_holds
 
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16
@@ -109,7 +110,7 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
         written = constraint.type in ("equation", "on")
         for relation in constraint.relations:
             if relation.sense != "=":
-                inequalities.append(Inequality(relation.expr))
+                inequalities.append(Inequality(relation.expr, relation.sense == ">"))
                 continue
             try:
                 normals.append(normalise(relation.expr, positive, written))
@@ -125,12 +126,13 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting, deadline
     """The largest of the branches, answered block by block."""
     normals = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
+    never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, setting.positive) for q in r.inequalities)]
     best: Outcome | None = None
     cache: dict[tuple[int, ...], Answer] = {}
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
             break
-        rows, impossible = [], []
+        rows, impossible = [], list(never)
         for (i, normal), branch in zip(normals, choice, strict=True):
             if branch is None:
                 impossible.append(i)
@@ -170,7 +172,7 @@ def _answered(
 def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Report:
     names = [c.name for c in system.constraints]
     conflicting = _conflict(system, reduced, setting, outcome) if outcome.consistent is False else []
-    redundancies = _redundancies(outcome)
+    redundancies = _redundancies(reduced, setting, outcome)
     entries = _entries(reduced, setting, outcome, redundancies, names)
     equations = sum(r.equations for r in reduced)
     dof, velocity_dof = outcome.dof, outcome.velocity_dof
@@ -209,7 +211,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
         ],
         conflicting=[names[i] for i in conflicting],
         generalized_coordinates=_generalized(system, outcome),
-        growth_vector=None,
+        growth_vector=_growth(outcome),
         constraints=entries,
         forces=[ForceEntry(name=f.name, reason=f.reason) for f in system.forces],
         verdict=verdict,
@@ -239,26 +241,68 @@ def _instantaneous(system: System, outcome: Outcome) -> int | None:
     return len(outcome.untouched) + sum(p for p in parts if p is not None)
 
 
-def _redundancies(outcome: Outcome) -> list[Redundancies]:
-    """Block by block; nothing where the block is undecided or its rank is no measure of dependence."""
-    found = []
+def _redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
+    """Block by block, by the rank of the rows; where that does not measure dependence, by leaving constraints out."""
+    found = [_void(reduced)]
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
-        rows = [r for r in block.rows]
-        if not rows or a.velocity_dof is None:
+        if not block.rows or a.velocity_dof is None:
             continue
+        nullity = len(block.rows) - (len(block.coordinates) - a.velocity_dof)
+        owners = [r.constraint for r in block.rows]
+        finite = [isinstance(r.piece, Finite) for r in block.rows]
         matrix = _without_hidden(block, a)
-        if len(matrix) != len(rows) or a.degenerate:
-            found.append(Redundancies({r.constraint: 0 for r in rows}, [], [], {}) if a.degenerate else _unknown(block))
-            continue
-        owners = [r.constraint for r in rows]
-        finite = [isinstance(r.piece, Finite) for r in rows]
-        found.append(analyse(Rows(matrix, owners, finite, a.modulus)))
+        if nullity <= 0 and (a.degenerate or a.hidden):
+            found.append(Redundancies({o: owners.count(o) for o in owners}, [], [], {}))
+        elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
+            found.append(_by_leaving_out(block, setting, a, nullity))
+        else:
+            found.append(analyse(Rows(matrix, owners, finite, a.modulus)))
     return found
 
 
-def _unknown(block: Block) -> Redundancies:
-    del block
-    return Redundancies({}, [], [], {})
+def _void(reduced: Sequence[Reduced]) -> Redundancies:
+    """Relations that hold always (0 = 0) are redundant by themselves."""
+    independent, redundant, groups = {}, [], []
+    for i, r in enumerate(reduced):
+        empty = sum(normal.branches == ((),) for normal in r.normals)
+        if not empty:
+            continue
+        independent[i] = 0
+        groups.append((empty, [i]))
+        if empty == r.equations:
+            redundant.append(i)
+    return Redundancies(independent, redundant, groups, {i: [] for i in redundant})
+
+
+def _by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int) -> Redundancies:
+    """What can go, the last in the order first, without changing the freedom of the block."""
+    owners = list(dict.fromkeys(r.constraint for r in block.rows))
+    differential = {r.constraint for r in block.rows if not isinstance(r.piece, Finite)}
+    order = [o for o in owners if o not in differential] + [o for o in owners if o in differential]
+    kept = list(order)
+    until = time.monotonic() + CONFLICT_SECONDS
+    for owner in reversed(order):
+        if time.monotonic() > until or len(kept) < 2:
+            break
+        fewer = [r for r in block.rows if r.constraint in kept and r.constraint != owner]
+        if _same_freedom(block, fewer, setting, a):
+            kept.remove(owner)
+    redundant = sorted(set(order) - set(kept))
+    members = sorted(order) if redundant else []
+    groups = [(nullity, members)] if redundant else []
+    independent = {o: 0 if o in redundant else sum(r.constraint == o for r in block.rows) for o in order}
+    return Redundancies(independent, redundant, groups, {o: sorted(kept) for o in redundant})
+
+
+def _same_freedom(block: Block, rows: Sequence[Row], setting: Setting, a: Answer) -> bool:
+    blocks, untouched = split(block.coordinates, rows)
+    answers = [answer(b, setting) for b in blocks]
+    if any(x.dof is None or x.velocity_dof is None for x in answers):
+        return False
+    dof = len(untouched) + sum(x.dof or 0 for x in answers)
+    velocity = len(untouched) + sum(x.velocity_dof or 0 for x in answers)
+    had_finite = {g for x in answers for g in x.hidden} >= set(a.hidden)
+    return dof == a.dof and velocity == a.velocity_dof and had_finite
 
 
 def _without_hidden(block: Block, a: Answer) -> list[list[int]]:
@@ -314,6 +358,23 @@ def _generalized(system: System, outcome: Outcome) -> list[str] | None:
     dependent = {name for a in outcome.answers for name in a.dependent}
     chosen = [c.name for c in system.coordinates if c.name not in dependent]
     return chosen if len(chosen) == outcome.dof else None
+
+
+def _growth(outcome: Outcome) -> list[int] | None:
+    """Dimensions of D, D + [D, D], ... for the whole: blocks do not bracket with each other; they share only time."""
+    if not outcome.consistent or not any(b.forms for b in outcome.blocks):
+        return None
+    growths: list[tuple[int, ...]] = []
+    timed = 0
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        shared = uses_time(block)
+        timed += shared
+        if block.nonlinear or a.growth is None and block.forms or a.velocity_dof is None:
+            return None
+        growths.append(a.growth if a.growth is not None else (a.velocity_dof + shared,))
+    length = max(len(g) for g in growths)
+    base = len(outcome.untouched) - max(0, timed - 1)
+    return [base + sum(g[min(k, len(g) - 1)] for g in growths) for k in range(length)]
 
 
 def _modelled(system: System, outcome: Outcome) -> str:

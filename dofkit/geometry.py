@@ -93,9 +93,14 @@ def _product(p: Expr, q: Expr) -> tuple[_Number, Expr]:
 
 def square(a: Vec) -> Expr:
     """a . a."""
-    if all(part.op == "num" for part in a):
-        return num(sum(_whole(part.args[0]) ** 2 for part in a))
     return total([(1, Expr("pow", (p, TWO)) if p.op in ("sym", "add") else power(p, TWO)) for p in a])
+
+
+def square_between(a: Vec, b: Vec) -> Expr:
+    """|b - a|^2, at once for numbers."""
+    if all(part.op == "num" for part in (*a, *b)):
+        return num(sum((_whole(q.args[0]) - _whole(p.args[0])) ** 2 for p, q in zip(a, b, strict=True)))
+    return square(minus(b, a))
 
 
 def length(a: Vec) -> Expr:

@@ -48,9 +48,10 @@ class Nonlinear:
 
 @dataclass(frozen=True)
 class Inequality:
-    """g >= 0 or g > 0, finite or in velocities."""
+    """g >= 0 or g > 0 (``strict``), finite or in velocities."""
 
     expr: Expr
+    strict: bool = False
 
 
 Piece = Finite | Pfaffian | Nonlinear | Inequality

@@ -11,11 +11,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, ValidationError, ValidatorFunctionWrapHandler, WrapValidator
 
-from dofkit.constraints import TYPES, AnyConstraint
+from dofkit.constraints import TYPES, AnyConstraint, ConstraintBase
 from dofkit.errors import Fault
 from dofkit.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, Force, Particle
 from dofkit.survey import survey
-from dofkit.values import Listed, Model, Number, Value, exact, fault_error, faults_of, retold, suggestion
+from dofkit.values import Listed, Model, Number, Value, exact, fault_at, fault_error, faults_of, retold, suggestion
 
 __all__ = ["Body", "BodyPoint", "Energies", "Force", "Particle", "Scene", "check", "faults_of"]
 
@@ -32,7 +32,10 @@ def _told(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
         if given is None:
             raise fault_error("a constraint needs its `type`", "the types are " + ", ".join(TYPES))
         if not isinstance(given, str) or given not in TYPES:
-            raise fault_error(f"there is no constraint type '{given}'", suggestion(given, list(TYPES), "types"))
+            hint = suggestion(given, list(TYPES), "types")
+            raise fault_at(("type",), f"there is no constraint type '{given}'", hint)
+    elif not isinstance(value, ConstraintBase):
+        raise fault_error("a constraint is a text or a mapping with a `type`")
     try:
         return handler(value)
     except ValidationError as error:
@@ -46,11 +49,14 @@ def _parameters(value: object) -> object:
     if isinstance(value, str):
         value = [value]
     if isinstance(value, (list, tuple)):
-        for name in value:
+        seen: set[str] = set()
+        for i, name in enumerate(value):
             if not isinstance(name, str):
-                raise fault_error("a list of parameters holds names", "write `{name: value}` to give values")
-            if value.count(name) > 1:
-                raise fault_error(f"the parameter '{name}' is given twice", "rename one of them")
+                hint = "write `parameters: {NAME: VALUE}` to give values"
+                raise fault_at((i,), "a list of parameters holds names only", hint)
+            if name in seen:
+                raise fault_at((i,), f"the parameter '{name}' is given twice", "leave one of them out")
+            seen.add(name)
         return dict.fromkeys(value, "real")
     if isinstance(value, Mapping):
         return {name: "real" if given is None else given for name, given in value.items()}
@@ -71,9 +77,10 @@ def _mapping(value: object) -> object:
 
 
 def _dimension(value: object) -> object:
-    if isinstance(value, bool) or value not in (1, 2, 3):
+    found = exact(value)
+    if found not in (1, 2, 3):
         raise fault_error(f"the dimension is 1, 2 or 3, not {value}")
-    return int(value) if isinstance(value, (int, float)) or hasattr(value, "__int__") else value
+    return int(found)
 
 
 def _tolerance(value: object) -> object:

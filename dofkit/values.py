@@ -233,6 +233,9 @@ _NEEDS = {
 }
 
 
+_AS = {"a particle": "a name or a mapping", "a body": "a name or a mapping"}
+
+
 def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tuple[str, str | None]:
     """One fault of Pydantic's in words for the person who wrote the scene, with a hint."""
     kind, place = detail["type"], detail["loc"]
@@ -240,16 +243,27 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
     if kind == "extra_forbidden":
         return f"unknown key '{place[-1]}' in {owner}", suggestion(place[-1], known, "keys")
     if kind == "missing":
+        if isinstance(place[-1], int):
+            return f"{place[-1] + 1} entries are needed here", "there are fewer"
         return f"{owner} needs '{place[-1]}'", None
+    if kind == "model_type" and not place:
+        return f"{owner} is {_AS.get(owner, 'a mapping')}, not {_shown(detail['input'])}", None
     if kind in _NEEDS:
         return f"{_NEEDS[kind]} is needed, not {_shown(detail['input'])}", None
     if kind == "literal_error":
-        return f"{_shown(detail['input'])} is not one of {context['expected']}", None
+        known = re.findall(r"'([^']*)'", str(context["expected"]))
+        return f"{_shown(detail['input'])} is not one of {context['expected']}", suggestion(detail["input"], known, "")
     if kind in ("too_short", "too_long"):
         bound = context.get("min_length", context.get("max_length"))
         word = "at least" if kind == "too_short" else "at most"
         return f"{word} {bound} entries are needed, not {context['actual_length']}", None
     return str(detail["msg"]).removeprefix("Value error, "), None
+
+
+def fault_at(place: tuple[int | str, ...], message: str, hint: str | None = None) -> ValidationError:
+    """An error for a validator to raise about something inside what it was given."""
+    detail = InitErrorDetails(type=fault_error(message, hint), loc=place, input=None)
+    return ValidationError.from_exception_data("scene", [detail])
 
 
 def retold(

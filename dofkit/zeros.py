@@ -295,6 +295,32 @@ def never_vanishes(e: Expr, positive: frozenset[Expr]) -> bool:
     return not branches
 
 
+def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
+    """True where ``e >= 0`` (or > 0) is proved to hold nowhere: -e is a sum of terms that are >= 0, one of them > 0."""
+    try:
+        ring = Ring([e], positive)
+        node = ring.node(e)
+        canon = Canon(ring)
+        top, bottom = canon.quotient(node)
+    except (TooLargeError, DomainError, ZeroDivisionError):
+        return False
+    if top == 0:
+        return strict
+    if not bottom.is_constant():
+        return False
+    if bottom.leading_coefficient() < 0:
+        top = -top
+    even = sum_of_even(top, Signs(canon, positive))
+    if even is None or _some_positive(top):
+        return False
+    return strict or any(not zeros for zeros in even)
+
+
+def _some_positive(poly: Any) -> bool:
+    """With terms of one sign: is that sign +?"""
+    return any(c > 0 for c in poly.to_dict().values())
+
+
 def _quadratic_form(canon: Canon, factor: Any, place: dict[int, int]) -> list[list[Fraction]]:
     """The symmetric matrix of the homogenised quadratic polynomial; the last row and column are for 1."""
     n, total = len(place), len(canon.ring.vars)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 from typing import ClassVar, get_args
 
 from pydantic import Field
@@ -26,7 +27,7 @@ class ConstraintBase(Model):
     @classmethod
     def kind(cls) -> str:
         """Its ``type``, as written."""
-        return str(get_args(cls.model_fields["type"].annotation)[0])
+        return _kind(cls)
 
     @classmethod
     def called(cls) -> str:
@@ -49,6 +50,11 @@ class ConstraintBase(Model):
     def shown(self) -> str:
         """One line for a person to read."""
         return self.kind()
+
+
+@cache
+def _kind(cls: type[ConstraintBase]) -> str:
+    return str(get_args(cls.model_fields["type"].annotation)[0])
 
 
 def labelled(vector: Vec, label: str = "{}") -> Iterator[Relation]:

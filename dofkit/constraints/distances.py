@@ -10,8 +10,8 @@ from pydantic import Field
 
 from dofkit.constants import approximate
 from dofkit.constraints.base import ConstraintBase, root
-from dofkit.expr import TIME, TWO, ZERO, Expr, add, mul, power, sqrt, substitute
-from dofkit.geometry import Placed, between, difference, minus, square
+from dofkit.expr import ONE, TIME, TWO, ZERO, Expr, add, mul, power, sqrt, substitute
+from dofkit.geometry import Placed, between, difference, minus, square, square_between
 from dofkit.parts import Ends, Point, show_point
 from dofkit.system import Relation
 from dofkit.values import Value, as_written
@@ -62,7 +62,7 @@ def _moves(length: Expr) -> bool:
 
 def distance(world: World, first: Placed, second: Placed, given: Expr | None) -> Expr:
     """|A - B|^2 - length^2, cleared of denominators."""
-    drawn = square(minus(second.reference, first.reference)) if first.reference and second.reference else None
+    drawn = square_between(first.reference, second.reference) if first.reference and second.reference else None
     if given is not None:
         squared = power(given, TWO)
         if squared.is_zero:
@@ -79,7 +79,7 @@ def distance(world: World, first: Placed, second: Placed, given: Expr | None) ->
     if drawn is not None and first.frame is not None and first.frame == second.frame:
         return difference(drawn, squared)
     arm, under = between(first, second)
-    return difference(square(arm), mul(squared, power(under, TWO)))
+    return difference(square(arm), squared if under is ONE else mul(squared, power(under, TWO)))
 
 
 def _check_length(world: World, first: Placed, second: Placed, given: Expr, *where: str | int) -> None:
@@ -90,7 +90,7 @@ def _check_length(world: World, first: Placed, second: Placed, given: Expr, *whe
         world.fault(f"a length cannot be negative ({shown:.6g})", *where)
     if first.reference is None or second.reference is None:
         return
-    drawn = square(minus(second.reference, first.reference))
+    drawn = square_between(first.reference, second.reference)
     if not world.differs(difference(power(start, TWO), drawn)):
         return
     measured = root(drawn)
@@ -159,7 +159,7 @@ class String(ConstraintBase):
             arm, under = between(first, second)
             parts.append(sqrt(square(arm)) / under)
             if first.reference is not None and second.reference is not None:
-                drawn.append(sqrt(square(minus(second.reference, first.reference))))
+                drawn.append(sqrt(square_between(first.reference, second.reference)))
         total = add(*drawn) if len(drawn) == len(parts) else None
         if self.length is not None:
             given = world.expression(self.length, "length")
