@@ -172,9 +172,9 @@ def _stdin() -> bytes:
 def _print_report(report: Report, title: str | None) -> None:
     from rich.console import Console
 
-    from dofkit.show.terminal import rendered
+    from dofkit.show.terminal import as_text
 
-    Console(soft_wrap=False).print(rendered(report, title))
+    typer.echo(as_text(report, title, Console()) + "\n")
 
 
 def _print_errors(told: _Told, as_json: bool) -> None:
