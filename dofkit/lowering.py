@@ -6,14 +6,14 @@ from dofkit.drawing import pose_of, reference_of
 from dofkit.errors import SceneError
 from dofkit.expr import parameter
 from dofkit.scene import Scene
-from dofkit.survey import Survey, names_by_position, survey
+from dofkit.survey import Survey, names_by_position, taken
 from dofkit.system import Force, Rotation, System
 from dofkit.world import World
 
 
 def lower(scene: Scene) -> System:
     """The coordinates and exact relations of a scene. Raises SceneError with all its faults if it has any."""
-    found = survey(scene)
+    found = taken(scene)
     if found.world.faults:
         raise SceneError(tuple(found.world.faults))
     return _system(scene, found)

@@ -9,8 +9,9 @@ from typing import NamedTuple, Protocol
 from dofkit.expr import Expr, parameter
 from dofkit.parts import BODY_ROLES, GROUND, PARTICLE_ROLES, Body, Particle
 from dofkit.system import Coordinate, Sign
-from dofkit.text import Names, valid_name
+from dofkit.text import Names, spelled, valid_name
 from dofkit.texts import Ledger, Texts
+from dofkit.values import nearest
 
 SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
 RESERVED = frozenset({"t", GROUND})
@@ -76,13 +77,22 @@ def read_parameters(scene: Declared, texts: Texts) -> tuple[dict[str, Expr], dic
     for name, value in scene.parameters.items():
         sign = next((sign for sign in SIGNS if sign == value), None)
         if sign is None:
-            if isinstance(value, str):
-                texts.names = Names(parameters=dict(stands))
-            stands[name] = texts.fixed(value, name)
+            stands[name] = _parameter_value(texts, stands, name, value)
         else:
             stands[name], signs[name] = parameter(name), sign
     texts.here = ()
     return stands, signs
+
+
+def _parameter_value(texts: Texts, before: Mapping[str, Expr], name: str, value: Fraction | str) -> Expr:
+    if isinstance(value, str) and value.isalpha() and value not in before:
+        near = nearest(value, SIGNS)
+        if near is not None:
+            texts.fault(f"there is no kind of parameter '{value}'", name, hint=f"did you mean '{near}'?")
+            return parameter(name)
+    texts.names = Names(parameters=dict(before))
+    texts.forget()
+    return texts.fixed(value, name)
 
 
 def declared_names(scene: Declared, table: Table, parameters: Mapping[str, Expr]) -> Names:
@@ -118,12 +128,12 @@ def check_names(scene: Declared, table: Table, ledger: Ledger) -> None:
     entries = [*_owned(scene, table), *_further(scene)]
     seen: dict[str, str] = {}
     for name, what, where in entries:
-        if name in seen:
-            ledger.fault(
-                f"the name '{name}' is given twice: {what} and {seen[name]}", *where, hint="rename one of them"
-            )
+        word = name if name.isascii() else spelled(name)
+        if word in seen:
+            told = f"{what} and {seen[word]}" if what != seen[word] else f"each time as {what}"
+            ledger.fault(f"the name '{name}' is given twice: {told}", *where, hint="rename one of them")
             continue
-        seen[name] = what
+        seen[word] = what
         if name in RESERVED:
             told = "time, and never declared" if name == "t" else "the fixed world, and never declared"
             ledger.fault(f"'{name}' is {told}", *where, hint="choose another name")

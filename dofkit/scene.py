@@ -14,7 +14,7 @@ from pydantic import BeforeValidator, Field, ValidationError, ValidatorFunctionW
 from dofkit.constraints import TYPES, AnyConstraint, ConstraintBase
 from dofkit.errors import Fault
 from dofkit.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, Force, Particle
-from dofkit.survey import survey
+from dofkit.survey import checked
 from dofkit.values import Listed, Model, Number, Value, exact, fault_at, fault_error, faults_of, retold, suggestion
 
 __all__ = ["Body", "BodyPoint", "Energies", "Force", "Particle", "Scene", "check", "faults_of"]
@@ -144,4 +144,4 @@ class Scene(Model):
 
 def check(scene: Scene) -> tuple[Fault, ...]:
     """Every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
-    return tuple(survey(scene).world.faults)
+    return checked(scene)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import weakref
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -11,6 +12,7 @@ from typing import Any, NamedTuple, Protocol
 from dofkit.constraints import ConstraintBase, On
 from dofkit.constraints.equations import LETTERS
 from dofkit.drawing import size_of
+from dofkit.errors import Fault
 from dofkit.expr import Expr
 from dofkit.naming import Declared, check_names, within_member
 from dofkit.parts import GROUND, Energies, Force, texts_of
@@ -76,6 +78,25 @@ def survey(scene: Surveyed) -> Survey:
         look(size)
     world.here = ()
     return Survey(world, constraints, size)
+
+
+#: Sound surveys made by `checked`, each until `taken` or until its scene is gone.
+_KEPT: dict[int, tuple[weakref.ref[Any], Survey]] = {}
+
+
+def checked(scene: Surveyed) -> tuple[Fault, ...]:
+    """The faults of a scene; where there are none the survey is kept for the lowering that follows."""
+    found = survey(scene)
+    if not found.world.faults:
+        key = id(scene)
+        _KEPT[key] = weakref.ref(scene, lambda _: _KEPT.pop(key, None)), found
+    return tuple(found.world.faults)
+
+
+def taken(scene: Surveyed) -> Survey:
+    """The survey that `checked` kept for this very scene, or a new one."""
+    reference, found = _KEPT.pop(id(scene), (None, None))
+    return found if reference is not None and found is not None and reference() is scene else survey(scene)
 
 
 def names_by_position(letter: str, given: Sequence[str | None]) -> tuple[str, ...]:

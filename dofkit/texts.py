@@ -58,6 +58,10 @@ class Texts(Ledger):
         super().__init__()
         self._read: dict[str, Expr | TextError] = {}
 
+    def forget(self) -> None:
+        """Forget what was read: the names have changed."""
+        self._read.clear()
+
     def parse(self, text: str) -> Expr | TextError:
         """The expression of a text, or why it is none."""
         found = self._read.get(text)

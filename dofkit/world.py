@@ -7,7 +7,8 @@ come to light at once. Geometry that is left out is asked for here too and becom
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.constants import approximate, differs_from_zero
@@ -36,8 +37,8 @@ class World(Texts):
 
     def __init__(self, scene: Declared) -> None:
         super().__init__()
-        self.scene = scene
         self.dimension = scene.dimension
+        self.tolerance = scene.tolerance
         self.generic: list[str] = []
         self.points: list[Vec] = []
         self.drawn: set[str] = set()
@@ -48,20 +49,20 @@ class World(Texts):
         self.table = coordinate_table(scene)
         self.parameters, self.signs = read_parameters(scene, self)
         self.names = declared_names(scene, self.table, self.parameters)
-        self._read.clear()
-        self.configuration = self._configuration()
+        self.forget()
+        self.configuration = self._configuration(scene.configuration)
         origin = (ZERO,) * self.dimension
         self.ground = Frame(GROUND, origin, origin, "fixed")
         self.frames: dict[str, Frame] = {}
         self.standing = {p.name: self._stands(i, p) for i, p in enumerate(scene.particles)}
         self._placed: dict[str, Placed] = {}
 
-    def _configuration(self) -> dict[str, Expr]:
+    def _configuration(self, given: Mapping[str, Fraction | str]) -> dict[str, Expr]:
         self.here = ("configuration",)
         known = [q.name for q in self.table.coordinates]
         names = frozenset(known)
         found: dict[str, Expr] = {}
-        for name, value in self.scene.configuration.items():
+        for name, value in given.items():
             if name in names:
                 found[name] = self.fixed(value, name)
             else:
@@ -205,8 +206,7 @@ class World(Texts):
 
     def within(self, distance: float | None, size: float) -> bool:
         """Whether a distance is inside the scene's tolerance."""
-        tolerance = self.scene.tolerance
-        return bool(tolerance) and distance is not None and abs(distance) <= float(tolerance or 0) * size
+        return distance is not None and bool(self.tolerance) and abs(distance) <= float(self.tolerance or 0) * size
 
     def check_later(self, check: Callable[[float], None]) -> None:
         """Run ``check(size)`` at the end, its faults at the present place."""
