@@ -80,6 +80,7 @@ class Setting:
     roles: tuple[Coordinate, ...] = ()
     tolerance: Fraction | None = None
     size: float = 1.0
+    grows: bool = True
 
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
@@ -314,7 +315,7 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
         spans = [(p, _span(forms, p)) for p in found.samples]
         good = [(p, s) for p, s in spans if s is not None]
         if good:
-            _field_labels(block, forms, found, good, result)
+            _field_labels(block, forms, found, good, result, setting.grows)
             _nonlinear(block, forms, setting, result)
             return result
     if found.real is not None and found.real.certified:
@@ -355,7 +356,7 @@ def _ball_span(forms: Codistribution, frame: Frame, point: BallPoint) -> tuple[S
 
 
 def _field_labels(
-    block: Block, forms: Codistribution, found: Variety, good: list[tuple[FieldPoint, Sampled]], result: Answer
+    block: Block, forms: Codistribution, found: Variety, good: list[tuple[FieldPoint, Sampled]], result: Answer, grows: bool
 ) -> None:
     point, sampled = max(good, key=lambda pair: pair[1].span.dimension)
     total, n = len(forms.chart.symbols), forms.n
@@ -365,7 +366,7 @@ def _field_labels(
     rank = len(sampled.frame.rows)
     result.velocity_dof = n - rank
     result.dof = n - integrable
-    result.growth = growth(forms.rows, sampled.frame, point, sampled.span.dimension)
+    result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if grows else None
     rank_finite = rank_of(sampled.matrix[: forms.finite], point.p)
     if found.dimension is None or found.dimension != n - rank_finite:
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True
@@ -515,7 +516,7 @@ def _form_rate(form: Pfaffian) -> Expr:
 def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:
     """A constraint's own rows with the others forgotten."""
     blocks, _ = split(coordinates, rows)
-    answers = [answer(b, replace(setting, pose={}, reference=None)) for b in blocks]
+    answers = [answer(b, replace(setting, pose={}, reference=None, grows=False)) for b in blocks]
     merged = Answer()
     for a in answers:
         merged.verdict = weakest(merged.verdict, a.verdict)

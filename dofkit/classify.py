@@ -334,7 +334,7 @@ def _entries(
         sharing = {t.answer.method for t in told[i]}
         by_itself = None
         if any(isinstance(row.piece, Pfaffian) for row in own):
-            by_itself = alone(own, setting, coordinates)
+            by_itself = _inherited(told[i]) or alone(own, setting, coordinates)
         circuit = circuits.get(i)
         entries.append(
             entry(
@@ -350,6 +350,13 @@ def _entries(
         )
         del sharing
     return entries
+
+
+def _inherited(told: Sequence[Told]) -> Answer | None:
+    """A single form that is non-holonomic in the system is so alone: what integrates alone integrates in any system."""
+    if len(told) != 1 or told[0].label is None or told[0].label.holonomic is not False:
+        return None
+    return Answer(labels={0: told[0].label})
 
 
 def _generalized(system: System, outcome: Outcome) -> list[str] | None:

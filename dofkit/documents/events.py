@@ -232,6 +232,6 @@ class Composer:
     def _tag(self, event: Any) -> None:
         if event.tag is None or event.tag in _TAGS:
             return
-        shown = event.tag.removeprefix(_CORE)
+        shown = event.tag.removeprefix(_CORE)[:60]
         hint = "take the tag away; a text that begins with '!' goes in double quotes"
         self._fault(event, f"the tag '{shown}' is not read", hint)

@@ -155,4 +155,4 @@ def _start(token: re.Match[str]) -> int:
 
 def twice(key: str) -> Fault:
     """A key that is written again in the same mapping."""
-    return Fault(f"the key '{key}' is written twice", hint="keep one of the two")
+    return Fault(f"the key '{key[:60]}' is written twice", hint="keep one of the two")

@@ -79,6 +79,10 @@ class Series:
     def coefficient(self, k: int) -> Scalar:
         return self.poly[k]
 
+    def truncated(self, order: int) -> Series:
+        """Modulo s^order."""
+        return Series(_truncate(self.poly, order), order)
+
     def derivative(self) -> Series:
         return Series(self.poly.derivative(), self.order)
 

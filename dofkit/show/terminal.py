@@ -52,7 +52,6 @@ def _parts(report: Report, title: str | None) -> Iterator[RenderableType]:
     yield from _section("Warnings", [_item("!", warning) for warning in report.warnings])
     told = [_item(name, text) for name, text in (("model", report.modelled), ("method", report.method)) if text]
     yield from _section("How", [*told, *_verdicts(report)])
-    yield Text()
 
 
 def _facts(report: Report) -> RenderableType:
