@@ -304,9 +304,6 @@ def _without_echoes(faults: Iterable[Fault]) -> list[Fault]:
 def _retold(fault: Fault) -> Fault:
     """A fault that says which field it is about, and what to do."""
     message, keys = fault.message, [key for key in fault.where if isinstance(key, str)]
-    if fault.where and isinstance(fault.where[-1], int) and message.endswith(f"needs '{fault.where[-1]}'"):
-        message = f"'{keys[-1]}' needs at least {fault.where[-1] + 1} entries"
-        return replace(fault, message=message, hint="add the entry that is missing")
     if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
         message = f"`{keys[-1]}`: {message}"
     return replace(fault, message=message, hint=fault.hint or _hint(fault.message))
