@@ -13,7 +13,7 @@ from flint import arb, nmod, nmod_mat
 from dofkit import expr as ex
 from dofkit.blocks import Block, Row, expressions, split, uses_time
 from dofkit.chart import Chart
-from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch, independent_part
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch, dependency_pattern, greedy_pivots, independent_part
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
@@ -149,8 +149,19 @@ def _finite_answer(block: Block, setting: Setting) -> Answer:
         _finite_matrix(chart, found, result)
     elif found.real is not None:
         result.method = "real points with balls"
-        result.matrix = []
+        _numeric_matrix(chart, found.real, result)
     return result
+
+
+def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
+    """Which relations depend on which, and which coordinates on which, from a regular real point."""
+    if real.matrix is None or not real.certified or not real.rows:
+        return
+    result.matrix = dependency_pattern(real.matrix, real.rows)
+    shown = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
+    columns = [i for i, s in enumerate(shown) if s != ex.TIME]
+    pivots = greedy_pivots(real.matrix[list(real.rows)][:, columns].T, len(real.rows))
+    result.dependent = tuple(str(shown[columns[i]].args[1]) for i in pivots)
 
 
 def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]) -> Answer | None:
@@ -423,6 +434,8 @@ def _label(
 
 def _integrable_names(forms: Codistribution, sampled: Sampled, point: FieldPoint) -> tuple[str, ...]:
     """Dependent coordinates: pivots of the annihilator of the Lie algebra."""
+    if not sampled.span.vectors:
+        return tuple(str(s.args[1]) for s in forms.chart.symbols if s != ex.TIME)
     vectors = nmod_mat([[int(v) for v in vector] for vector in sampled.span.vectors], point.p)
     basis, nullity = vectors.nullspace()
     rows = [[basis[i, k] for i in range(basis.nrows())] for k in range(nullity)]

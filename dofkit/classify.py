@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import product as cartesian
 
+import networkx as nx
+
 from dofkit import expr as ex
 from dofkit.analysis import Answer, Setting, alone, answer
 from dofkit.blocks import Block, Row, split, uses_time
@@ -244,6 +246,9 @@ def _instantaneous(system: System, outcome: Outcome) -> int | None:
 def _redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
     """Block by block, by the rank of the rows; where that does not measure dependence, by leaving constraints out."""
     found = [_void(reduced)]
+    if not outcome.consistent:
+        return found
+    parts: list[Rows] = []
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         if not block.rows or a.velocity_dof is None:
             continue
@@ -256,8 +261,17 @@ def _redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
         elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
             found.append(_by_leaving_out(block, setting, a, nullity))
         else:
-            found.append(analyse(Rows(matrix, owners, finite, a.modulus)))
-    return found
+            parts.append(Rows(matrix, owners, finite, a.modulus))
+    return found + [analyse(group) for group in _sharing(parts)]
+
+
+def _sharing(parts: Sequence[Rows]) -> list[list[Rows]]:
+    """Blocks that share a constraint are looked at together."""
+    graph: nx.Graph = nx.Graph()
+    for k, part in enumerate(parts):
+        graph.add_edges_from((("part", k), ("constraint", o)) for o in part.owners)
+    components = nx.connected_components(graph)
+    return [[parts[k] for kind, k in sorted(c) if kind == "part"] for c in components]
 
 
 def _void(reduced: Sequence[Reduced]) -> Redundancies:

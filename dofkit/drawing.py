@@ -13,7 +13,7 @@ from dofkit.parts import GROUND
 from dofkit.world import World
 
 #: Up to this many points every pair is measured.
-EVERY_PAIR = 300
+EVERY_PAIR = 1000
 
 
 def size_of(points: Sequence[Vec]) -> float:
@@ -28,17 +28,20 @@ def _numbers(point: Vec) -> tuple[float, ...] | None:
 
 
 def _diameter(points: list[tuple[float, ...]]) -> float:
-    """Among many points, the pairs that a first estimate leaves open: |p - q| <= |p - c| + |q - c|."""
+    """Among many points, only the pairs that a first estimate leaves open: |p - q| <= |p - c| + |q - c|.
+
+    If those are still too many, as on a sphere, the estimate: the extremes of a few dozen directions.
+    """
+    best = 0.0
     if len(points) > EVERY_PAIR:
-        corners = _extremes(points)
-        best = _diameter(corners)
+        best = _diameter(_extremes(points))
         centre = tuple((min(column) + max(column)) / 2 for column in zip(*points, strict=True))
         reach = [dist(point, centre) for point in points]
         furthest = max(reach)
         points = [p for p, far in zip(points, reach, strict=True) if far + furthest > best * (1 + 1e-9)]
         if len(points) > EVERY_PAIR:
             return best
-    return max((dist(p, q) for p, q in combinations(points, 2)), default=0.0)
+    return max(best, max((dist(p, q) for p, q in combinations(points, 2)), default=0.0))
 
 
 def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:

@@ -17,7 +17,7 @@ import numpy as np
 
 from dofkit import expr as ex
 from dofkit.chart import Chart
-from dofkit.exact.balls import FloatPoint, greedy_pivots, jacobian
+from dofkit.exact.balls import FloatPoint, dependency_pattern, greedy_pivots, jacobian
 from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.system import Coordinate
@@ -78,7 +78,7 @@ def measure(
     gap = float(singular[rank - 1]) / below if rank and below > 0 else float("inf")
     if np.any((singular > tolerance * SLACK) & (singular < tolerance * GREY)):
         return Measured(None, None, [], (), gap, "a singular value lies so near the tolerance that the rank is not decided")
-    pattern = dependency_pattern(j, rank, tolerance)
+    pattern = dependency_pattern(j, independent_rows(j, rank, tolerance))
     columns = tuple(greedy_pivots(j.T, rank))
     first = n - rank
     dimension, reason = _finite(scene, at, j, rank, tolerance, rigid)
@@ -99,23 +99,6 @@ def _finite(
     if first - rigid == 1:
         return rigid, "the one motion left to first order breaks the relations beyond the tolerance"
     return None, "some of the motions to first order are no finite motions; which was not decided"
-
-
-def dependency_pattern(j: Any, rank: int, tolerance: float) -> list[list[int]]:
-    """Which rows depend on which earlier ones, as a matrix over GF(2)."""
-    rows = independent_rows(j, rank, tolerance)
-    place = {r: i for i, r in enumerate(rows)}
-    pattern = []
-    for r in range(len(j)):
-        entry = [0] * max(len(rows), 1)
-        if r in place:
-            entry[place[r]] = 1
-        else:
-            weights = np.linalg.lstsq(j[rows].T, j[r], rcond=None)[0]
-            for i, w in enumerate(weights):
-                entry[i] = int(abs(w) > 1e-3)
-        pattern.append(entry)
-    return pattern
 
 
 def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:

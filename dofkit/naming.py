@@ -168,11 +168,11 @@ def _check_owners(scene: Declared, ledger: Ledger) -> None:
 
 
 def _owned(scene: Declared, table: Table) -> Iterator[Entry]:
+    told: set[str] = set()
     for key, one, owners, owned in (
         ("particles", "particle", scene.particles, table.particles),
         ("bodies", "body", scene.bodies, table.bodies),
     ):
-        told: set[str] = set()
         for i, owner in enumerate(owners):
             if owner.name in told:
                 continue

@@ -10,10 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import product as cartesian
 
 from dofkit import expr as ex
 from dofkit.errors import TextError
 from dofkit.expr import Expr
+from dofkit.quadratic import split_quadratic
 from dofkit.zeros import zero_set
 
 
@@ -53,6 +55,8 @@ class Inequality:
     expr: Expr
     strict: bool = False
 
+
+QUADRATIC_NOTE = "over the reals the quadratic form in the velocities splits into linear ones"
 
 Piece = Finite | Pfaffian | Nonlinear | Inequality
 #: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
@@ -174,11 +178,24 @@ def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
     branches, notes = zero_set(e, positive, frozenset(velocities_of(e)))
-    return Normal(tuple(tuple(_velocity_piece(g) for g in branch) for branch in branches), notes)
+    found: list[tuple[Piece, ...]] = []
+    said = list(notes)
+    for branch in branches:
+        options = [_velocity_pieces(g, positive) for g in branch]
+        if any(len(option) > 1 or len(option[0]) > 1 for option in options):
+            said.append(QUADRATIC_NOTE)
+        found += [tuple(p for part in choice for p in part) for choice in cartesian(*options)]
+    return Normal(tuple(found), tuple(dict.fromkeys(said)))
 
 
-def _velocity_piece(e: Expr) -> Piece:
+def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> list[tuple[Piece, ...]]:
+    """The branches of one irreducible relation in velocities."""
     if not velocities_of(e):
-        return Finite(e)
+        return [(Finite(e),)]
     form = linear_form(e)
-    return Nonlinear(e) if form is None else form
+    if form is not None:
+        return [(form,)]
+    split = split_quadratic(e, velocities_of(e), positive)
+    if split is None:
+        return [(Nonlinear(e),)]
+    return [tuple(f for g in branch if (f := linear_form(g)) is not None) for branch in split]

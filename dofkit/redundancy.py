@@ -51,29 +51,27 @@ class Rows:
         ]
 
 
-def analyse(rows: Rows) -> Redundancies:
-    """Redundant constraints, groups and circuits of one block."""
-    order = _order(rows)
-    basis = _Basis(rows, order)
-    independent = {owner: len(basis.pivot_rows_of(owner)) for owner in order}
-    if not basis.supports:
+def analyse(parts: Sequence[Rows]) -> Redundancies:
+    """Redundant constraints, groups and circuits of blocks that share constraints."""
+    order = _order(parts)
+    bases = [_Basis(part) for part in parts]
+    independent = {owner: sum(len(b.pivot_rows_of(owner)) for b in bases) for owner in order}
+    if not any(b.supports for b in bases):
         return Redundancies(independent, [], [], {})
-    groups = _groups(rows, basis)
+    groups = _groups(bases)
     redundant: list[int] = []
     for _, members in groups:
-        redundant += _droppable(rows, [o for o in order if o in members], basis)
-    circuits = {owner: _circuit(rows, order, owner, basis) for owner in redundant}
+        redundant += _droppable(parts, [o for o in order if o in members], bases)
+    circuits = {owner: _circuit(parts, order, owner, bases) for owner in redundant}
     return Redundancies(independent, sorted(redundant), groups, circuits)
 
 
 class _Basis:
-    """The first independent rows in the order of their constraints, and the others in terms of them."""
+    """The first independent rows, finite ones before differential ones, each as written, and the others in terms of them."""
 
-    def __init__(self, rows: Rows, order: Sequence[int]) -> None:
-        place = {owner: i for i, owner in enumerate(order)}
+    def __init__(self, rows: Rows) -> None:
         self.owners = rows.owners
-        numbers = sorted(range(len(rows.matrix)), key=lambda i: (place[rows.owners[i]], not rows.finite[i], i))
-        numbers.sort(key=lambda i: not rows.finite[i])
+        numbers = sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
         columns = [rows.matrix[i] for i in numbers]
         reduced, found = nmod_mat([list(column) for column in zip(*columns, strict=True)], rows.p).rref()
         self.pivots: list[int] = []
@@ -85,71 +83,76 @@ class _Basis:
             column += 1
         kept = set(self.pivots)
         self.supports = {
-            i: [self.pivots[r] for r in range(found) if reduced[r, c] != 0] for c, i in enumerate(numbers) if i not in kept
+            i: [self.pivots[r] for r in range(found) if reduced[r, c] != 0]
+            for c, i in enumerate(numbers)
+            if i not in kept
         }
 
     def pivot_rows_of(self, owner: int) -> list[int]:
         return [i for i in self.pivots if self.owners[i] == owner]
 
+    def circuit_of(self, owner: int) -> set[int]:
+        """The constraints whose rows the owner's dependent rows depend on."""
+        return {self.owners[j] for i, support in self.supports.items() if self.owners[i] == owner for j in support}
 
-def _order(rows: Rows) -> list[int]:
+
+def _order(parts: Sequence[Rows]) -> list[int]:
     """Constraints whose rows are all finite first, each part as written."""
-    owners = sorted(set(rows.owners))
-    differential = {o for o, f in zip(rows.owners, rows.finite, strict=True) if not f}
+    owners = sorted({o for part in parts for o in part.owners})
+    differential = {o for part in parts for o, f in zip(part.owners, part.finite, strict=True) if not f}
     return [o for o in owners if o not in differential] + [o for o in owners if o in differential]
 
 
-def _groups(rows: Rows, basis: _Basis) -> list[tuple[int, list[int]]]:
+def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
     """Constraints joined by circuits of rows."""
     graph: nx.Graph = nx.Graph()
-    for i, support in basis.supports.items():
-        graph.add_node(rows.owners[i])
-        graph.add_edges_from((rows.owners[i], rows.owners[j]) for j in support)
+    for basis in bases:
+        for i, support in basis.supports.items():
+            graph.add_node(basis.owners[i])
+            graph.add_edges_from((basis.owners[i], basis.owners[j]) for j in support)
     groups = []
     for component in nx.connected_components(graph):
-        nullity = sum(rows.owners[i] in component for i in basis.supports)
+        nullity = sum(b.owners[i] in component for b in bases for i in b.supports)
         groups.append((nullity, sorted(component)))
     return sorted(groups, key=lambda group: group[1])
 
 
-def _spans(rows: Rows, kept: set[int], everything: set[int], full: int, full_finite: int) -> bool:
+def _spans(parts: Sequence[Rows], kept: set[int], everything: set[int]) -> bool:
     """Do the kept constraints imply the others? Finite ones only by finite ones: a rate does not fix a constant."""
-    if rank(rows.of(kept), rows.p) != full:
-        return False
-    return rank(rows.of(kept, finite_only=True), rows.p) == full_finite
+    return all(
+        rank(part.of(kept, only), part.p) == rank(part.of(everything, only), part.p)
+        for part in parts
+        for only in (False, True)
+    )
 
 
-def _droppable(rows: Rows, members: list[int], basis: _Basis) -> list[int]:
+def _droppable(parts: Sequence[Rows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
     """As many constraints of a group as can go together; of several choices the last in the order."""
-    if len(members) > SEARCHED or all(list(rows.owners).count(o) == 1 for o in members):
-        return [o for o in members if not basis.pivot_rows_of(o)]
+    if len(members) > SEARCHED or all(sum(list(p.owners).count(o) for p in parts) == 1 for o in members):
+        return [o for o in members if not any(b.pivot_rows_of(o) for b in bases)]
     everything = set(members)
-    full, full_finite = rank(rows.of(everything), rows.p), rank(rows.of(everything, finite_only=True), rows.p)
     kept, dropped = set(members), []
     for owner in reversed(members):
-        if _spans(rows, kept - {owner}, everything, full, full_finite):
+        if _spans(parts, kept - {owner}, everything):
             kept.discard(owner)
             dropped.append(owner)
     for size in range(len(members) - 1, len(dropped), -1):
         for choice in combinations(reversed(members), size):
-            if _spans(rows, everything - set(choice), everything, full, full_finite):
+            if _spans(parts, everything - set(choice), everything):
                 return list(choice)
     return dropped
 
 
-def _circuit(rows: Rows, order: list[int], owner: int, basis: _Basis) -> list[int]:
+def _circuit(parts: Sequence[Rows], order: list[int], owner: int, bases: Sequence[_Basis]) -> list[int]:
     """A minimal set of other constraints on which a redundant one depends, of those before it where that can be."""
-    own_rows = [i for i, o in enumerate(rows.owners) if o == owner]
-    if all(i in basis.supports for i in own_rows):
-        supports = {rows.owners[j] for i in own_rows for j in basis.supports[i]} - {owner}
-        if len(own_rows) == 1:
+    if not any(b.pivot_rows_of(owner) for b in bases):
+        supports = set().union(*(b.circuit_of(owner) for b in bases)) - {owner}
+        if sum(list(p.owners).count(owner) for p in parts) == 1:
             return sorted(supports)
         kept = [o for o in order if o in supports]
     else:
         kept = [o for o in order if o != owner]
-    own = rows.of({owner})
     for other in reversed(list(kept)):
-        fewer = rows.of(set(kept) - {other})
-        if rank(fewer, rows.p) == rank([*fewer, *own], rows.p):
+        if _spans(parts, set(kept) - {other}, (set(kept) - {other}) | {owner}):
             kept.remove(other)
     return sorted(kept)

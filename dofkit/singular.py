@@ -18,6 +18,8 @@ from dofkit.rigid import rigid_motions_real
 #: Working precision, steps (each halves the distance to the singular point), and the radius given to the result.
 BITS, STEPS, RADIUS_BITS = 700, 110, 84
 MAX_ROWS = 40
+#: A gradient shorter than this at the converged point is taken for 0.
+TINY = 1e-12
 
 
 def numeric_local(chart: Chart, real: RealPoint) -> Local | None:
@@ -42,6 +44,7 @@ def _look(chart: Chart, real: RealPoint) -> Local | None:
     columns = [c for c in chart.columns if c >= 0]
     place = [i for i, c in enumerate(chart.columns) if c >= 0]
     j = np.array([[float(v.mid()) for v in row] for row in jacobian(chart.ring, at, point, chart.nodes, columns, arb(0))])
+    j[np.linalg.norm(j, axis=1) < TINY] = 0.0
     _, gap, rows, pivots = independent_part(j)
     if gap < 1e6:
         return None

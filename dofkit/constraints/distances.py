@@ -10,8 +10,8 @@ from pydantic import Field
 
 from dofkit.constants import approximate
 from dofkit.constraints.base import ConstraintBase, root
-from dofkit.expr import ONE, TIME, TWO, ZERO, Expr, add, mul, power, sqrt, substitute
-from dofkit.geometry import Placed, between, difference, square, square_between
+from dofkit.expr import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt, substitute
+from dofkit.geometry import Placed, Vec, between, difference, square, square_between
 from dofkit.parts import Ends, Point, show_point
 from dofkit.system import Relation
 from dofkit.values import Value, as_written
@@ -157,7 +157,7 @@ class String(ConstraintBase):
                 world.fault(f"the string passes {first.label} twice in a row", "along", i + 1)
                 return
             arm, under = between(first, second)
-            parts.append(sqrt(square(arm)) / under)
+            parts.append(_length(arm) / under)
             if first.reference is not None and second.reference is not None:
                 drawn.append(sqrt(square_between(first.reference, second.reference)))
         total = add(*drawn) if len(drawn) == len(parts) else None
@@ -177,6 +177,10 @@ class String(ConstraintBase):
     def shown(self) -> str:
         run = "-".join(show_point(point) for point in self.along)
         return f"string {run}" + ("" if self.length is None else f", length {as_written(self.length)}")
+
+
+def _length(arm: Vec) -> Expr:
+    return fn("abs", arm[0]) if len(arm) == 1 else sqrt(square(arm))
 
 
 def _check_string(world: World, given: Expr, drawn: Expr) -> None:

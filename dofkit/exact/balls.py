@@ -62,13 +62,20 @@ class FloatPoint(_RealPoint):
         if var.kind == "call":
             return self.call(var)
         if var.kind == "root":
-            u = args[0]
-            return u ** (1 / var.degree) if u >= 0 or var.degree % 2 == 0 else -((-u) ** (1 / var.degree))
+            return _real_root(float(args[0]), var.degree)
         if var.kind == "sign":
             return math.copysign(1.0, args[0])
         if var.kind == "atan2":
             return math.atan2(args[0], args[1])
         return float(_FLOAT[var.kind](args[0]))
+
+
+def _real_root(u: float, degree: int) -> float:
+    if u >= 0:
+        return float(u ** (1 / degree))
+    if degree % 2 == 0:
+        raise ValueError("an even root of a negative number")
+    return -float((-u) ** (1 / degree))
 
 
 _FLOAT: dict[str, Callable[[float], float]] = {
@@ -122,6 +129,7 @@ class RealPoint:
     certified: bool
     consistent: bool
     gap: float
+    matrix: np.ndarray | None = None
 
 
 def jacobian(
@@ -238,14 +246,14 @@ class RealSearch:
             return None
         consistent = all(at[n].contains(0) for n in self.nodes)
         if self.ranked is not None and rank:
-            rank, gap, rows = self._rank_at(point, at)
-        return RealPoint(point, rank, tuple(rows), certified, consistent, gap)
+            j = self._ranked_jacobian(point, at)
+            rank, gap, rows, _ = independent_part(j)
+        return RealPoint(point, rank, tuple(rows), certified, consistent, gap, j)
 
-    def _rank_at(self, point: BallPoint, at: Sequence[Scalar]) -> tuple[int, float, list[int]]:
-        """The numerical rank by the ranked symbols only."""
+    def _ranked_jacobian(self, point: BallPoint, at: Sequence[Scalar]) -> np.ndarray:
+        """By the ranked symbols only, to working precision."""
         j = jacobian(self.ring, at, point, self.nodes, self.ranked or [], arb(0))
-        rank, gap, rows, _ = independent_part(np.array([[float(v.mid()) for v in row] for row in j]))
-        return rank, gap, rows
+        return np.array([[float(v.mid()) for v in row] for row in j])
 
     def _newton(
         self, exact: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
@@ -293,7 +301,7 @@ def independent_part(j: np.ndarray) -> tuple[int, float, list[int], list[int]]:
     below = float(singular[rank]) if rank < len(singular) else 0.0
     gap = math.inf if below == 0 or rank == 0 else float(singular[rank - 1]) / below
     rows = greedy_rows(scaled, rank)
-    columns = greedy_pivots(scaled[rows].T, len(rows))
+    columns = greedy_pivots(scaled[rows].T, len(rows)) if rows else []
     return len(rows), gap, rows, columns
 
 
@@ -311,6 +319,21 @@ def greedy_rows(matrix: np.ndarray, rank: int) -> list[int]:
         if len(kept) == rank:
             break
     return kept
+
+
+def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
+    """Which rows depend on which of the independent ``rows``, as a matrix over GF(2)."""
+    place = {r: i for i, r in enumerate(rows)}
+    pattern = []
+    for r in range(len(j)):
+        entry = [0] * max(len(rows), 1)
+        if r in place:
+            entry[place[r]] = 1
+        elif rows:
+            weights = np.linalg.lstsq(j[list(rows)].T, j[r], rcond=None)[0]
+            entry = [int(abs(w) > 1e-3 * max(1e-300, float(np.max(np.abs(weights))))) for w in weights]
+        pattern.append(entry)
+    return pattern
 
 
 def greedy_pivots(matrix: np.ndarray, rank: int) -> list[int]:

@@ -65,6 +65,12 @@ class Algebra:
         if self.steps < 0 or cost > MAX_NODES // 8:
             raise GivenUpError
 
+    def tick(self) -> None:
+        """Count a step that is no canonical form."""
+        self.steps -= 1
+        if self.steps < 0:
+            raise GivenUpError
+
     def lowered(self, expressions: Sequence[Expr]) -> tuple[Canon, list[Quotient]]:
         """Quotients in lowest terms over one set of generators."""
         self.spend(expressions)

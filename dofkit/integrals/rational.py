@@ -67,7 +67,7 @@ def _rational(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     constant, factors = _constant_and_factors(bottom, coefficients)
     if any(coefficients.degree(f) > 2 for f, _ in factors):
         return None
-    pieces = _pieces(factors, degree_top - degree_bottom, canon.gens[place], canon.one)
+    pieces = _pieces(factors, degree_top - degree_bottom, canon.gens[place])
     rows = _rows(top, constant, factors, pieces, coefficients)
     found = solve(rows, canon.one)
     if found is None:
@@ -111,13 +111,12 @@ def _constant_and_factors(bottom: Poly, powers: _Powers) -> tuple[Poly, list[tup
 Piece = tuple[Poly | None, int, int]
 
 
-def _pieces(factors: list[tuple[Poly, int]], surplus: int, gen: Poly, one: Poly) -> list[Piece]:
+def _pieces(factors: list[tuple[Poly, int]], surplus: int, gen: Poly) -> list[Piece]:
     """The unknown parts of the decomposition."""
     pieces: list[Piece] = [(None, 0, k) for k in range(surplus + 1)]
     for f, multiplicity in factors:
-        two = (f.derivative(0) if False else f) is f and _is_quadratic(f, gen)
         for k in range(1, multiplicity + 1):
-            pieces.extend((f, k, power) for power in range(2 if two else 1))
+            pieces.extend((f, k, power) for power in range(2 if _is_quadratic(f, gen) else 1))
     return pieces
 
 
@@ -145,7 +144,7 @@ def _rows(
 
 def _assembled(work: Algebra, canon: Canon, pieces: list[Piece], found: list[Expr], x: Expr) -> Expr | None:
     total: list[Expr] = []
-    grouped: dict[tuple[Poly, int], list[Expr]] = {}
+    grouped: dict[tuple[Expr, int], list[Expr]] = {}
     for (factor, k, power), value in zip(pieces, found, strict=True):
         if factor is None:
             total.append(value * x ** (power + 1) / (power + 1))

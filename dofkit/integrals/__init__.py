@@ -1,0 +1,108 @@
+"""Integrals of Pfaffian forms: f and mu with df = mu omega, found by rules and proved by differentiating.
+
+A result is returned only where df = mu omega holds identically in the canonical ring, component by
+component, and mu is seen not to vanish at a point; a form for which no rule applies gives None. The
+work is bounded by a count, not by a clock: the same form always gives the same result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dofkit import expr as ex
+from dofkit.expr import Expr
+from dofkit.integrals.algebra import Algebra, GivenUpError, size
+from dofkit.integrals.factors import FAMILIES, MAX_VARIABLES
+from dofkit.integrals.potential import Form, potential
+from dofkit.integrals.shapes import Pair, arranged, cost, shapes
+from dofkit.labels import certainly_nonzero
+from dofkit.normal import Pfaffian
+from dofkit.text import to_text
+
+__all__ = ["Found", "integrate"]
+
+#: Forms past this size, in nodes, are left alone.
+MAX_FORM = 300
+#: A result this easy to read ends the search.
+EASY = 14
+
+
+@dataclass(frozen=True)
+class Found:
+    """The finite relation a form integrates to, as text.
+
+    ``factor``: the integrating factor mu, e.g. ``1/x^2``; None where the form is closed as written.
+    ``integral``: ``f = C``, e.g. ``y/x = C``; d f = mu omega.
+    """
+
+    factor: str | None
+    integral: str
+
+
+def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Found | None:
+    """f = C and mu with df = mu omega in (q, t), proved; None where none was found."""
+    work = Algebra(positive)
+    try:
+        return _integrate(work, form)
+    except (GivenUpError, RecursionError, ZeroDivisionError, OverflowError):
+        return None
+
+
+def _integrate(work: Algebra, form: Pfaffian) -> Found | None:
+    items = {s: a for s, a in form.items() if not work.vanishes(a)}
+    if not items or sum(size(a) for a in items.values()) > MAX_FORM:
+        return None
+    mentioned = {s for a in items.values() for s in a.symbols if s.args[0] in ("coordinate", "time")} - set(items)
+    whole: Form = items | {s: ex.ZERO for s in sorted(mentioned, key=repr)}
+    if work.closed(whole):
+        closed = potential(work, whole)
+        if closed is not None:
+            for shown in dict.fromkeys((arranged(closed), closed)):
+                if _proved(work, whole, (shown, ex.ONE)):
+                    return Found(None, f"{to_text(shown)} = C")
+    return _with_factor(work, whole)
+
+
+def _with_factor(work: Algebra, form: Form) -> Found | None:
+    """The simplest of the integrals that the first fruitful families of factors give."""
+    best: Pair | None = None
+    try:
+        for pair in _pairs(work, form):
+            if best is None or cost(pair) < cost(best):
+                best = pair
+            if cost(best)[0] <= EASY:
+                break
+    except GivenUpError:
+        pass
+    return None if best is None else Found(to_text(best[1]), f"{to_text(best[0])} = C")
+
+
+def _pairs(work: Algebra, form: Form) -> Iterator[Pair]:
+    found = False
+    for family in FAMILIES if len(form) <= MAX_VARIABLES else FAMILIES[:1]:
+        for mu in family(work, form):
+            pair = _integral(work, form, mu)
+            if pair is not None:
+                found = True
+                yield pair
+        if found:
+            return
+
+
+def _integral(work: Algebra, form: Form, mu: Expr) -> Pair | None:
+    """The integral that belongs to a factor, in its simplest proved shape."""
+    scaled = {s: a if a.is_zero else work.tidy(mu * a) for s, a in form.items()}
+    if not work.closed(scaled):
+        return None
+    found = potential(work, scaled)
+    if found is None:
+        return None
+    return next((pair for pair in shapes(work, (found, mu)) if _proved(work, form, pair)), None)
+
+
+def _proved(work: Algebra, form: Form, pair: Pair) -> bool:
+    """df = mu omega identically, and mu is not zero."""
+    integral, mu = pair
+    holds = all(work.vanishes(ex.diff(integral, s) - mu * a) for s, a in form.items())
+    return holds and (mu.op == "num" or certainly_nonzero(mu, work.positive))

@@ -1,0 +1,127 @@
+"""The same integral in other words: logarithms, roots and reciprocals taken away, factors in a fixed order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from math import gcd, lcm
+
+from dofkit import expr as ex
+from dofkit.expr import Expr
+from dofkit.integrals.algebra import Algebra, size
+from dofkit.integrals.antiderivative import as_power
+from dofkit.text import to_text
+
+#: (integral, factor).
+Pair = tuple[Expr, Expr]
+
+_KINDS = {"parameter": 0, "coordinate": 1, "time": 2}
+
+
+def _rank(factor: Expr) -> tuple[int, str]:
+    """Numbers, parameters, coordinates, time, then whatever is not a power of a symbol."""
+    base, _ = as_power(factor)
+    if base.op == "num":
+        return -1, ""
+    return (_KINDS.get(base.args[0], 3), base.args[1]) if base.op == "sym" else (4, "")
+
+
+def arranged(e: Expr) -> Expr:
+    """``e`` with factors sorted and a term without a minus sign first."""
+    parts = tuple(arranged(child) for child in ex.children(e))
+    if e.op == "mul":
+        return Expr("mul", tuple(sorted(parts, key=_rank)))
+    if e.op == "add":
+        first = next((i for i, term in enumerate(parts) if not to_text(term).startswith("-")), 0)
+        return Expr("add", (parts[first], *parts[:first], *parts[first + 1 :]))
+    return ex.rebuild(e, parts) if parts else e
+
+
+def cost(pair: Pair) -> tuple[int, int]:
+    """How much there is to read: functions count extra."""
+    integral, factor = pair
+    return _reading(integral), _reading(factor)
+
+
+def _reading(e: Expr) -> int:
+    functions = sum(3 for n in ex.nodes(e) if n.op == "fn" or (n.op == "pow" and n.args[1].op != "num"))
+    return len(to_text(e)) + functions
+
+
+def shapes(work: Algebra, pair: Pair) -> list[Pair]:
+    """``pair`` and its other forms, the simplest first."""
+    found = list(_scaled(work, pair))
+    for first in list(found):
+        for other in (_without_logs(first), _without_roots(first), _reciprocal(first)):
+            if other is not None:
+                found.extend(_scaled(work, other))
+    for first in found[2:]:
+        for other in (_without_roots(first), _reciprocal(first)):
+            if other is not None:
+                found.extend(_scaled(work, other))
+    return sorted(dict.fromkeys(found), key=cost)
+
+
+def _scaled(work: Algebra, pair: Pair) -> Iterator[Pair]:
+    """As built and as one quotient, constant factors taken out."""
+    integral, factor = pair
+    for shown in dict.fromkeys((integral, work.tidy(integral))):
+        constant = _constant(shown)
+        yield arranged(shown / constant), arranged(work.tidy(factor / constant))
+
+
+def _constant(e: Expr) -> Expr:
+    """The factor of ``e`` free of coordinates and time; of a sum, its rational content with the first sign."""
+    if e.op == "mul":
+        return ex.mul(*(f for f in e.args if all(s.args[0] == "parameter" for s in f.symbols)))
+    if e.op != "add":
+        return ex.ONE
+    numbers = [t.args[0].args[0] if t.op == "mul" and t.args[0].op == "num" else Fraction(1) for t in e.args]
+    content = Fraction(gcd(*(n.numerator for n in numbers)), lcm(*(n.denominator for n in numbers)))
+    return ex.num(-content if all(n < 0 for n in numbers) else content)
+
+
+def _logs(e: Expr) -> tuple[dict[Expr, Fraction], list[Expr]]:
+    """The sum's terms c log(u) with rational c as u -> c, and the other terms."""
+    logs: dict[Expr, Fraction] = {}
+    rest = []
+    for term in e.args if e.op == "add" else (e,):
+        factors = term.args if term.op == "mul" else (term,)
+        number = factors[0].args[0] if factors[0].op == "num" else Fraction(1)
+        last = factors[-1]
+        if last.op == "fn" and last.args[0] == "log" and len(factors) - (factors[0].op == "num") == 1:
+            logs[last.args[1]] = logs.get(last.args[1], Fraction(0)) + number
+        else:
+            rest.append(term)
+    return logs, rest
+
+
+def _without_logs(pair: Pair) -> Pair | None:
+    """exp(k f) where f holds logarithms with rational coefficients."""
+    integral, factor = pair
+    logs, rest = _logs(integral)
+    if not logs:
+        return None
+    k = Fraction(lcm(*(c.denominator for c in logs.values())), gcd(*(c.numerator for c in logs.values())) or 1)
+    powers = [ex.power(u, ex.num(c * k)) for u, c in logs.items()]
+    whole = ex.mul(*powers, ex.fn("exp", ex.add(*rest) * k)) if rest else ex.mul(*powers)
+    return whole, whole * factor * k
+
+
+def _without_roots(pair: Pair) -> Pair | None:
+    """f^k for a product of powers with fractions in the exponents."""
+    integral, factor = pair
+    parts = integral.args if integral.op == "mul" else (integral,)
+    k = lcm(*(as_power(part)[1].denominator for part in parts))
+    if k == 1 or k > 6:
+        return None
+    whole = ex.mul(*(ex.power(base, ex.num(e * k)) for base, e in map(as_power, parts)))
+    return whole, factor * k * integral ** (k - 1)
+
+
+def _reciprocal(pair: Pair) -> Pair | None:
+    """1/f where that is no longer than f."""
+    integral, factor = pair
+    if integral.is_zero or integral.op == "add" or size(integral) > 60:
+        return None
+    return 1 / integral, -factor / integral**2
