@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain, count
 
 from dofkit import expr as ex
 from dofkit.expr import Expr
 from dofkit.integrals.algebra import Algebra, GivenUpError, size
 from dofkit.integrals.factors import FAMILIES, MAX_VARIABLES
 from dofkit.integrals.potential import Form, potential
-from dofkit.integrals.shapes import Pair, arranged, cost, shapes
+from dofkit.integrals.shapes import Pair, arranged, cost, shapes, upright
 from dofkit.labels import certainly_nonzero
 from dofkit.normal import Pfaffian
 from dofkit.text import to_text
@@ -54,13 +55,13 @@ def _integrate(work: Algebra, form: Pfaffian) -> Found | None:
     if not items or sum(size(a) for a in items.values()) > MAX_FORM:
         return None
     mentioned = {s for a in items.values() for s in a.symbols if s.args[0] in ("coordinate", "time")} - set(items)
-    whole: Form = items | {s: ex.ZERO for s in sorted(mentioned, key=repr)}
+    whole: Form = items | dict.fromkeys(sorted(mentioned, key=repr), ex.ZERO)
     if work.closed(whole):
         closed = potential(work, whole)
         if closed is not None:
-            for shown in dict.fromkeys((arranged(closed), closed)):
+            for shown in dict.fromkeys((arranged(upright(closed)), arranged(closed), closed)):
                 if _proved(work, whole, (shown, ex.ONE)):
-                    return Found(None, f"{to_text(shown)} = C")
+                    return Found(None, _equation(shown, whole))
     return _with_factor(work, whole)
 
 
@@ -75,7 +76,14 @@ def _with_factor(work: Algebra, form: Form) -> Found | None:
                 break
     except GivenUpError:
         pass
-    return None if best is None else Found(to_text(best[1]), f"{to_text(best[0])} = C")
+    return None if best is None else Found(to_text(best[1]), _equation(best[0], form))
+
+
+def _equation(integral: Expr, form: Form) -> str:
+    """``f = C``, with C1, C2, ... where the form itself has a C."""
+    taken = {s.args[1] for s in form} | {s.args[1] for a in form.values() for s in a.symbols}
+    constant = next(name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
+    return f"{to_text(integral)} = {constant}"
 
 
 def _pairs(work: Algebra, form: Form) -> Iterator[Pair]:

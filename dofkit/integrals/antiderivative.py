@@ -54,10 +54,7 @@ def _term(work: Algebra, term: Expr, x: Expr, depth: int) -> Expr | None:
     constants, factors = _split(term, x)
     if not factors:
         return term * x
-    if len(factors) == 1:
-        found = _single(work, factors[0], x, depth)
-    else:
-        found = _product(work, factors, x, depth)
+    found = _single(work, factors[0], x, depth) if len(factors) == 1 else _product(work, factors, x, depth)
     return None if found is None else ex.mul(constants, found)
 
 
@@ -125,7 +122,8 @@ def _of_function(name: str, u: Expr) -> Expr | None:
 
 
 def _power(work: Algebra, e: Expr, x: Expr) -> Expr | None:
-    base, exponent = e.args
+    base: Expr = e.args[0]
+    exponent: Expr = e.args[1]
     if x in exponent.symbols:
         straight = linear(exponent, x)
         return None if x in base.symbols or straight is None else e / (straight[0] * ex.fn("log", base))

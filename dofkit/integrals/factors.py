@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import combinations
+from typing import Any
 
 from dofkit import expr as ex
 from dofkit.exact.canon import Canon
@@ -85,8 +86,8 @@ def combinations_of(form: Form) -> Iterator[tuple[Expr, dict[Expr, Expr]]]:
         yield s, {s: _W}
     variables = [s for s, a in form.items() if not a.is_zero]
     if len(variables) > 2:
-        yield ex.add(*(s * s for s in variables)), {s: ex.ZERO for s in variables[1:]} | {variables[0]: ex.sqrt(_W)}
-        yield ex.add(*variables), {s: ex.ZERO for s in variables[1:]} | {variables[0]: _W}
+        yield ex.add(*(s * s for s in variables)), dict.fromkeys(variables[1:], ex.ZERO) | {variables[0]: ex.sqrt(_W)}
+        yield ex.add(*variables), dict.fromkeys(variables[1:], ex.ZERO) | {variables[0]: _W}
     for s, u in combinations(variables, 2):
         yield s * u, {s: _W, u: ex.ONE}
         yield s / u, {s: _W, u: ex.ONE}
@@ -172,7 +173,7 @@ def separable(work: Algebra, form: Form) -> Iterator[Expr]:
 
 
 def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
-    """mu = prod g_k^c_k over variables, irreducible factors of coefficients and exponentials, c_k constants (Darboux)."""
+    """mu = prod g_k^c_k over variables, factors of coefficients and exponentials, c_k constants (Darboux)."""
     logs = _candidates(work, form)
     if not logs:
         return
@@ -183,7 +184,7 @@ def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
 
 def _candidates(work: Algebra, form: Form) -> list[Expr]:
     """log of factors, and the exponents x and x^2/2."""
-    bases: dict[Expr, None] = {s: None for s in form}
+    bases: dict[Expr, None] = dict.fromkeys(form)
     for coefficient in form.values():
         tidy = work.tidy(coefficient)
         for factor in tidy.args if tidy.op == "mul" else (tidy,):
@@ -218,7 +219,7 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
 def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Quotient]]:
     """One equation for every monomial in the generators that are not ``fixed``."""
     count = len(canon.ring.vars)
-    parts: dict[tuple[int, ...], list[dict[tuple[int, ...], object]]] = {}
+    parts: dict[tuple[int, ...], list[dict[tuple[int, ...], Any]]] = {}
     for column, poly in enumerate(polys):
         for exponents, coefficient in poly.to_dict().items():
             inside = tuple(int(k) if count - 1 - i in fixed else 0 for i, k in enumerate(exponents))

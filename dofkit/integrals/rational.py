@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 from dofkit import expr as ex
 from dofkit.exact.canon import Canon
@@ -41,7 +42,7 @@ def negative(work: Algebra, e: Expr) -> bool:
     if tidy.op == "mul":
         signs = [f.args[0] < 0 for f in tidy.args if f.op == "num"]
         sums = [f for f in tidy.args if f.op == "add" and negative(work, f)]
-        return (sum(signs) + len(sums)) % 2 == 1
+        return bool((sum(signs) + len(sums)) % 2)
     if tidy.op == "add":
         return all(negative(work, term) for term in tidy.args)
     return tidy.op == "num" and bool(tidy.args[0] < 0)
@@ -86,7 +87,7 @@ class _Powers:
         return max(0, int(poly.degrees()[-1 - self.place]))
 
     def coefficients(self, poly: Poly, count: int) -> list[Poly]:
-        terms: list[dict[tuple[int, ...], object]] = [{} for _ in range(count)]
+        terms: list[dict[tuple[int, ...], Any]] = [{} for _ in range(count)]
         for exponents, coefficient in poly.to_dict().items():
             at = list(exponents)
             power, at[-1 - self.place] = int(at[-1 - self.place]), 0

@@ -23,18 +23,52 @@ def _rank(factor: Expr) -> tuple[int, str]:
     base, _ = as_power(factor)
     if base.op == "num":
         return -1, ""
-    return (_KINDS.get(base.args[0], 3), base.args[1]) if base.op == "sym" else (4, "")
+    return (_KINDS.get(base.args[0], 3), base.args[1]) if base.op == "sym" else (4, to_text(base))
+
+
+def _place(term: Expr) -> tuple[bool, bool, list[tuple[int, str]]]:
+    """Polynomial terms by their variables, then functions, numbers last."""
+    moving = sorted(_rank(s) for s in term.symbols if s.args[0] != "parameter")
+    return not term.symbols, any(n.op in ("fn", "call") for n in ex.nodes(term)), moving
 
 
 def arranged(e: Expr) -> Expr:
-    """``e`` with factors sorted and a term without a minus sign first."""
+    """``e`` with terms and factors sorted, a term without a minus sign first, exp(u)^k as exp(k u)."""
     parts = tuple(arranged(child) for child in ex.children(e))
     if e.op == "mul":
-        return Expr("mul", tuple(sorted(parts, key=_rank)))
+        return _product(parts)
+    if e.op == "pow" and _is_exp(parts[0]):
+        return ex.fn("exp", arranged(parts[1] * parts[0].args[1]))
     if e.op == "add":
-        first = next((i for i, term in enumerate(parts) if not to_text(term).startswith("-")), 0)
-        return Expr("add", (parts[first], *parts[:first], *parts[first + 1 :]))
+        terms = sorted(parts, key=_place)
+        first = next((i for i, term in enumerate(terms) if not to_text(term).startswith("-")), 0)
+        return Expr("add", (terms[first], *terms[:first], *terms[first + 1 :]))
     return ex.rebuild(e, parts) if parts else e
+
+
+def _is_exp(e: Expr) -> bool:
+    return e.op == "fn" and e.args[0] == "exp"
+
+
+def _product(parts: tuple[Expr, ...]) -> Expr:
+    others = sorted((p for p in parts if not _is_exp(p)), key=_rank)
+    exponents = [p.args[1] for p in parts if _is_exp(p)]
+    if exponents:
+        total = arranged(ex.add(*exponents)) if len(exponents) > 1 else exponents[0]
+        others += [] if total.is_zero else [ex.fn("exp", total)]
+    return others[0] if len(others) == 1 else Expr("mul", tuple(others))
+
+
+def upright(e: Expr) -> Expr:
+    """-atan(u/v) as atan(v/u), which differs from it by a constant."""
+    if e.op == "add":
+        return ex.add(*map(upright, e.args))
+    if e.op != "mul" or e.args[0].op != "num" or e.args[0].args[0] > 0:
+        return e
+    last = e.args[-1]
+    if last.op != "fn" or last.args[0] != "atan" or not any(as_power(f)[1] < 0 for f in last.args[1].args[:4]):
+        return e
+    return -ex.mul(*e.args[:-1], ex.fn("atan", 1 / last.args[1]))
 
 
 def cost(pair: Pair) -> tuple[int, int]:
@@ -65,7 +99,7 @@ def shapes(work: Algebra, pair: Pair) -> list[Pair]:
 def _scaled(work: Algebra, pair: Pair) -> Iterator[Pair]:
     """As built and as one quotient, constant factors taken out."""
     integral, factor = pair
-    for shown in dict.fromkeys((integral, work.tidy(integral))):
+    for shown in dict.fromkeys((upright(integral), integral, work.tidy(integral))):
         constant = _constant(shown)
         yield arranged(shown / constant), arranged(work.tidy(factor / constant))
 
@@ -104,6 +138,8 @@ def _without_logs(pair: Pair) -> Pair | None:
         return None
     k = Fraction(lcm(*(c.denominator for c in logs.values())), gcd(*(c.numerator for c in logs.values())) or 1)
     powers = [ex.power(u, ex.num(c * k)) for u, c in logs.items()]
+    if any(n.op in ("fn", "call") or as_power(n)[1] < 0 for term in rest for n in ex.nodes(term)):
+        return None
     whole = ex.mul(*powers, ex.fn("exp", ex.add(*rest) * k)) if rest else ex.mul(*powers)
     return whole, whole * factor * k
 
