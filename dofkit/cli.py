@@ -119,7 +119,8 @@ class _Told:
 
     def __init__(self, file: str) -> None:
         self.file = file
-        self.name = _STDIN if file == "-" else os.path.splitext(os.path.basename(os.path.normpath(file)))[0]
+        stem = os.path.splitext(os.path.basename(os.path.normpath(file)))[0]
+        self.name = _STDIN if file == "-" else stem.encode("utf-8", "replace").decode("utf-8")
         self.title: str | None = None
         self.document: Document | None = None
         self.faults: tuple[Fault, ...] = ()

@@ -117,7 +117,7 @@ def find(source: str | os.PathLike[str]) -> Source:
     try:
         if path.exists() and not path.is_dir():
             with path.open("rb") as file:
-                return Source(path.stem, file.read(MOST_BYTES + 1))
+                return Source(_printable(path.stem), file.read(MOST_BYTES + 1))
         if shown in catalog_names():
             return Source(shown, catalog_text(shown))
         folder = path.is_dir()
@@ -154,6 +154,11 @@ def _beside(path: Path) -> list[str]:
             return [entry.name for entry, _ in zip(entries, range(2000), strict=False) if entry.is_file()]
     except OSError:
         return []
+
+
+def _printable(name: str) -> str:
+    """A file's name without the half characters that stand for bytes of another encoding."""
+    return name.encode("utf-8", "replace").decode("utf-8")
 
 
 def _brief(text: str) -> str:
@@ -303,7 +308,10 @@ def _without_echoes(faults: Iterable[Fault]) -> list[Fault]:
 
 def _retold(fault: Fault) -> Fault:
     """A fault that says which field it is about, and what to do."""
-    message, keys = fault.message, [key for key in fault.where if isinstance(key, str)]
+    message, keys = (
+        re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message),
+        [key for key in fault.where if isinstance(key, str)],
+    )
     if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
         message = f"`{keys[-1]}`: {message}"
     return replace(fault, message=message, hint=fault.hint or _hint(fault.message))

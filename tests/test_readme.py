@@ -1,0 +1,73 @@
+"""The README runs: its scenes, its Python, its commands; and the continuous integration runs the very same lines."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import dofkit
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+INSTALLS = [text.strip() for kind, text in BLOCKS if kind == "sh" and "-m venv" in text]
+COMMANDS = [
+    line for kind, text in BLOCKS if kind == "sh" and "-m venv" not in text for line in text.splitlines() if line
+]
+DISC = next(text for kind, text in BLOCKS if kind == "yaml")
+
+
+def blocks(kind: str) -> list[str]:
+    return [text for found, text in BLOCKS if found == kind]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "disc.yaml").write_text(DISC, encoding="utf-8")
+    return tmp_path
+
+
+def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80", "NO_COLOR": "1"}
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+
+
+def test_the_two_commands_are_one_line_each_and_are_what_is_run() -> None:
+    ci = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+    assert len(INSTALLS) == 2
+    for line in INSTALLS:
+        assert "\n" not in line
+        assert line in ci
+
+
+@pytest.mark.parametrize("text", blocks("python"))
+def test_python_runs(folder: Path, text: str) -> None:
+    told = run(folder, "-c", text)
+    assert told.returncode == 0, told.stderr
+    assert told.stdout
+
+
+@pytest.mark.parametrize("line", COMMANDS)
+def test_commands_run(folder: Path, line: str) -> None:
+    program, *arguments = line.split()
+    assert program == "dofkit"
+    told = run(folder, "-m", "dofkit", *arguments)
+    assert told.returncode == 0, told.stderr
+    assert told.stdout
+
+
+@pytest.mark.parametrize("text", blocks("yaml"))
+def test_scenes_load(text: str) -> None:
+    assert dofkit.loads(text).constraints
+
+
+def test_the_output_shown_is_what_is_printed(folder: Path) -> None:
+    (shown,) = blocks("text")
+    told = run(folder, "-m", "dofkit", "classify", "disc.yaml").stdout
+    assert told.startswith(shown.removesuffix("...\n"))
