@@ -142,6 +142,11 @@ def check_names(scene: Declared, table: Table, ledger: Ledger) -> None:
             if why is not None:
                 ledger.fault(f"{why} ({what})", *where, hint="choose another name")
     _check_derived(entries, seen, ledger)
+    for name, arguments in scene.functions.items():
+        for i, argument in enumerate(arguments):
+            why = None if argument == "t" else valid_name(argument)
+            if why is not None:
+                ledger.fault(why, "functions", name, i, hint="the arguments are names, such as [s] or [x, t]")
 
 
 def _check_owners(scene: Declared, ledger: Ledger) -> None:

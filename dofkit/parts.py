@@ -106,11 +106,13 @@ class Force(Model):
     between: Ends | None = Field(None, description="the two points, or bodies, that it acts between")
     point: Point | None = Field(None, description="the point that it acts at")
     body: str | None = Field(None, description="the body that it acts on")
-    stiffness: Value | None = Field(None, description="of a spring")
+    stiffness: Value | None = Field(None, description="of a spring: force by stretch")
     rest_length: Value | None = Field(None, description="of a spring: its length without load")
     damping: Value | None = Field(None, description="of a damper: force by speed")
     value: Values | None = Field(None, description="of a force: its size, or its components")
+    acceleration: Values | None = Field(None, description="of gravity: its size, or its components")
     direction: Vector | None = Field(None, description="of a force or gravity")
+    notes: str | None = Field(None, description="what is remarkable about it")
 
     @property
     def reason(self) -> str:

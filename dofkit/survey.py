@@ -175,7 +175,7 @@ def _check_forces(scene: Surveyed, world: World) -> None:
             world.point(force.point, "point")
         if force.body is not None:
             world.frame(force.body, "body")
-        for key in ("stiffness", "rest_length", "damping", "value", "direction"):
+        for key in ("stiffness", "rest_length", "damping", "value", "direction", "acceleration"):
             _check_value(world, getattr(force, key), key)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from fractions import Fraction
 
 from dofkit.errors import Fault, TextError
@@ -10,6 +10,9 @@ from dofkit.expr import Expr, num, parameter
 from dofkit.system import Sense
 from dofkit.text import Names, parse_expression, parse_relations
 from dofkit.values import suggestion
+
+#: The nearest name is looked for while there are fewer faults than this.
+MOST_HINTS = 100
 
 #: What may be mentioned: in a fixed value, in a law of positions, in an equation.
 FIXED = frozenset({"parameter"})
@@ -43,9 +46,9 @@ class Ledger:
         """Record a fault at ``where`` within the entry that is being read."""
         self.faults.append(Fault(message, (*self.here, *where), column=column, hint=hint))
 
-    def unknown(self, what: str, name: str, known: Sequence[str], *where: str | int, plural: str = "") -> None:
-        """Record that ``name`` is not declared, with the nearest name that is."""
-        hint = suggestion(name, known, plural or f"{what}s") if len(self.faults) < 100 else None
+    def unknown(self, what: str, name: str, known: Iterable[str], *where: str | int, plural: str = "") -> None:
+        """Record that ``name`` is not declared, with the nearest name that is (for the first faults: it takes time)."""
+        hint = suggestion(name, tuple(known), plural or f"{what}s") if len(self.faults) < MOST_HINTS else None
         self.fault(f"there is no {what} '{name}'", *where, hint=hint)
 
 

@@ -242,6 +242,8 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
     context = detail.get("ctx") or {}
     if kind == "extra_forbidden":
         return f"unknown key '{place[-1]}' in {owner}", suggestion(place[-1], known, "keys")
+    if kind == "invalid_key":
+        return f"a key is a text, not {_shown(place[-1])}", "put it in quotes"
     if kind == "missing":
         if isinstance(place[-1], int):
             return f"{place[-1] + 1} entries are needed here", "there are fewer"
@@ -280,7 +282,8 @@ def retold(
             message, hint = _message(detail, owner, known)
             context = {"message": message, **({"hint": hint} if hint else {})}
         kind = PydanticCustomError(_OURS, "{message}", context)
-        told.append(InitErrorDetails(type=kind, loc=place(detail["loc"]), input=detail["input"]))
+        where = tuple(part for part in place(detail["loc"]) if part != "[key]")
+        told.append(InitErrorDetails(type=kind, loc=where, input=detail["input"]))
     return ValidationError.from_exception_data(error.title, told)
 
 

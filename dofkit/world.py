@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from itertools import chain
 from typing import NamedTuple
 
 from dofkit.constants import approximate, differs_from_zero
@@ -155,7 +156,7 @@ class World(Texts):
             hint = "a particle is held by `coincident`, `fixed`, `slot` or `link`"
             self.fault(f"'{name}' is a particle where a body is needed", *where, hint=hint)
         else:
-            self.unknown("body", name, [*self.frames, GROUND], *where, plural="bodies")
+            self.unknown("body", name, chain(self.frames, (GROUND,)), *where, plural="bodies")
         return self.ground
 
     def particle(self, name: str, *where: str | int) -> Placed:
@@ -171,7 +172,7 @@ class World(Texts):
             hint = f"name one of its points: {{on: {name}, at: [{place}]}}"
             self.fault(f"'{name}' is a body where a point is needed", *where, hint=hint)
         else:
-            self.unknown("particle", name, list(self.standing), *where)
+            self.unknown("particle", name, self.standing, *where)
         return Placed((ZERO,) * self.dimension, ONE, None, None, f"({name})")
 
     def point(self, point: str | Vector | BodyPoint, *where: str | int) -> Placed:
