@@ -13,7 +13,15 @@ from flint import arb, nmod, nmod_mat
 from dofkit import expr as ex
 from dofkit.blocks import Block, Row, expressions, split, uses_time
 from dofkit.chart import Chart
-from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch, dependency_pattern, greedy_pivots, independent_part
+from dofkit.exact.balls import (
+    BallPoint,
+    OutsideDomainError,
+    RealPoint,
+    RealSearch,
+    dependency_pattern,
+    greedy_pivots,
+    independent_part,
+)
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
@@ -367,7 +375,12 @@ def _ball_span(forms: Codistribution, frame: Frame, point: BallPoint) -> tuple[S
 
 
 def _field_labels(
-    block: Block, forms: Codistribution, found: Variety, good: list[tuple[FieldPoint, Sampled]], result: Answer, grows: bool
+    block: Block,
+    forms: Codistribution,
+    found: Variety,
+    good: list[tuple[FieldPoint, Sampled]],
+    result: Answer,
+    grows: bool,
 ) -> None:
     point, sampled = max(good, key=lambda pair: pair[1].span.dimension)
     total, n = len(forms.chart.symbols), forms.n
@@ -381,7 +394,7 @@ def _field_labels(
     rank_finite = rank_of(sampled.matrix[: forms.finite], point.p)
     if found.dimension is None or found.dimension != n - rank_finite:
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True
-        result.reasons.append("the finite relations are singular where they hold; the differential ones were not decided there")
+        result.reasons.append("the finite relations are singular where they hold; the rest was not decided there")
         return
     ball = None
     if total <= CERTIFIED_COLUMNS and found.real is not None and found.real.certified and found.real.consistent:
@@ -404,8 +417,10 @@ def _rank_verdict(sampled: Sampled, ball: tuple[Span, list[list[arb]]] | None, r
     if ball is None:
         return "probable"
     n = sum(map(len, (sampled.frame.dependent, sampled.frame.free)))
-    if ball[0].dimension == sampled.span.dimension and sampled.span.dimension in (n, n - rank) and (
-        sampled.span.dimension == n or n - rank <= 1
+    if (
+        ball[0].dimension == sampled.span.dimension
+        and sampled.span.dimension in (n, n - rank)
+        and (sampled.span.dimension == n or n - rank <= 1)
     ):
         return "proved"
     return "probable"
@@ -429,7 +444,7 @@ def _label(
     nonzero = any(not v.contains(0) for v in pairing(ball[1][place], ball[0].vectors))
     if nonzero:
         return Label(False, "proved")
-    return Label(None, "undecided", "arithmetic modulo a prime and balls disagree: some identity between functions was not seen")
+    return Label(None, "undecided", "exact arithmetic and balls disagree: an identity between functions was not seen")
 
 
 def _integrable_names(forms: Codistribution, sampled: Sampled, point: FieldPoint) -> tuple[str, ...]:
@@ -461,7 +476,8 @@ def _ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: A
     for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear)):
         place = i if i < len(block.finite) else i + forms.finite - len(block.finite)
         zero = all(v.contains(0) for v in pairing(matrix[place], span.vectors))
-        result.labels[i] = Label(True, "proved" if isinstance(row.piece, Finite) else "numeric") if zero else Label(False, "proved")
+        sure: Verdict = "proved" if isinstance(row.piece, Finite) or not zero else "numeric"
+        result.labels[i] = Label(zero, sure)
 
 
 # -- relations nonlinear in the velocities --------------------------------------------------------------

@@ -42,12 +42,13 @@ class Block:
 
 def coordinates_of(piece: Piece) -> frozenset[str]:
     """Every coordinate a piece mentions, in coefficients, velocities and differentials too."""
+    named: frozenset[str] = frozenset()
     if isinstance(piece, Pfaffian):
-        found = {str(name) for name in piece.coefficients}
+        named = frozenset(piece.coefficients)
         symbols = frozenset().union(*(e.symbols for e in (*piece.coefficients.values(), piece.dt)))
     else:
-        found, symbols = set(), piece.expr.symbols
-    return frozenset(found | {str(s.args[1]) for s in symbols if s.args[0] in ("coordinate", "velocity")})
+        symbols = piece.expr.symbols
+    return frozenset(named | {str(s.args[1]) for s in symbols if s.args[0] in ("coordinate", "velocity")})
 
 
 def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block], list[str]]:
@@ -57,17 +58,18 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
     """
     graph: nx.Graph = nx.Graph()
     touched = [coordinates_of(row.piece) for row in rows]
-    for i, names in enumerate(touched):
+    for i, mentioned in enumerate(touched):
         graph.add_node(i)
-        graph.add_edges_from((i, name) for name in names)
+        graph.add_edges_from((i, name) for name in mentioned)
+    place = {c: k for k, c in enumerate(coordinates)}
     blocks = []
     for component in nx.connected_components(graph):
         numbers = sorted(i for i in component if isinstance(i, int))
         members = [rows[i] for i in numbers]
         ordered = [r for r in members if isinstance(r.piece, Finite)]
         ordered += [r for r in members if not isinstance(r.piece, Finite)]
-        names = {name for name in component if isinstance(name, str)}
-        blocks.append((numbers[0], Block(tuple(c for c in coordinates if c in names), tuple(ordered))))
+        names = sorted((name for name in component if isinstance(name, str)), key=place.__getitem__)
+        blocks.append((numbers[0], Block(tuple(names), tuple(ordered))))
     used = frozenset().union(*touched) if touched else frozenset()
     return [b for _, b in sorted(blocks, key=lambda pair: pair[0])], [c for c in coordinates if c not in used]
 

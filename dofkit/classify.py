@@ -128,7 +128,8 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting, deadline
     """The largest of the branches, answered block by block."""
     normals = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
-    never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, setting.positive) for q in r.inequalities)]
+    positive = setting.positive
+    never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
     best: Outcome | None = None
     cache: dict[tuple[int, ...], Answer] = {}
     for number, choice in enumerate(cartesian(*options)):
@@ -329,10 +330,10 @@ def _entries(
     reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, redundancies: list[Redundancies], names: list[str]
 ) -> list[ConstraintEntry]:
     independent: dict[int, int] = {}
-    for r in redundancies:
-        for i, k in r.independent.items():
+    for found in redundancies:
+        for i, k in found.independent.items():
             independent[i] = independent.get(i, 0) + k
-    circuits = {i: c for r in redundancies for i, c in r.circuits.items()}
+    circuits = {i: c for found in redundancies for i, c in found.circuits.items()}
     told: dict[int, list[Told]] = {i: [] for i in range(len(reduced))}
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         linear = [r for r in block.rows if not isinstance(r.piece, Nonlinear)]
@@ -341,11 +342,10 @@ def _entries(
         for row in block.rows:
             if isinstance(row.piece, Nonlinear):
                 told[row.constraint].append(Told(row, None, a))
-    coordinates = [c.name for b in outcome.blocks for c in ()] or [n for b in outcome.blocks for n in b.coordinates]
+    coordinates = [n for b in outcome.blocks for n in b.coordinates]
     entries = []
     for i, r in enumerate(reduced):
         own = [t.row for t in told[i]]
-        sharing = {t.answer.method for t in told[i]}
         by_itself = None
         if any(isinstance(row.piece, Pfaffian) for row in own):
             by_itself = _inherited(told[i]) or alone(own, setting, coordinates)
@@ -362,7 +362,6 @@ def _entries(
                 None if circuit is None else [names[j] for j in circuit],
             )
         )
-        del sharing
     return entries
 
 
@@ -390,7 +389,7 @@ def _growth(outcome: Outcome) -> list[int] | None:
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         shared = uses_time(block)
         timed += shared
-        if block.nonlinear or a.growth is None and block.forms or a.velocity_dof is None:
+        if block.nonlinear or (a.growth is None and block.forms) or a.velocity_dof is None:
             return None
         growths.append(a.growth if a.growth is not None else (a.velocity_dof + shared,))
     length = max(len(g) for g in growths)

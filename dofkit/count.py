@@ -65,7 +65,8 @@ def why(system: System, facts: Facts, naive: int) -> str | None:
     reasons = []
     if facts.dof > naive:
         reasons.append(
-            f"{facts.dof - naive} of the {facts.written} finite equations depend on the others here and take nothing away"
+            f"{facts.dof - naive} of the {facts.written} finite equations depend on the others here "
+            "and take nothing away"
         )
         complete = complete_sets(system)
         reasons += complete
@@ -75,7 +76,9 @@ def why(system: System, facts: Facts, naive: int) -> str | None:
             "that the count of finite equations does not see"
         )
     elif facts.dof < naive:
-        reasons.append("one equation over the reals forces more than one condition, so it takes more than one freedom away")
+        reasons.append(
+            "one equation forces more than one condition over the reals, so it takes more than one freedom away"
+        )
     return "; ".join(reasons)
 
 

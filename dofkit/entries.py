@@ -11,7 +11,7 @@ from dofkit.expr import Expr
 from dofkit.labels import catastatic, exact, scleronomic
 from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
 from dofkit.proofs import Integrability, integrability
-from dofkit.report import FORMS, ConstraintEntry, Form, Verdict, weakest
+from dofkit.report import FORMS, VERDICTS, ConstraintEntry, Form, Verdict, weakest
 from dofkit.system import Constraint
 
 
@@ -118,8 +118,19 @@ def _in_system(
             verdicts.append(t.label.verdict)
     together = _together(labels)
     if together is False:
-        return False, min((v for v, h in zip(verdicts, [x for x in labels if x is not True], strict=False)), default="proved")
+        return False, _strongest(told, proved)
     return together, weakest(*verdicts)
+
+
+def _strongest(told: Sequence[Told], proved: set[int]) -> Verdict:
+    """How sure the surest row is that it is not holonomic."""
+    found: list[Verdict] = []
+    for t in told:
+        if isinstance(t.row.piece, Nonlinear):
+            found.append("probable" if t.answer.verdict == "probable" else "proved")
+        elif t.label is not None and t.label.holonomic is False and id(t.row.piece) not in proved:
+            found.append(t.label.verdict)
+    return min(found, key=VERDICTS.index, default="proved")
 
 
 def _alone(
@@ -133,12 +144,12 @@ def _alone(
         return False, "proved"
     if by_itself is None or (forms and all(p.proved for p in proofs)):
         return True, "proved"
-    labels = [label for label in by_itself.labels.values()]
+    labels = list(by_itself.labels.values())
     if by_itself.consistent is not True or not labels:
         return None, "undecided"
     together = _together([label.holonomic for label in labels])
     if together is False:
-        return False, min((x.verdict for x in labels if x.holonomic is False), default="proved")
+        return False, min((x.verdict for x in labels if x.holonomic is False), key=VERDICTS.index, default="proved")
     return together, weakest(*(x.verdict for x in labels))
 
 
@@ -153,9 +164,14 @@ def _reason(
     if form == "inequality":
         reason = "An inequality keeps to one side (unilateral): it is not holonomic and takes no freedom away."
     elif form == "finite":
-        reason = "A relation between coordinates (and time): holonomic." if told else "It relates no coordinates and holds always."
+        reason = "A relation between coordinates (and time): holonomic."
+        if not told:
+            reason = "It relates no coordinates and holds always."
     elif form == "nonlinear":
-        reason = "It is not linear in the velocities and no finite relation gives it: non-holonomic; it limits velocities only."
+        reason = (
+            "It is not linear in the velocities and no finite relation gives it: non-holonomic; "
+            "it limits velocities only."
+        )
     else:
         reason = _pfaffian_reason(in_system, own, proofs, told)
     if circuit:
@@ -165,7 +181,9 @@ def _reason(
     return reason
 
 
-def _pfaffian_reason(in_system: bool | None, own: bool | None, proofs: Sequence[Integrability], told: Sequence[Told]) -> str:
+def _pfaffian_reason(
+    in_system: bool | None, own: bool | None, proofs: Sequence[Integrability], told: Sequence[Told]
+) -> str:
     undecided = next((t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason), "")
     if in_system is None:
         return f"Not decided: {undecided or 'the engines found no regular point to decide at'}."
@@ -174,9 +192,15 @@ def _pfaffian_reason(in_system: bool | None, own: bool | None, proofs: Sequence[
         if shown:
             return f"It integrates to {shown}: holonomic; the constant is set by the initial state."
         how = next((p.reason for p in proofs if p.reason), "d(omega) ^ omega = 0")
-        return f"It is integrable ({how}), though no integral was found in closed form; the constant is set by the initial state."
+        return (
+            f"It is integrable ({how}), though no integral was found in closed form: holonomic; "
+            "the constant is set by the initial state."
+        )
     if in_system:
-        return "Alone it is not integrable; together with the other constraints it is, so in this system it is holonomic."
+        return (
+            "Alone it is not integrable; it is integrable only together with the other constraints, "
+            "so in this system it is holonomic."
+        )
     if own:
         return "Alone it is integrable."
     return (

@@ -421,6 +421,8 @@ def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:
         raised = (tuple(o + (i == j) for j, o in enumerate(orders)) for i in range(len(orders)))
         return add(*(mul(call(name, arguments, up), go(a)) for up, a in zip(raised, arguments, strict=True)))
     if node.args[0] == "atan2":
+        y: Expr
+        x: Expr
         y, x = node.args[1:]
         return (x * go(y) - y * go(x)) / (x * x + y * y)
     argument: Expr = node.args[1]

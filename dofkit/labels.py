@@ -73,9 +73,7 @@ def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr]) -> Told:
     coefficients = list(form.coefficients.values())
     if all(ex.TIME not in e.symbols for e in coefficients):
         return True, "proved"
-    turning = [
-        a * ex.diff(b, ex.TIME) - b * ex.diff(a, ex.TIME) for a, b in combinations(coefficients, 2)
-    ]
+    turning = [a * ex.diff(b, ex.TIME) - b * ex.diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
     if not all(is_zero(e, positive) for e in turning):
         return False, "proved"
     return _common_factor_without_zeros(coefficients, positive), "proved"
@@ -148,14 +146,12 @@ def catastatic(form: Pfaffian, positive: frozenset[Expr]) -> bool:
 
 
 def exact(form: Pfaffian, positive: frozenset[Expr]) -> bool:
-    """Closed as written: d(omega) = 0 in (q, t). Exactness is not integrability: x dy - y dx integrates and is not closed."""
+    """Closed as written: d(omega) = 0 in (q, t). Not integrability: x dy - y dx integrates and is not closed."""
     items = list(form.items())
     symbols = dict(items)
     others = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - set(symbols)
     everything = [*items, *((s, ex.ZERO) for s in others)]
-    return all(
-        is_zero(ex.diff(b, s) - ex.diff(a, u), positive) for (s, a), (u, b) in combinations(everything, 2)
-    )
+    return all(is_zero(ex.diff(b, s) - ex.diff(a, u), positive) for (s, a), (u, b) in combinations(everything, 2))
 
 
 def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:

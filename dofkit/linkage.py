@@ -3,8 +3,8 @@
 Plain graphs in, plain lists out; no scene is needed. ``links`` are pairs of hashable joints, or a networkx graph.
 In one dimension a link is redundant when it closes a cycle; in two the (2,3) pebble game decides
 (Pollaczek-Geiringer 1927, Laman 1970; Jacobs and Hendrickson 1997); in three no count does (the double banana
-passes Maxwell's), so joints with three links or fewer are taken off, because their links are independent of all others, and what
-is left is the rank of the rigidity matrix at random positions modulo a random prime.
+passes Maxwell's), so joints with three links or fewer are taken off, because their links are independent of
+all others, and what is left is the rank of the rigidity matrix at random positions modulo a random prime.
 """
 
 from __future__ import annotations

@@ -62,7 +62,8 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     local = local_at(chart, point, ball, rigid + timed)
     if local.dimension is not None:
         local = Local(local.dimension - timed, local.verdict, local.reason)
-    return AtReference(n - rank_q, local, [[int(v) for v in row] for row in matrix], point.p, rank, rank_q < rank, rigid, ball)
+    shown = [[int(v) for v in row] for row in matrix]
+    return AtReference(n - rank_q, local, shown, point.p, rank, rank_q < rank, rigid, ball)
 
 
 def ball_point(chart: Chart, known: Mapping[Expr, Expr], seen: FieldPoint) -> BallPoint | None:

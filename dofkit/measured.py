@@ -31,8 +31,9 @@ STEP, ROUNDS = 0.12, 60
 class Measured:
     """``dimension`` None where the tolerance does not decide.
 
-    ``dependencies``: a matrix over GF(2) with the same pattern of dependent rows as the Jacobian has within the
-    tolerance: independent rows are unit vectors, the others sums of those they depend on. ``columns`` are dependent coordinates.
+    ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the
+    tolerance: independent rows are unit vectors, the others sums of those they depend on. ``columns`` are
+    dependent coordinates.
     """
 
     instantaneous: int | None
@@ -77,7 +78,7 @@ def measure(
     below = float(singular[rank]) if rank < len(singular) else 0.0
     gap = float(singular[rank - 1]) / below if rank and below > 0 else float("inf")
     if np.any((singular > tolerance * SLACK) & (singular < tolerance * GREY)):
-        return Measured(None, None, [], (), gap, "a singular value lies so near the tolerance that the rank is not decided")
+        return Measured(None, None, [], (), gap, "a singular value near the tolerance leaves the rank undecided")
     pattern = dependency_pattern(j, independent_rows(j, rank, tolerance))
     columns = tuple(greedy_pivots(j.T, rank))
     first = n - rank

@@ -22,7 +22,7 @@ from flint import arb
 
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, Scalar
-from dofkit.exact.series import Series, SeriesPoint, series_values, zero_poly
+from dofkit.exact.series import Series, SeriesPoint, monomial, series_values, zero_poly
 from dofkit.forms import Frame, solve
 from dofkit.report import Verdict
 
@@ -53,7 +53,7 @@ class Manifold:
     def follow(self, direction: Sequence[Scalar], order: int) -> list[Series]:
         """The other relations along q(s), whose free columns are start + s direction."""
         path = [Series(self.like + value, order) for value in self.start]
-        step = Series(type(self.like)([0, 1], self.like.modulus()) if hasattr(self.like, "modulus") else type(self.like)([0, 1]), order)
+        step = Series(monomial(self.like), order)
         for value, c in zip(direction, self.frame.free, strict=True):
             path[c] = path[c] + step * value
         at: list[Series] = []
@@ -69,7 +69,9 @@ class Manifold:
         point = SeriesPoint(self.base, {c: path[i] for i, c in enumerate(self.columns) if c >= 0}, order, self.like)
         return point, series_values(self.ring, point)
 
-    def _velocity(self, at: list[Series], point: SeriesPoint, direction: Sequence[Scalar], order: int) -> list[list[Series]]:
+    def _velocity(
+        self, at: list[Series], point: SeriesPoint, direction: Sequence[Scalar], order: int
+    ) -> list[list[Series]]:
         zero = Series(self.like, order)
         one = Series(self.like + 1, order)
         left, right = [], []
@@ -120,7 +122,7 @@ def local_dimension(field: Manifold, ball: Manifold | None, rigid: int) -> Local
         return Local(
             m,
             "probable",
-            f"the dependent relations hold along a random curve of the motion to order {order - 1}: the motion is finite",
+            f"the dependent relations hold along a random curve to order {order - 1}: the motion is finite",
         )
     if m - rigid == 1:
         first = min(k for s in along for k in range(order) if s.coefficient(k) != 0)
@@ -129,14 +131,14 @@ def local_dimension(field: Manifold, ball: Manifold | None, rigid: int) -> Local
 
 
 def numeric_dimension(ball: Manifold, rigid: int) -> Local:
-    """The same from one approximate point: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
+    """The same from an approximate point: where a tiny ball contains 0 it is taken for 0; the verdict is numeric."""
     m = len(ball.frame.free)
     if not ball.others or m == rigid:
         return Local(m, "numeric", "the relations kept are independent within the precision")
     direction = [arb(ball.base.rng.randrange(64, 512)) / 256 for _ in range(m)]
     along = ball.follow(direction, ORDER)
     if all(s.coefficient(k).contains(0) for s in along for k in range(ORDER)):
-        return Local(m, "numeric", "the dependent relations hold along a random curve of the motion within the precision")
+        return Local(m, "numeric", "the dependent relations hold along a random curve within the precision")
     if m - rigid == 1:
         return Local(rigid, "numeric", "the one motion left to first order breaks a relation")
     found = _second_order(ball, m, rigid)
@@ -144,20 +146,20 @@ def numeric_dimension(ball: Manifold, rigid: int) -> Local:
 
 
 def _second_order(ball: Manifold | None, m: int, rigid: int) -> Local:
-    undecided = Local(None, "undecided", "the relations are dependent here and the second order does not decide what moves")
+    undecided = Local(None, "undecided", "the relations are dependent here and the second order does not decide")
     if ball is None:
         return undecided
     forms = ball.quadratic_forms()
     if len(forms) != 1:
         signature = _definite_combination(forms, m, rigid)
         if signature:
-            return Local(rigid, "proved", "a combination of the dependent relations is definite to second order: no finite motion")
+            return Local(rigid, "proved", "a combination of them is definite to second order: no finite motion")
         return undecided
     positive, negative = signature_of(forms[0])
     if positive + negative != m - rigid:
         return undecided
     if positive and negative:
-        return Local(m - 1, "proved", "to second order the dependent relation is an indefinite form: branches of the motion cross here")
+        return Local(m - 1, "proved", "the second order is an indefinite form: branches of the motion cross here")
     return Local(rigid, "proved", "to second order the dependent relation is a definite form: no finite motion")
 
 
@@ -166,9 +168,12 @@ def _definite_combination(forms: list[list[list[arb]]], m: int, rigid: int) -> b
     k = len(forms)
     choices = [[int(i == j) for i in range(k)] for j in range(k)]
     choices += [[1] * k]
-    choices += [[1 if i == a else s if i == b else 0 for i in range(k)] for a in range(k) for b in range(a) for s in (1, -1)]
+    for a in range(k):
+        for b in range(a):
+            choices += [[1 if i == a else s if i == b else 0 for i in range(k)] for s in (1, -1)]
     for weights in choices[:200]:
-        total = [[sum((w * f[i][j] for w, f in zip(weights, forms, strict=True)), arb(0)) for j in range(m)] for i in range(m)]
+        weighted = list(zip(weights, forms, strict=True))
+        total = [[sum((w * f[i][j] for w, f in weighted), arb(0)) for j in range(m)] for i in range(m)]
         positive, negative = signature_of(total)
         if not (positive and negative) and positive + negative == m - rigid:
             return True
@@ -212,5 +217,3 @@ def _pivot(work: list[list[arb]], left: set[int]) -> tuple[int, int] | None:
     if best is not None:
         return best
     return next(((i, j) for i in left for j in left if i != j and not work[i][j].contains(0)), None)
-
-

@@ -101,7 +101,7 @@ def differential_degree(e: Expr) -> int | None:
         degree = (differential_degree(e.args[0]) or 0) * e.args[1].args[0]
         if degree.denominator == 1:
             return int(degree)
-    raise TextError("a differential stands inside a function", hint="differentials may only be added, multiplied and divided")
+    raise TextError("a differential stands inside a function", hint="differentials are only added, multiplied, divided")
 
 
 def in_velocities(e: Expr) -> tuple[Expr, bool]:

@@ -50,9 +50,9 @@ def _frobenius(items: list[tuple[Expr, Expr]]) -> bool:
     symbols = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - {s for s, _ in items}
     everything = [*items, *((s, ex.ZERO) for s in sorted(symbols, key=repr))]
     for (s, a), (u, b), (w, c) in combinations(everything, 3):
-        total = (
-            a * (ex.diff(c, u) - ex.diff(b, w)) + b * (ex.diff(a, w) - ex.diff(c, s)) + c * (ex.diff(b, s) - ex.diff(a, u))
-        )
+        total = a * (ex.diff(c, u) - ex.diff(b, w))
+        total += b * (ex.diff(a, w) - ex.diff(c, s))
+        total += c * (ex.diff(b, s) - ex.diff(a, u))
         if not is_zero(total, frozenset()):
             return False
     return True

@@ -48,7 +48,7 @@ def split_quadratic(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
 
 def _matrix(e: Expr, velocities: Sequence[Expr]) -> Matrix | None:
     """The symmetric matrix of the homogenised quadratic; None where ``e`` is not one."""
-    zeros = {v: ex.ZERO for v in velocities}
+    zeros = dict.fromkeys(velocities, ex.ZERO)
     n = len(velocities)
     form: Matrix = [[ex.ZERO] * (n + 1) for _ in range(n + 1)]
     for i, v in enumerate(velocities):
@@ -70,9 +70,7 @@ def _dot(row: Sequence[Expr], vector: Sequence[Expr]) -> Expr:
 def _rank_one(rest: Matrix) -> bool:
     n = len(rest)
     pairs = list(combinations(range(n), 2))
-    return all(
-        _zero(rest[i][k] * rest[j][m] - rest[i][m] * rest[j][k]) for i, j in pairs for k, m in pairs
-    )
+    return all(_zero(rest[i][k] * rest[j][m] - rest[i][m] * rest[j][k]) for i, j in pairs for k, m in pairs)
 
 
 def _zero(e: Expr) -> bool:

@@ -67,7 +67,7 @@ def analyse(parts: Sequence[Rows]) -> Redundancies:
 
 
 class _Basis:
-    """The first independent rows, finite ones before differential ones, each as written, and the others in terms of them."""
+    """The first independent rows, finite ones before differential ones, and the others in terms of them."""
 
     def __init__(self, rows: Rows) -> None:
         self.owners = rows.owners
@@ -77,15 +77,13 @@ class _Basis:
         self.pivots: list[int] = []
         column = 0
         for r in range(found):
-            while reduced[r, column] == 0:
+            while not reduced[r, column]:
                 column += 1
             self.pivots.append(numbers[column])
             column += 1
         kept = set(self.pivots)
         self.supports = {
-            i: [self.pivots[r] for r in range(found) if reduced[r, c] != 0]
-            for c, i in enumerate(numbers)
-            if i not in kept
+            i: [self.pivots[r] for r in range(found) if reduced[r, c]] for c, i in enumerate(numbers) if i not in kept
         }
 
     def pivot_rows_of(self, owner: int) -> list[int]:

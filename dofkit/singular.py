@@ -43,7 +43,8 @@ def _look(chart: Chart, real: RealPoint) -> Local | None:
     at = values(chart.ring, point)
     columns = [c for c in chart.columns if c >= 0]
     place = [i for i, c in enumerate(chart.columns) if c >= 0]
-    j = np.array([[float(v.mid()) for v in row] for row in jacobian(chart.ring, at, point, chart.nodes, columns, arb(0))])
+    exact = jacobian(chart.ring, at, point, chart.nodes, columns, arb(0))
+    j = np.array([[float(v.mid()) for v in row] for row in exact])
     j[np.linalg.norm(j, axis=1) < TINY] = 0.0
     _, gap, rows, pivots = independent_part(j)
     if gap < 1e6:

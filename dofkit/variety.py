@@ -37,8 +37,8 @@ SAMPLES = 2
 class Variety:
     """What was found.
 
-    ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None: not decided).
-    ``samples``: points over GF(p) on it; ``real``: a real point with balls. ``frame`` of the first sample.
+    ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None:
+    not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls.
     """
 
     consistent: bool | None
@@ -127,7 +127,8 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
         return _from_samples(chart, samples, None, seed, pose)
     solver = Solver(chart.ring, chart.nodes, seed=seed)
     if solver.plan.contradictory:
-        return Variety(False, None, "probable", reasons=["eliminating the unknowns leaves a number that should be 0 and is not"])
+        why = "eliminating the unknowns leaves a number that should be 0 and is not"
+        return Variety(False, None, "probable", reasons=[why])
     drawn = [p for p in (solver.draw(seed + k + 1) for k in range(SAMPLES)) if p is not None]
     drawn = [p for p in drawn if on_variety(chart, p)]
     if not drawn:
@@ -239,7 +240,7 @@ def _singular(chart: Chart, found: Variety) -> Variety:
     local = None if real is None else numeric_local(chart, real)
     if local is None or local.dimension is None:
         found.verdict, found.dimension = "undecided", None
-        found.reasons.append("every real configuration that was found is singular, and what moves there was not decided")
+        found.reasons.append("every real configuration that was found is singular; what moves there was not decided")
         return found
     found.dimension = local.dimension - (len(chart.columns) - chart.coordinates)
     found.verdict = weakest(found.verdict, "numeric")
@@ -251,7 +252,7 @@ def _numerical(chart: Chart, seed: int) -> Variety:
     """Without points over GF(p): real points only."""
     real = _real(chart, seed, {})
     if real is None:
-        return Variety(None, None, "undecided", reasons=["no configuration was found that satisfies all finite relations"])
+        return Variety(None, None, "undecided", reasons=["no configuration was found that satisfies all of it"])
     columns = len(chart.columns)
     timed = columns - chart.coordinates
     if real.certified and real.consistent and real.rank == len(chart.nodes):
@@ -260,7 +261,8 @@ def _numerical(chart: Chart, seed: int) -> Variety:
     if not real.certified or not real.consistent:
         return _singular(chart, Variety(True, None, "proved", [], real))
     if real.gap > 1e3:
-        return Variety(True, columns - real.rank - timed, "numeric", [], real, [f"the gap between singular values is {real.gap:.1e}"])
+        why = f"the gap between singular values is {real.gap:.1e}"
+        return Variety(True, columns - real.rank - timed, "numeric", [], real, [why])
     return Variety(None, None, "undecided", [], real, ["the only points found are singular"])
 
 

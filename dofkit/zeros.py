@@ -167,7 +167,9 @@ class _Zeros:
         shown = (canon.ring.var_expr[i] for i in canon.generators_in(factor))
         return any(not self.variables.isdisjoint(s.symbols) for s in shown)
 
-    def _factor(self, canon: Canon, signs: Signs, factor: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
+    def _factor(
+        self, canon: Canon, signs: Signs, factor: Any, written: Expr | None
+    ) -> tuple[list[Conjunction], list[str]]:
         even = sum_of_even(factor, signs)
         if even is not None:
             if any(not zeros for zeros in even):
@@ -327,7 +329,7 @@ def _quadratic_form(canon: Canon, factor: Any, place: dict[int, int]) -> list[li
     form = [[Fraction(0)] * (n + 1) for _ in range(n + 1)]
     for exponents, coefficient in factor.to_dict().items():
         slots = [place[total - 1 - i] for i, k in enumerate(exponents) for _ in range(int(k))]
-        a, b = (slots + [n, n])[:2]
+        a, b = [*slots, n, n][:2]
         value = _fraction(coefficient)
         if a == b:
             form[a][a] += value

@@ -177,7 +177,9 @@ class RealSearch:
                 found[var.key] = given.get(var.key, value)
         return found
 
-    def search(self, seed: int = 0, given: Mapping[Expr, float] | None = None, starts: int = STARTS) -> RealPoint | None:
+    def search(
+        self, seed: int = 0, given: Mapping[Expr, float] | None = None, starts: int = STARTS
+    ) -> RealPoint | None:
         """The first certified point found, else any; ``given`` values of symbols are where the search begins."""
         singular: RealPoint | None = None
         tries = 0

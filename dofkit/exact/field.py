@@ -59,7 +59,7 @@ def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int) -> int:
 
 
 def _has_root(value: int, degree: int, p: int) -> bool:
-    return bool(nmod(value, p) ** ((p - 1) // gcd(degree, p - 1)) == 1)
+    return pow(value, (p - 1) // gcd(degree, p - 1), p) == 1
 
 
 class FieldPoint:

@@ -96,9 +96,7 @@ def _constant(ring: Ring, index: int) -> bool:
     var = ring.vars[index]
     if var.kind in ("symbol", "call"):
         return False
-    return all(
-        ring.code[i][0] != VAR or _constant(ring, ring.code[i][1]) for i in reachable(ring, var.args)
-    )
+    return all(ring.code[i][0] != VAR or _constant(ring, ring.code[i][1]) for i in reachable(ring, var.args))
 
 
 @dataclass
@@ -119,7 +117,9 @@ class Plan:
 class Solver:
     """Plans and draws points on the zero set of some nodes of a ring."""
 
-    def __init__(self, ring: Ring, relations: Sequence[int], fixed: frozenset[Unit] = frozenset(), seed: int = 0) -> None:
+    def __init__(
+        self, ring: Ring, relations: Sequence[int], fixed: frozenset[Unit] = frozenset(), seed: int = 0
+    ) -> None:
         self.ring = ring
         self.fixed = fixed
         self.seed = seed
@@ -196,11 +196,11 @@ class Solver:
             if node in peeled:
                 continue
             own = [u for u in of[node] if where[u] == {node}]
-            unit = self._best(node, own)
-            if unit is None:
+            best = self._best(node, own)
+            if best is None:
                 continue
             peeled.add(node)
-            solved_last.append((node, unit))
+            solved_last.append((node, best))
             for u in of[node]:
                 where[u].discard(node)
                 if len(where[u]) == 1:
@@ -284,7 +284,8 @@ class Solver:
         if var.kind == "root" and not _constant(self.ring, index):
             point.set(var, point.random())
             return point.given[var.kind, var.key]
-        args = [self._constant_value(a, point) for a in var.args] if _constant(self.ring, index) else [point.random() for _ in var.args]
+        known = _constant(self.ring, index)
+        args = [self._constant_value(a, point) if known else point.random() for a in var.args]
         return point.generator(var, args)
 
     def _constant_value(self, node: int, point: FieldPoint) -> Any:

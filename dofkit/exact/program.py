@@ -70,9 +70,7 @@ def _derivative(ring: Ring, var: Var, i: int, at: Sequence[Scalar], point: Point
     return point.generator(other, [at[j] for j in var.args])
 
 
-def gradient(
-    ring: Ring, at: Sequence[Scalar], point: Point, seeds: Iterable[tuple[int, Scalar]]
-) -> dict[int, Scalar]:
+def gradient(ring: Ring, at: Sequence[Scalar], point: Point, seeds: Iterable[tuple[int, Scalar]]) -> dict[int, Scalar]:
     """The gradient of ``sum seed * value(node)`` by every symbol: ``{generator index: value}``."""
     adjoint: dict[int, Scalar] = {}
     for node, seed in seeds:

@@ -346,10 +346,13 @@ class Ring:
             return self.node(u.args[1])
         if u.op == "num" and u.args[0] > 0:
             value = u.args[0]
-            powers = [(p, k) for p, k in _factors(value.numerator)] + [(p, -k) for p, k in _factors(value.denominator)]
-            logs = [self._mul(self._number(k), self._var("log", p, Expr("fn", ("log", ex.num(p))), (self._number(p),))) for p, k in powers]
+            powers = _factors(value.numerator) + [(p, -k) for p, k in _factors(value.denominator)]
+            logs = [self._mul(self._number(k), self._log_of_prime(p)) for p, k in powers]
             return self._add(*logs) if logs else self._number(0)
         return self._var("log", _sorted_sum(u), Expr("fn", ("log", u)), (self.node(u),))
+
+    def _log_of_prime(self, prime: int) -> int:
+        return self._var("log", prime, Expr("fn", ("log", ex.num(prime))), (self._number(prime),))
 
     def _hyperbolic(self, name: str, u: Expr) -> int:
         up, down = self._exp(u), self._exp(-u)

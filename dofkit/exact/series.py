@@ -65,7 +65,8 @@ class Series:
         return Series(arb_poly(found), self.order)
 
     def __truediv__(self, other: Any) -> Series:
-        return self * (other.inverse() if isinstance(other, Series) else 1 / other)
+        below = other.inverse() if isinstance(other, Series) else 1 / other
+        return self.__mul__(below)
 
     def __rtruediv__(self, other: Any) -> Series:
         return self.inverse() * other
@@ -218,3 +219,8 @@ def series_values(ring: Ring, point: SeriesPoint) -> list[Series]:
 def zero_poly(base: Point, sample: Scalar) -> Any:
     """The zero polynomial over the numbers that ``sample`` belongs to."""
     return nmod_poly([0], sample.modulus()) if isinstance(sample, nmod) else arb_poly([])
+
+
+def monomial(like: Any) -> Any:
+    """The polynomial s, of the kind of ``like``."""
+    return nmod_poly([0, 1], like.modulus()) if isinstance(like, nmod_poly) else arb_poly([0, 1])

@@ -50,6 +50,7 @@ class Algebra:
         self.positive = positive
         self.steps = steps
         self._tidied: dict[Expr, Expr] = {}
+        self._vanishing: dict[Expr, bool] = {}
 
     def attempt(self, work: Callable[[], T]) -> T | None:
         """The result of ``work``, None where an expression has no canonical form or divides by zero."""
@@ -65,9 +66,9 @@ class Algebra:
         if self.steps < 0 or cost > MAX_NODES // 8:
             raise GivenUpError
 
-    def tick(self) -> None:
-        """Count a step that is no canonical form."""
-        self.steps -= 1
+    def tick(self, steps: int = 1) -> None:
+        """Count work that is no canonical form."""
+        self.steps -= steps
         if self.steps < 0:
             raise GivenUpError
 
@@ -77,7 +78,9 @@ class Algebra:
         ring = Ring(expressions, self.positive)
         nodes = [ring.node(e) for e in expressions]
         canon = Canon(ring)
-        return canon, [rationalised(canon, canon.quotient(node)) for node in nodes]
+        quotients = [canon.quotient(node) for node in nodes]
+        self.tick(sum(len(p) for quotient in quotients for p in quotient) // 50)
+        return canon, [rationalised(canon, quotient) for quotient in quotients]
 
     def tidy(self, e: Expr) -> Expr:
         """``e`` as one quotient in lowest terms, factored; ``e`` itself where that is too large."""
@@ -97,7 +100,16 @@ class Algebra:
         """True where ``e`` is proved to be zero identically."""
         if e.op in ("num", "sym"):
             return e.is_zero
-        return bool(self.attempt(lambda: self.lowered([e])[1][0][0] == 0))
+        found = self._vanishing.get(e)
+        if found is None:
+            found = self._vanishing[e] = bool(self.attempt(lambda: self._is_zero(e)))
+        return found
+
+    def _is_zero(self, e: Expr) -> bool:
+        self.spend([e])
+        ring = Ring([e], self.positive)
+        node = ring.node(e)
+        return Canon(ring).is_zero(node)
 
     def closed(self, form: dict[Expr, Expr]) -> bool:
         """True where d(omega) = 0 is proved."""

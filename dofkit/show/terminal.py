@@ -144,7 +144,7 @@ def _reasons(entries: Sequence[ConstraintEntry]) -> list[RenderableType]:
     by_reason: dict[tuple[str, str], list[str]] = {}
     for entry in entries:
         by_reason.setdefault((entry.reason, entry.verdict), []).append(entry.name)
-    told = [
+    told: list[RenderableType] = [
         _item(_names(names), reason if verdict == "proved" else f"{reason} [{verdict}]")
         for (reason, verdict), names in list(by_reason.items())[:MOST_ROWS]
     ]
