@@ -120,7 +120,8 @@ def _constraints(entries: Sequence[ConstraintEntry]) -> RenderableType:
     table.add_column("labels", ratio=2)
     table.add_column("eq.", justify="right", no_wrap=True)
     for entry in entries[:MOST_ROWS]:
-        table.add_row(Text(safe(entry.name), "bold"), safe(entry.text), entry.form, labels(entry), _equations(entry))
+        cells = (safe(entry.text), entry.form, labels(entry), _equations(entry))
+        table.add_row(Text(safe(entry.name), "bold"), *map(Text, cells))
     more = len(entries) - MOST_ROWS
     return Group(table, Text(f"... and {more} more: --json has them all", "dim")) if more > 0 else table
 

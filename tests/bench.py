@@ -1,0 +1,102 @@
+"""How fast dofkit is against SymPy on this machine: ratios of medians, taken in turns. Run it; it is no test.
+
+python tests/bench.py [repeats]
+"""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from itertools import combinations
+
+import dofkit
+
+ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 else 7
+DISC = {
+    "parameters": {"R": "positive"},
+    "coordinates": ["x", "y", "theta", "phi"],
+    "constraints": ["dx = R cos(theta) dphi", "dy = R sin(theta) dphi"],
+}
+HEAVY = ("sympy", "numpy", "pydantic")
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """How long ``work`` takes."""
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def medians(*works: Callable[[], object], rounds: int = ROUNDS) -> list[float]:
+    """The median time of each, all taken in turns; one round before does not count."""
+    times: list[list[float]] = [[] for _ in works]
+    for turn in range(rounds + 1):
+        for work, taken in zip(works, times, strict=True):
+            spent = seconds(work)
+            if turn:
+                taken.append(spent)
+    return [statistics.median(taken) for taken in times]
+
+
+def python(*arguments: str) -> Callable[[], object]:
+    """A fresh Python with ``arguments``."""
+    return lambda: subprocess.run([sys.executable, *arguments], check=True, capture_output=True)
+
+
+def told(what: str, ours: float, theirs: float, wanted: str) -> None:
+    """One line: both times and their ratio."""
+    print(f"{what:<58} {ours * 1e3:9.1f} ms {theirs * 1e3:9.1f} ms  {ours / theirs:7.3f}  ({wanted})")
+
+
+def imports(arguments: Sequence[str]) -> None:
+    """Whether a cold start leaves the heavy packages alone."""
+    command = [sys.executable, "-X", "importtime", *arguments]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stderr
+    names = {line.rpartition("|")[2].strip().partition(".")[0] for line in said.splitlines()}
+    found = [name for name in HEAVY if name in names]
+    print(f"{' '.join(arguments):<58} imports {', '.join(found) or 'none of ' + ', '.join(HEAVY)}")
+
+
+def wedges() -> list[bool]:
+    """What a user of SymPy does for each form: is d(omega_a) ^ omega_1 ^ omega_2 zero, by coefficients, simplified?"""
+    import sympy
+
+    q = sympy.symbols("x y theta phi")
+    radius = sympy.Symbol("R", positive=True)
+    forms = [[1, 0, 0, -radius * sympy.cos(q[2])], [0, 1, 0, -radius * sympy.sin(q[2])]]
+    found = []
+    for form in forms:
+        total = sympy.Integer(0)
+        for i, j in combinations(range(4), 2):
+            k, m = (n for n in range(4) if n not in (i, j))
+            minor = forms[0][k] * forms[1][m] - forms[0][m] * forms[1][k]
+            curl = sympy.diff(form[j], q[i]) - sympy.diff(form[i], q[j])
+            total += sympy.LeviCivita(i, j, k, m) * curl * minor
+        found.append(sympy.simplify(total) == 0)
+    return found
+
+
+def rolling_disc() -> object:
+    """From the scene to the whole report."""
+    return dofkit.classify(dofkit.load(DISC))
+
+
+def main() -> None:
+    """Print everything."""
+    imports(["-c", "import dofkit"])
+    imports(["-m", "dofkit", "--help"])
+    scene = ("-m", "dofkit", "classify", "--json", "disc-rolling-on-plane")
+    catalog = ("-m", "dofkit", "classify", "--json", *dofkit.catalog_names())
+    print(f"{'':<58} {'dofkit':>12} {'sympy':>12}    ratio")
+    one, everything, sympy = medians(python(*scene), python(*catalog), python("-c", "import sympy"))
+    told("one lecture scene, cold, against `import sympy`", one, sympy, "at most 2.5")
+    told(f"the whole catalog ({len(catalog) - 4}), cold, against the same", everything, sympy, "at most 6")
+    report, wedge = medians(rolling_disc, wedges, rounds=10 * ROUNDS)
+    told("rolling disc, warm: whole report against wedge, simplify", report, wedge, "below 1")
+
+
+if __name__ == "__main__":
+    main()
