@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple, Protocol
 
@@ -15,6 +15,10 @@ from dofkit.values import nearest
 
 SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
 RESERVED = frozenset({"t", GROUND})
+
+
+#: What has coordinates of its own.
+Owners = Sequence[Particle | Body]
 
 
 class Declared(Protocol):
@@ -152,10 +156,11 @@ def check_names(scene: Declared, table: Table, ledger: Ledger) -> None:
 def _check_owners(scene: Declared, ledger: Ledger) -> None:
     d = scene.dimension
     seen: dict[str, str] = {}
-    for key, one, owners, roles in (
+    both: tuple[tuple[str, str, Owners, tuple[str, ...]], ...] = (
         ("particles", "particle", scene.particles, PARTICLE_ROLES[d]),
         ("bodies", "body", scene.bodies, BODY_ROLES[d]),
-    ):
+    )
+    for key, one, owners, roles in both:
         for i, owner in enumerate(owners):
             name = owner.name
             if name in RESERVED:
@@ -174,10 +179,11 @@ def _check_owners(scene: Declared, ledger: Ledger) -> None:
 
 def _owned(scene: Declared, table: Table) -> Iterator[Entry]:
     told: set[str] = set()
-    for key, one, owners, owned in (
+    both: tuple[tuple[str, str, Owners, Mapping[str, tuple[str, ...]]], ...] = (
         ("particles", "particle", scene.particles, table.particles),
         ("bodies", "body", scene.bodies, table.bodies),
-    ):
+    )
+    for key, one, owners, owned in both:
         for i, owner in enumerate(owners):
             if owner.name in told:
                 continue
@@ -198,7 +204,7 @@ def _further(scene: Declared) -> Iterator[Entry]:
 
 
 def _check_derived(entries: list[Entry], seen: Mapping[str, str], ledger: Ledger) -> None:
-    derived = {}
+    derived: dict[str, tuple[str, str]] = {}
     for name, what, _ in entries:
         if "coordinate" in what:
             derived |= {f"d{name}": (name, "differential"), f"{name}dot": (name, "velocity")}

@@ -14,7 +14,7 @@ from dofkit.constraints.equations import LETTERS
 from dofkit.drawing import size_of
 from dofkit.errors import Fault
 from dofkit.expr import Expr
-from dofkit.naming import Declared, check_names, within_member
+from dofkit.naming import Declared, Owners, check_names, within_member
 from dofkit.parts import GROUND, Energies, Force, texts_of
 from dofkit.report import Report
 from dofkit.system import Constraint
@@ -188,7 +188,8 @@ def _check_value(world: World, value: Any, *where: str | int) -> None:
 
 
 def _check_energies(scene: Surveyed, world: World) -> None:
-    for key, owners in (("particles", scene.particles), ("bodies", scene.bodies)):
+    both: tuple[tuple[str, Owners], ...] = (("particles", scene.particles), ("bodies", scene.bodies))
+    for key, owners in both:
         for i, owner in enumerate(owners):
             world.here = (key, i)
             _check_value(world, owner.mass, "mass")

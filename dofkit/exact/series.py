@@ -65,11 +65,12 @@ class Series:
         return Series(arb_poly(found), self.order)
 
     def __truediv__(self, other: Any) -> Series:
-        below = other.inverse() if isinstance(other, Series) else 1 / other
-        return self.__mul__(below)
+        if isinstance(other, Series):
+            return Series(_mul_low(self.poly, other.inverse().poly, self.order), self.order)
+        return Series(self.poly * (1 / other), self.order)
 
     def __rtruediv__(self, other: Any) -> Series:
-        return self.inverse() * other
+        return Series(self.inverse().poly * other, self.order)
 
     @property
     def invertible(self) -> bool:
