@@ -25,8 +25,9 @@ __all__ = ["Found", "integrate"]
 
 #: Forms past this size, in nodes, are left alone.
 MAX_FORM = 300
-#: A result this easy to read ends the search.
+#: A result this easy to read, with a factor no longer than that, ends the search.
 EASY = 14
+LONG = 60
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ def _with_factor(work: Algebra, form: Form) -> Found | None:
         for pair in _pairs(work, form):
             if best is None or cost(pair) < cost(best):
                 best = pair
-            if cost(best)[0] <= EASY:
+            if all(here <= there for here, there in zip(cost(best), (EASY, LONG), strict=True)):
                 break
     except GivenUpError:
         pass

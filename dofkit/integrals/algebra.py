@@ -18,11 +18,13 @@ Quotient = tuple[Poly, Poly]
 T = TypeVar("T")
 
 #: Canonical forms asked for in one integration; past it the search ends without a result.
-STEPS = 900
+STEPS = 400
 #: The largest expression taken up, in nodes, and the largest polynomial factored or divided, in terms.
 MAX_NODES = 400
 MAX_TERMS = 120
 MAX_DEGREE = 24
+#: The largest polynomial in a linear system, in terms.
+MAX_ENTRY = 24
 
 
 class GivenUpError(Exception):
@@ -181,11 +183,17 @@ def square_root(work: Algebra, e: Expr) -> Expr | None:
 
 
 def _minus(a: Quotient, b: Quotient) -> Quotient:
-    return in_lowest_terms(a[0] * b[1] - b[0] * a[1], a[1] * b[1])
+    return _small(a[0] * b[1] - b[0] * a[1], a[1] * b[1])
 
 
 def _times(a: Quotient, b: Quotient) -> Quotient:
-    return in_lowest_terms(a[0] * b[0], a[1] * b[1])
+    return _small(a[0] * b[0], a[1] * b[1])
+
+
+def _small(top: Poly, bottom: Poly) -> Quotient:
+    if len(top) > MAX_ENTRY or len(bottom) > MAX_ENTRY:
+        raise TooLargeError
+    return in_lowest_terms(top, bottom)
 
 
 def solve(rows: list[list[Quotient]], one: Poly) -> list[Quotient] | None:

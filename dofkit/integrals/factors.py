@@ -46,7 +46,7 @@ def simple(work: Algebra, form: Form) -> Iterator[Expr]:
     for divisor in (_content(work, form), *form.values()):
         if not divisor.is_zero and divisor not in seen and divisor.op != "num":
             seen.append(divisor)
-            yield work.tidy(1 / divisor)
+            yield 1 / divisor
 
 
 def _content(work: Algebra, form: Form) -> Expr:

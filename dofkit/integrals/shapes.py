@@ -101,7 +101,8 @@ def _scaled(work: Algebra, pair: Pair) -> Iterator[Pair]:
     integral, factor = pair
     for shown in dict.fromkeys((upright(integral), integral, work.tidy(integral))):
         constant = _constant(shown)
-        yield arranged(shown / constant), arranged(work.tidy(factor / constant))
+        plain = factor / constant
+        yield arranged(shown / constant), min((arranged(mu) for mu in (work.tidy(plain), plain)), key=_reading)
 
 
 def _constant(e: Expr) -> Expr:
