@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import random
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -12,7 +13,7 @@ import pytest
 
 import dofkit
 from dofkit.documents import read_document
-from dofkit.documents.document import MOST_SLOW, _from_full
+from dofkit.documents.document import MOST_SLOW, _from_block, _from_flow, _from_yaml
 from dofkit.errors import Fault, SceneError
 from dofkit.reading import MOST_FAULTS, SceneFile, find, load, loads
 from dofkit.scene import Scene
@@ -71,7 +72,7 @@ def test_json_reads_as_json(text: str) -> None:
 @pytest.mark.parametrize("path", GOOD, ids=lambda path: path.stem)
 def test_the_fast_reader_agrees_with_the_full_one(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
-    fast, full = read_document(text, "x"), _from_full("x", text)
+    fast, full = read_document(text, "x"), _from_yaml("x", text)
     assert fast.value == full.value
     assert fast.faults == full.faults == ()
     pending: list[tuple[tuple[str | int, ...], object]] = [((), fast.value)]
@@ -94,10 +95,35 @@ def test_the_fast_reader_agrees_with_the_full_one(path: Path) -> None:
         "a:\n- [1, 2]\n-\n  - {b: 1}\n  - {b: 2}\n- {b: 3}\n",
     ],
 )
-def test_runs_of_entries_are_told_from_text_that_looks_like_them(text: str) -> None:
-    fast, full = read_document(text, "x"), _from_full("x", text)
+def test_the_fast_reader_agrees_on_what_is_unusual(text: str) -> None:
+    fast, full = read_document(text, "x"), _from_yaml("x", text)
     assert (fast.value, fast.faults) == (full.value, full.faults)
     assert fast.faults == ()
+
+
+PIECES = [
+    *" \n-:,[]{}'\"#|>&*!?~%@\\\t", "- ", ": ", " #", ">-\n", "|\n  ", "\n  ", "\r\n", "---\n", "...", "θ", "''", "a: b",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_whatever_the_fast_readers_take_they_read_as_the_full_one(seed: int) -> None:
+    chance = random.Random(seed)
+    texts = [path.read_text(encoding="utf-8") for path in GOOD]
+    taken = 0
+    for _ in range(400):
+        text = chance.choice(texts)
+        start = chance.randrange(max(1, len(text) - 200))
+        text = text[start : start + 200].partition("\n")[2]
+        for _ in range(chance.randint(0, 2)):
+            at = chance.randrange(len(text) + 1)
+            text = text[:at] + chance.choice(PIECES) + text[at + chance.randint(0, 2) :]
+        fast = (_from_flow("x", text) or _from_block("x", text)) if text.strip() else None
+        if fast is not None:
+            taken += 1
+            full = _from_yaml("x", text)
+            assert (fast.value, fast.faults) == (full.value, full.faults), text
+    assert taken > 10
 
 
 BAD = {

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-import sys
 from bisect import bisect_right
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from dofkit.documents.events import Composer, MisplacedError
+from dofkit.documents.block import Block
 from dofkit.documents.flow import Flow, Path, Places, UnusualError
 from dofkit.errors import Fault
 
@@ -20,9 +20,6 @@ MOST_SLOW = 8_000_000
 
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _BREAK = re.compile(r"\r\n|\r|\n")
-_ENTRY = re.compile(r"^( *)- +(?=[\"'{\[])", re.MULTILINE)
-_OTHER_BREAKS = re.compile("[\r\x85\u2028\u2029]")
-_STAND_IN = "\ue000"
 _JSON_START = re.compile(r"[ \t\r\n]*[{\[]")
 
 
@@ -34,8 +31,14 @@ class Document:
     text: str
     value: Any
     faults: tuple[Fault, ...]
-    places: Places = field(repr=False)
-    deferred: dict[Path, int] = field(repr=False)
+    locate: Callable[[Places], object] = field(repr=False)
+
+    @cached_property
+    def places(self) -> Places:
+        """The place of everything in the document; found out when it is first asked for."""
+        found: Places = {}
+        self.locate(found)
+        return found
 
     @cached_property
     def _lines(self) -> list[int]:
@@ -54,24 +57,13 @@ class Document:
 
         What is not there is placed where it is missing from.
         """
-        known = self._nearest(path)
+        known = next((path[:n] for n in range(len(path), -1, -1) if path[:n] in self.places), ())
         start, key_at = self.places.get(known, (0, -1))
         if key and known == path and key_at >= 0:
             return self._position(key_at)
         if column is not None:
             start += _within(self.text[start : start + 4 * column + 400], column)
         return self._position(start)
-
-    def _nearest(self, path: Path) -> Path:
-        for length in range(len(path), -1, -1):
-            at = self.deferred.pop(path[:length], None)
-            if at is not None:
-                self._read_again(at, path[:length])
-        return next((path[:n] for n in range(len(path), -1, -1) if path[:n] in self.places), ())
-
-    def _read_again(self, at: int, path: Path) -> None:
-        stop = len(self.text) if not path else _end_of_line(self.text, at)
-        Flow(self.text, stop, self.places).read(at, path)
 
     def _position(self, offset: int) -> tuple[int, int]:
         return _position(self._lines, offset)
@@ -90,8 +82,8 @@ def read_document(data: bytes | str, name: str) -> Document:
     if fault is None and not text.strip():
         fault = 0, Fault("the file is empty", hint="write a mapping, such as 'coordinates: [x, y]'")
     if fault is not None:
-        return _document(name, text, None, [fault], {}, {})
-    return _from_flow(name, text) or _from_yaml(name, text)
+        return _document(name, text, None, [fault])
+    return _from_flow(name, text) or _from_block(name, text) or _from_yaml(name, text)
 
 
 def _decoded(data: bytes | str) -> tuple[str, tuple[int, Fault] | None]:
@@ -107,7 +99,11 @@ def _decoded(data: bytes | str) -> tuple[str, tuple[int, Fault] | None]:
 
 
 def _document(
-    name: str, text: str, value: Any, faults: list[tuple[int, Fault]], places: Places, deferred: dict[Path, int]
+    name: str,
+    text: str,
+    value: Any,
+    faults: list[tuple[int, Fault]],
+    locate: Callable[[Places], object] = lambda places: None,
 ) -> Document:
     told: list[Fault] = []
     if faults:
@@ -115,7 +111,7 @@ def _document(
         for offset, fault in sorted(faults, key=lambda pair: pair[0]):
             line, column = _position(starts, offset)
             told.append(replace(fault, line=line, column=column))
-    return Document(name, text, value, tuple(told), places, deferred)
+    return Document(name, text, value, tuple(told), locate)
 
 
 def _from_flow(name: str, text: str) -> Document | None:
@@ -123,90 +119,35 @@ def _from_flow(name: str, text: str) -> Document | None:
     match = _JSON_START.match(text)
     if match is None:
         return None
-    flow = Flow(text, len(text))
+    start, flow = match.end() - 1, Flow(text, len(text))
     try:
-        value = flow.read(match.end() - 1)
+        value = flow.read(start)
     except UnusualError:
         return None
-    return _document(name, text, value, flow.faults, {}, {(): match.end() - 1})
+    return _document(name, text, value, flow.faults, lambda places: Flow(text, len(text), places).read(start))
+
+
+def _from_block(name: str, text: str) -> Document | None:
+    """The document where it is in the block style that most people write."""
+    block = Block(text)
+    try:
+        value = block.read()
+    except UnusualError:
+        return None
+    return _document(name, text, value, block.faults, lambda places: Block(text, places).read())
 
 
 def _from_yaml(name: str, text: str) -> Document:
-    short = _Shortened(text)
-    if len(short.text) > MOST_SLOW:
-        hint = "write each list entry on one line in brackets, '- {type: link, ...}', or write the scene as JSON"
-        fault = Fault(f"more than {MOST_SLOW // 10**6} MB are not in the form that is read fast", hint=hint)
-        return _document(name, text, None, [(0, fault)], {}, {})
-    composer = Composer(_STAND_IN if short.runs else None, short.runs, short.offset)
-    try:
-        composer.read(short.text)
-    except MisplacedError:
-        composer.faults.append((0, Fault("")))
-    if composer.faults and short.runs and len(text) <= MOST_SLOW:
-        return _from_full(name, text)
-    faults = [(at, fault) for at, fault in composer.faults if fault.message]
-    return _document(name, text, composer.value, faults + short.faults, composer.places, composer.deferred)
+    """The document, by the full parser."""
+    if len(text) > MOST_SLOW:
+        hint = "write the scene as JSON, or each list entry on one line in brackets and without anchors"
+        fault = Fault(f"more than {MOST_SLOW // 10**6} MB that are not in plain YAML or JSON", hint=hint)
+        return _document(name, text, None, [(0, fault)])
+    from dofkit.documents.events import Composer
 
-
-def _from_full(name: str, text: str) -> Document:
-    composer = Composer(None, (), lambda offset: offset)
-    composer.read(text)
-    return _document(name, text, composer.value, composer.faults, composer.places, {})
-
-
-class _Shortened:
-    """A YAML text with every run of list entries that stand in brackets or quotes on one line read beforehand.
-
-    A run becomes one entry, a stand-in character and its number in ``runs``. Whether it is a run of
-    list entries at all (it may lie inside a longer text) shows when the stand-in turns up.
-    """
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.runs: list[list[tuple[Any, int]]] = []
-        self.faults: list[tuple[int, Fault]] = []
-        self._cuts: list[tuple[int, int]] = []
-        if _STAND_IN not in text and not _OTHER_BREAKS.search(text.replace("\r\n", "\n")):
-            self._shorten()
-
-    def offset(self, short: int) -> int:
-        """The offset in the text as written of an offset in the shortened one."""
-        index = bisect_right(self._cuts, (short, sys.maxsize))
-        return short + (self._cuts[index - 1][1] if index else 0)
-
-    def _shorten(self) -> None:
-        written, pieces, after, length = self.text, list[str](), 0, 0
-        margin = ""
-        for match in _ENTRY.finditer(written):
-            stop = _end_of_line(written, match.end())
-            flow = Flow(written, stop)
-            try:
-                value = flow.read(match.end())
-            except UnusualError:
-                continue
-            self.faults += flow.faults
-            if self.runs and match.start() == after and match[1] == margin:
-                self.runs[-1].append((value, match.end()))
-            else:
-                entry = f"{match[0]}{_STAND_IN}{len(self.runs)}\n"
-                kept = written[after : match.start()]
-                pieces += (kept, entry)
-                length += len(kept) + len(entry)
-                self.runs.append([(value, match.end())])
-                margin = match[1]
-            after = stop + 1
-            self._cut(length, after)
-        self.text = "".join((*pieces, written[after:]))
-
-    def _cut(self, short: int, written: int) -> None:
-        if self._cuts and self._cuts[-1][0] == short:
-            self._cuts.pop()
-        self._cuts.append((short, written - short))
-
-
-def _end_of_line(text: str, start: int) -> int:
-    stop = text.find("\n", start)
-    return len(text) if stop < 0 else stop
+    composer = Composer()
+    value = composer.read(text)
+    return _document(name, text, value, composer.faults, lambda places: places.update(composer.places))
 
 
 def _line_starts(text: str) -> list[int]:

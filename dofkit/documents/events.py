@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -32,10 +31,6 @@ class StoppedError(Exception):
     """Reading cannot go on."""
 
 
-class MisplacedError(Exception):
-    """A stand-in turned up where no list entry was: the run it stands for was none."""
-
-
 @dataclass
 class _Open:
     """A collection that is being filled."""
@@ -52,20 +47,12 @@ class _Open:
 
 
 class Composer:
-    """Composes the one document of a YAML text.
+    """Composes the one document of a YAML text."""
 
-    ``stand_in`` is a character that marks entries standing for ``runs[k]``, lists of (value, offset)
-    that were read before; ``offset`` maps ruamel's offsets to those of the text as written.
-    """
-
-    def __init__(
-        self, stand_in: str | None, runs: Sequence[Sequence[tuple[Any, int]]], offset: Callable[[int], int]
-    ) -> None:
-        self.stand_in, self.runs, self.offset = stand_in, runs, offset
+    def __init__(self) -> None:
         self.value: Any = None
         self.documents = 0
         self.places: Places = {}
-        self.deferred: dict[Path, int] = {}
         self.faults: list[tuple[int, Fault]] = []
         self._open: list[_Open] = []
         self._anchors: dict[str, tuple[Any, int]] = {}
@@ -78,7 +65,7 @@ class Composer:
             for event in yaml.parse(text):
                 self._take(event)
         except YAMLError as error:
-            self.faults.append(told(error, self.offset))
+            self.faults.append(told(error))
         except StoppedError:
             pass
         return self.value
@@ -87,7 +74,7 @@ class Composer:
         self.faults.append((self._at(event), Fault(message, hint=hint)))
 
     def _at(self, event: Any) -> int:
-        return self.offset(event.start_mark.index)
+        return int(event.start_mark.index)
 
     def _take(self, event: Any) -> None:
         if isinstance(event, ScalarEvent):
@@ -152,9 +139,6 @@ class Composer:
 
     def _scalar(self, event: ScalarEvent) -> None:
         self._tag(event)
-        if self.stand_in is not None and self.stand_in in event.value:
-            self._run(event)
-            return
         text = joined(event.value)
         if text is None:
             self._fault(event, "an escape stands for half a character", "write the character itself")
@@ -175,18 +159,6 @@ class Composer:
         except BadScalarError as error:
             self._fault(event, error.message, error.hint)
             return 1
-
-    def _run(self, event: ScalarEvent) -> None:
-        top = self._open[-1] if self._open else None
-        number = event.value[1:]
-        if top is None or not isinstance(top.value, list) or event.anchor or event.tag or not number.isdecimal():
-            raise MisplacedError
-        for value, at in self.runs[int(number)]:
-            path = (*top.path, len(top.value))
-            self.places[path] = (at, -1)
-            self.deferred[path] = at
-            top.value.append(value)
-        top.size += len(self.runs[int(number)])
 
     def _path(self, event: Any) -> Path | None:
         """The path of the value that begins with ``event``, its place noted; None where a key must stand."""

@@ -57,6 +57,19 @@ class Flow:
             raise UnusualError
         return value
 
+    def prefix(self, start: int, path: Path, key: int, depth: int) -> Any:
+        """Read the value that begins at ``start``; ``position`` tells where it ends."""
+        self.position = start
+        return self._value(self._next(), path, key, depth)
+
+    def resolved(self, start: int, text: str) -> Any:
+        """The value of an unquoted scalar that begins at ``start``."""
+        try:
+            return plain(text)
+        except BadScalarError as error:
+            self.faults.append((start, Fault(error.message, hint=error.hint)))
+            return 1
+
     def _next(self) -> re.Match[str]:
         match = _TOKEN.match(self.text, self.position, self.stop)
         if match is None:
@@ -80,11 +93,7 @@ class Flow:
         text = token[_PLAIN].rstrip(" ")
         if _DOTS.match(text):
             raise UnusualError
-        try:
-            return plain(text)
-        except BadScalarError as error:
-            self.faults.append((_start(token), Fault(error.message, hint=error.hint)))
-            return 1
+        return self.resolved(_start(token), text)
 
     def _quoted(self, token: re.Match[str]) -> str:
         if token.lastindex == _SINGLE:
@@ -121,7 +130,7 @@ class Flow:
             raise UnusualError
         if token.lastindex == _PLAIN:
             key = token[_PLAIN].rstrip(" ")
-            ended = self.text[self.position + 1 : self.position + 2] in (" ", "\t", "\r", "\n")
+            ended = self.text[self.position : self.position + 2] in (": ", ":\t", ":\r", ":\n")
         else:
             key, ended = self._quoted(token), True
         if not ended or key == "<<" or _DOTS.match(key) or self._next()[_MARK] != ":":

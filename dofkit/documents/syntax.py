@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from typing import NamedTuple
 
 from ruamel.yaml.error import MarkedYAMLError, StreamMark, YAMLError
@@ -55,10 +54,10 @@ _TOLD = (
 _NAMES = {"<stream end>": "the end of the file", "?": "the next key", ":": "':'", "<scalar>": "a text"}
 
 
-def told(error: YAMLError, offset: Callable[[int], int]) -> tuple[int, Fault]:
-    """The offset and the fault of a syntax error; ``offset`` maps ruamel's offsets to those of the text."""
+def told(error: YAMLError) -> tuple[int, Fault]:
+    """The offset and the fault of a syntax error."""
     if isinstance(error, ReaderError):
-        return offset(error.position), Fault("a character that YAML does not allow", hint="take it away")
+        return error.position, Fault("a character that YAML does not allow", hint="take it away")
     if not isinstance(error, MarkedYAMLError):
         return 0, Fault("this cannot be read as YAML", hint="check quotes, brackets and indentation")
     said = f"{error.problem} {error.context or ''}"
@@ -73,4 +72,4 @@ def told(error: YAMLError, offset: Callable[[int], int]) -> tuple[int, Fault]:
         named["line"] = str(error.context_mark.line + 1) if error.context_mark else "?"
         fault = Fault(row.message.format(**named), hint=row.hint.format())
         mark = (error.context_mark if row.at_context else None) or mark
-    return offset(mark.index) if isinstance(mark, StreamMark) else 0, fault
+    return mark.index if isinstance(mark, StreamMark) else 0, fault
