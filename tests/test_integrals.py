@@ -192,6 +192,8 @@ BY_HAND = {
         "x + y/2 - cos((a + b)*t)/(2*(a + b)) - cos((a - b)*t)/(2*(a - b))"
     ),
     "exp(-a t) sin(b t) dt + dx": "x - exp(-a*t)*(a*sin(b*t) + b*cos(b*t))/(a^2 + b^2)",
+    "cos(x) dx/(1 + sin(x)^2) + dy": "atan(sin(x)) + y",
+    "(log(x) cos(x) + sin(x)/x) dx + dy": "log(x)*sin(x) + y",
     "dy - dx/(x^2 + a^2)": "y - atan(x/a)/a",
     "dy - dx/(x^2 - a^2)": "y - log((x - a)/(x + a))/(2*a)",
     "dy - (x^3 + 1) dx/(x^2 + 3 x + 2)": "y - x^2/2 + 3*x - 7*log(x + 2)",

@@ -11,7 +11,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain, count
 
+from flint.utils.flint_exceptions import DomainError
+
 from dofkit import expr as ex
+from dofkit.exact.canon import TooLargeError
 from dofkit.expr import Expr
 from dofkit.integrals.algebra import Algebra, GivenUpError, size
 from dofkit.integrals.factors import FAMILIES, MAX_VARIABLES
@@ -47,7 +50,7 @@ def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Found | None:
     work = Algebra(positive)
     try:
         return _integrate(work, form)
-    except (GivenUpError, RecursionError, ZeroDivisionError, OverflowError):
+    except (GivenUpError, TooLargeError, DomainError, RecursionError, ArithmeticError):
         return None
 
 
@@ -102,7 +105,7 @@ def _pairs(work: Algebra, form: Form) -> Iterator[Pair]:
 def _integral(work: Algebra, form: Form, mu: Expr) -> Pair | None:
     """The integral that belongs to a factor, in its simplest proved shape."""
     scaled = {s: a if a.is_zero else work.tidy(mu * a) for s, a in form.items()}
-    if not work.closed(scaled):
+    if sum(map(size, scaled.values())) > 2 * MAX_FORM or not work.closed(scaled):
         return None
     found = potential(work, scaled)
     if found is None:

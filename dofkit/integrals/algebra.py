@@ -20,7 +20,7 @@ T = TypeVar("T")
 #: Canonical forms asked for in one integration; past it the search ends without a result.
 STEPS = 400
 #: The largest expression taken up, in nodes, and the largest polynomial factored or divided, in terms.
-MAX_NODES = 400
+MAX_NODES = 500
 MAX_TERMS = 120
 MAX_DEGREE = 24
 #: The largest polynomial in a linear system, in terms.
@@ -62,11 +62,11 @@ class Algebra:
             return None
 
     def spend(self, expressions: Iterable[Expr]) -> None:
-        """Count a canonical form; raises GivenUpError past the bound."""
-        cost = sum(1 + size(e) // 40 for e in expressions)
-        self.steps -= cost
-        if self.steps < 0 or cost > MAX_NODES // 8:
-            raise GivenUpError
+        """Count a canonical form. Raises TooLargeError for too large ones, GivenUpError past the bound."""
+        sizes = [size(e) for e in expressions]
+        if max(sizes) > MAX_NODES:
+            raise TooLargeError
+        self.tick(sum(1 + nodes // 20 for nodes in sizes))
 
     def tick(self, steps: int = 1) -> None:
         """Count work that is no canonical form."""
@@ -96,6 +96,8 @@ class Algebra:
     def _quotient(self, e: Expr) -> Expr:
         canon, (quotient,) = self.lowered([e])
         top, bottom = quotient
+        if len(top) + len(bottom) > MAX_TERMS:
+            raise TooLargeError
         return factored(canon, top) / factored(canon, bottom)
 
     def vanishes(self, e: Expr) -> bool:

@@ -33,7 +33,7 @@ def antiderivative(work: Algebra, e: Expr, x: Expr, depth: int = 0) -> Expr | No
             return tidy * x
         found = _by_terms(work, expand(tidy), x, depth)
     if found is None:
-        found = _total_derivative(work, e, x, depth) or rational(work, tidy, x)
+        found = _total_derivative(work, e, x, depth) or rational(work, tidy, x) or _sum_by_parts(work, e, x, depth)
     return found or _by_substitution(work, tidy, x, depth)
 
 
@@ -266,10 +266,29 @@ def _total_derivative(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | Non
     return None if rest is None else part + rest
 
 
+def _sum_by_parts(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
+    """c A + c0 with A a logarithm or an inverse function: G A + the antiderivative of c0 - G A', G' = c."""
+    inverse = [n for n in ex.nodes(e) if n.op == "fn" and n.args[0] in _INVERSE and x in n.symbols]
+    for node in inverse[:2]:
+        marked = replace(e, node, _FRESH)
+        coefficient = ex.diff(marked, _FRESH)
+        if _FRESH in coefficient.symbols or coefficient == ex.ONE:
+            continue
+        raised = antiderivative(work, work.tidy(coefficient), x, depth + 2)
+        if raised is None:
+            continue
+        rest = work.tidy(ex.substitute(marked, {_FRESH: ex.ZERO}) - raised * ex.diff(node, x))
+        found = antiderivative(work, rest, x, depth + 2)
+        if found is not None:
+            return raised * node + found
+    return None
+
+
 def _by_substitution(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
     """e dx = g(u) du for a function u that occurs in e, or a power of x."""
     inner = [n for n in ex.nodes(e) if x in n.symbols and n != e and n.op in ("fn", "call")]
-    for u in inner[:MAX_CANDIDATES]:
+    inner += [ex.fn("sin", n.args[1]) for n in inner if n.op == "fn" and n.args[0] == "cos"]
+    for u in dict.fromkeys(inner[:MAX_CANDIDATES]):
         slope = ex.diff(u, x)
         if x not in slope.symbols:
             continue

@@ -12,13 +12,15 @@ from typing import Any
 from dofkit import expr as ex
 from dofkit.exact.canon import Canon
 from dofkit.expr import Expr
-from dofkit.integrals.algebra import Algebra, Poly, Quotient, solve
+from dofkit.integrals.algebra import Algebra, Poly, Quotient, size, solve
 from dofkit.integrals.antiderivative import antiderivative
 from dofkit.integrals.potential import Form
 
 #: Past so many variables only the cheap factors are tried.
 MAX_VARIABLES = 5
 MAX_PROPOSALS = 24
+#: The largest d log mu/dw looked at, in nodes.
+MAX_SIZE = 120
 _W = ex.sym("parameter", "new combination")
 
 
@@ -120,7 +122,7 @@ def _slope(work: Algebra, form: Form, curls: dict[tuple[Expr, Expr], Expr], w: E
         if work.vanishes(wedge):
             continue
         slope = work.tidy(-curl / wedge)
-        return slope if _depends_on(work, slope, w, list(form)) else None
+        return slope if size(slope) <= MAX_SIZE and _depends_on(work, slope, w, list(form)) else None
     return None
 
 
@@ -156,6 +158,8 @@ def separable(work: Algebra, form: Form) -> Iterator[Expr]:
         if form[y].is_zero:
             continue
         ratio = work.tidy(form[x] / form[y])
+        if size(ratio) > MAX_SIZE:
+            return
         by_x = work.tidy(ex.diff(ratio, x))
         if by_x.is_zero:
             yield 1 / (form[y] * ratio)

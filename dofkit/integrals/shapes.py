@@ -66,9 +66,11 @@ def upright(e: Expr) -> Expr:
     if e.op != "mul" or e.args[0].op != "num" or e.args[0].args[0] > 0:
         return e
     last = e.args[-1]
-    if last.op != "fn" or last.args[0] != "atan" or not any(as_power(f)[1] < 0 for f in last.args[1].args[:4]):
+    if last.op != "fn" or last.args[0] != "atan":
         return e
-    return -ex.mul(*e.args[:-1], ex.fn("atan", 1 / last.args[1]))
+    inside: Expr = last.args[1]
+    divided = any(as_power(f)[1] < 0 for f in (inside.args if inside.op == "mul" else (inside,)))
+    return -ex.mul(*e.args[:-1], ex.fn("atan", 1 / inside)) if divided else e
 
 
 def cost(pair: Pair) -> tuple[int, int]:
