@@ -137,12 +137,12 @@ EXACT_TEXT = {
     "(x dy - y dx)/(x^2 + y^2)": ("atan(y/x) = C", None),
     "exp(t) (x dx + y dy)": ("x^2 + y^2 = C", "2*exp(-t)"),
     "x h'(s) sdot + h(s) xdot": ("x*h(s) = C", None),
+    "ydot - a y": ("y*exp(-a*t) = C", "exp(-a*t)"),
 }
 
 #: form -> an integral derived by hand.
 BY_HAND = {
     "2 y dx + 3 x dy": "x^2*y^3",
-    "ydot - a y": "y*exp(-a*t)",
     "xdot + 2 x t": "x*exp(t^2)",
     "xdot - x/t": "x/t",
     "dy + (y/x - x) dx": "x*y - x^3/3",
@@ -192,6 +192,11 @@ BY_HAND = {
         "x + y/2 - cos((a + b)*t)/(2*(a + b)) - cos((a - b)*t)/(2*(a - b))"
     ),
     "exp(-a t) sin(b t) dt + dx": "x - exp(-a*t)*(a*sin(b*t) + b*cos(b*t))/(a^2 + b^2)",
+    "(2 x^2 + 2 x y + 2 x z^2 + 1) dx + dy + 2 z dz": "(x + y + z^2)*exp(x^2)",
+    "(y^2 exp(x y^2) + 4 x^3) dx + (2 x y exp(x y^2) - 3 y^2) dy": "exp(x*y^2) + x^4 - y^3",
+    "z y dx - z x dy + (x^2 + y^2) dz": "log(z) - atan(y/x)",
+    "dy - (x + y)^2 dx": "atan(x + y) - x",
+    "dy - sqrt(1 - y^2) dx": "asin(y) - x",
     "cos(x) dx/(1 + sin(x)^2) + dy": "atan(sin(x)) + y",
     "(log(x) cos(x) + sin(x)/x) dx + dy": "log(x)*sin(x) + y",
     "dy - dx/(x^2 + a^2)": "y - atan(x/a)/a",

@@ -29,7 +29,7 @@ __all__ = ["Found", "integrate"]
 #: Forms past this size, in nodes, are left alone.
 MAX_FORM = 300
 #: A result this easy to read, with a factor no longer than that, ends the search.
-EASY = 14
+EASY = 16
 LONG = 60
 
 

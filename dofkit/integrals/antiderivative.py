@@ -34,6 +34,7 @@ def antiderivative(work: Algebra, e: Expr, x: Expr, depth: int = 0) -> Expr | No
         found = _by_terms(work, expand(tidy), x, depth)
     if found is None:
         found = _total_derivative(work, e, x, depth) or rational(work, tidy, x) or _sum_by_parts(work, e, x, depth)
+        found = found or _under_exponential(work, tidy, x)
     return found or _by_substitution(work, tidy, x, depth)
 
 
@@ -264,6 +265,41 @@ def _total_derivative(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | Non
     part = replace(part, _FRESH, lower)
     rest = antiderivative(work, work.tidy(e - ex.diff(part, x)), x, depth + 1)
     return None if rest is None else part + rest
+
+
+def _under_exponential(work: Algebra, e: Expr, x: Expr) -> Expr | None:
+    """P(x) exp(c x^m) with a polynomial P: Q exp(c x^m) with Q' + c m x^(m-1) Q = P, from the highest power down."""
+    node = next((n for n in ex.nodes(e) if n.op == "fn" and n.args[0] == "exp" and x in n.symbols), None)
+    if node is None:
+        return None
+    marked = replace(e, node, _FRESH)
+    inside = ex.diff(marked, _FRESH)
+    (constant, powers_of_x), terms = _split(node.args[1], x), _coefficients(inside, x)
+    base, m = as_power(powers_of_x[0])
+    if len(powers_of_x) != 1 or base != x or m.denominator != 1 or not 2 <= m <= 4 or terms is None:
+        return None
+    if _FRESH in inside.symbols or not work.vanishes(marked - inside * _FRESH):
+        return None
+    total, step = [], int(m)
+    for n in range(max(terms), step - 2, -1):
+        q = terms.pop(n, ex.ZERO) / (constant * step)
+        total.append(q * x ** (n - step + 1))
+        if n - step >= 0:
+            terms[n - step] = terms.get(n - step, ex.ZERO) - q * (n - step + 1)
+    return ex.add(*total) * node if all(map(work.vanishes, terms.values())) else None
+
+
+def _coefficients(e: Expr, x: Expr) -> dict[int, Expr] | None:
+    """A polynomial in x by powers; None for anything else."""
+    found: dict[int, Expr] = {}
+    total = expand(e)
+    for term in total.args if total.op == "add" else (total,):
+        constant, factors = _split(term, x)
+        base, k = as_power(factors[0]) if factors else (x, Fraction(0))
+        if len(factors) > 1 or base != x or k.denominator != 1 or not 0 <= k <= 12:
+            return None
+        found[int(k)] = found.get(int(k), ex.ZERO) + constant
+    return found
 
 
 def _sum_by_parts(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:

@@ -202,7 +202,7 @@ def root_of_quadratic(work: Algebra, base: Expr, exponent: Fraction, x: Expr) ->
         return 2 * slope / (delta * root)
     if negative(work, a):
         width = ex.sqrt(work.tidy(-a))
-        inverse = -ex.fn("atan", slope / (2 * width * root)) / width
+        inverse = ex.fn("atan", -slope / (2 * width * root)) / width
     else:
         width = ex.sqrt(a)
         inverse = ex.fn("log", 2 * width * root + slope) / width

@@ -74,14 +74,15 @@ def upright(e: Expr) -> Expr:
 
 
 def cost(pair: Pair) -> tuple[int, int]:
-    """How much there is to read: functions count extra."""
+    """How much there is to read: functions and denominators count extra."""
     integral, factor = pair
     return _reading(integral), _reading(factor)
 
 
 def _reading(e: Expr) -> int:
+    below = sum(2 for n in ex.nodes(e) if as_power(n)[1] < 0)
     functions = sum(3 for n in ex.nodes(e) if n.op == "fn" or (n.op == "pow" and n.args[1].op != "num"))
-    return len(to_text(e)) + functions
+    return len(to_text(e)) + functions + below
 
 
 def shapes(work: Algebra, pair: Pair) -> list[Pair]:
