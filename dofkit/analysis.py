@@ -141,7 +141,7 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
         symbols = (*symbols, ex.TIME)
     columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
     unknowns = (*(s for s in symbols if s != ex.TIME), *setting.generic)
-    return Chart(ring, nodes, symbols, columns, unknowns, setting.positive, setting.roles)
+    return Chart(ring, nodes, symbols, columns, unknowns, setting.positive, setting.roles, tuple(finite))
 
 
 def _finite_answer(block: Block, setting: Setting) -> Answer:
@@ -163,7 +163,7 @@ def _finite_answer(block: Block, setting: Setting) -> Answer:
 
 def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     """Which relations depend on which, and which coordinates on which, from a regular real point."""
-    if real.matrix is None or not real.certified or not real.rows:
+    if real.matrix is None or not real.certified or not real.rows or len(real.matrix) != len(chart.nodes):
         return
     result.matrix = dependency_pattern(real.matrix, real.rows)
     shown = [s for s in chart.symbols if chart.ring.var_index(s) is not None]

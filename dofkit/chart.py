@@ -16,7 +16,7 @@ class Chart:
     """A block's ring, its finite relations and its columns: coordinates, then time where it occurs.
 
     ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
-    real search moves: coordinates and generic geometry.
+    real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute.
     """
 
     ring: Ring
@@ -26,6 +26,7 @@ class Chart:
     unknowns: tuple[Expr, ...]
     positive: frozenset[Expr]
     roles: tuple[Coordinate, ...] = ()
+    relations: tuple[Expr, ...] = ()
 
     @property
     def coordinates(self) -> int:

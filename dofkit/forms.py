@@ -17,6 +17,7 @@ from typing import Any
 
 from flint import arb, arb_mat, nmod, nmod_mat
 
+from dofkit.deadline import check
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, Scalar
 from dofkit.exact.series import Series, SeriesPoint, monomial, series_values, zero_poly
@@ -198,6 +199,7 @@ class Flow:
         """q' = X(q): each pass makes one more coefficient right."""
         path = [Series(self.like + value, 1) for value in self.start]
         for order in range(1, self.order):
+            check()
             matrix, _ = self._evaluate(path, order)
             velocity = self._velocity(matrix, order)
             path = [Series(v.poly, order + 1).integral(value) for v, value in zip(velocity, self.start, strict=True)]

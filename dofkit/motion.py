@@ -20,6 +20,7 @@ from typing import Any
 
 from flint import arb
 
+from dofkit.deadline import check
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, Scalar
 from dofkit.exact.series import Series, SeriesPoint, monomial, series_values, zero_poly
@@ -58,6 +59,7 @@ class Manifold:
             path[c] = path[c] + step * value
         at: list[Series] = []
         for _ in range(order):
+            check()
             point, at = self._evaluate(path, order)
             moved = self._velocity(at, point, direction, order)
             for i, c in enumerate(self.frame.dependent):

@@ -24,7 +24,10 @@ Matrix = list[list[Expr]]
 
 def split_quadratic(e: Expr, velocities: Sequence[Expr], positive: frozenset[Expr]) -> list[tuple[Expr, ...]] | None:
     """Branches of linear forms whose zeros are those of ``e``; None where it is not quadratic or does not split."""
-    form = _matrix(e, velocities)
+    try:
+        form = _matrix(e, velocities)
+    except ZeroDivisionError:
+        return None
     if form is None:
         return None
     vector = [*velocities, ex.ONE]

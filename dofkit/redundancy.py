@@ -6,6 +6,7 @@ because only a finite relation fixes the constant. Dependent sets of constraints
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -55,7 +56,8 @@ def analyse(parts: Sequence[Rows]) -> Redundancies:
     """Redundant constraints, groups and circuits of blocks that share constraints."""
     order = _order(parts)
     bases = [_Basis(part) for part in parts]
-    independent = {owner: sum(len(b.pivot_rows_of(owner)) for b in bases) for owner in order}
+    kept = Counter(b.owners[i] for b in bases for i in b.pivots)
+    independent = {owner: kept[owner] for owner in order}
     if not any(b.supports for b in bases):
         return Redundancies(independent, [], [], {})
     groups = _groups(bases)
@@ -86,12 +88,10 @@ class _Basis:
             i: [self.pivots[r] for r in range(found) if reduced[r, c]] for c, i in enumerate(numbers) if i not in kept
         }
 
-    def pivot_rows_of(self, owner: int) -> list[int]:
-        return [i for i in self.pivots if self.owners[i] == owner]
-
-    def circuit_of(self, owner: int) -> set[int]:
-        """The constraints whose rows the owner's dependent rows depend on."""
-        return {self.owners[j] for i, support in self.supports.items() if self.owners[i] == owner for j in support}
+        self.pivot_owners = {self.owners[i] for i in self.pivots}
+        self.circuits: dict[int, set[int]] = {}
+        for i, support in self.supports.items():
+            self.circuits.setdefault(self.owners[i], set()).update(self.owners[j] for j in support)
 
 
 def _order(parts: Sequence[Rows]) -> list[int]:
@@ -108,10 +108,10 @@ def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
         for i, support in basis.supports.items():
             graph.add_node(basis.owners[i])
             graph.add_edges_from((basis.owners[i], basis.owners[j]) for j in support)
+    extra = Counter(b.owners[i] for b in bases for i in b.supports)
     groups = []
     for component in nx.connected_components(graph):
-        nullity = sum(b.owners[i] in component for b in bases for i in b.supports)
-        groups.append((nullity, sorted(component)))
+        groups.append((sum(extra[o] for o in component), sorted(component)))
     return sorted(groups, key=lambda group: group[1])
 
 
@@ -126,8 +126,10 @@ def _spans(parts: Sequence[Rows], kept: set[int], everything: set[int]) -> bool:
 
 def _droppable(parts: Sequence[Rows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
     """As many constraints of a group as can go together; of several choices the last in the order."""
-    if len(members) > SEARCHED or all(sum(list(p.owners).count(o) for p in parts) == 1 for o in members):
-        return [o for o in members if not any(b.pivot_rows_of(o) for b in bases)]
+    rows_of = Counter(o for p in parts for o in p.owners)
+    if len(members) > SEARCHED or all(rows_of[o] == 1 for o in members):
+        kept_of = set().union(*(b.pivot_owners for b in bases))
+        return [o for o in members if o not in kept_of]
     everything = set(members)
     kept, dropped = set(members), []
     for owner in reversed(members):
@@ -141,11 +143,16 @@ def _droppable(parts: Sequence[Rows], members: list[int], bases: Sequence[_Basis
     return dropped
 
 
+def _single(parts: Sequence[Rows], owner: int) -> bool:
+    """Did the constraint write one row only?"""
+    return sum(o == owner for p in parts for o in p.owners) == 1
+
+
 def _circuit(parts: Sequence[Rows], order: list[int], owner: int, bases: Sequence[_Basis]) -> list[int]:
     """A minimal set of other constraints on which a redundant one depends, of those before it where that can be."""
-    if not any(b.pivot_rows_of(owner) for b in bases):
-        supports = set().union(*(b.circuit_of(owner) for b in bases)) - {owner}
-        if sum(list(p.owners).count(owner) for p in parts) == 1:
+    if not any(owner in b.pivot_owners for b in bases):
+        supports = set().union(*(b.circuits.get(owner, set()) for b in bases)) - {owner}
+        if len(supports) < 2 or len(supports) > SEARCHED or _single(parts, owner):
             return sorted(supports)
         kept = [o for o in order if o in supports]
     else:

@@ -15,6 +15,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
 from dofkit.chart import Chart
+from dofkit.deadline import check
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.points import Solver
@@ -22,6 +23,7 @@ from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import VAR, Ring, reachable
 from dofkit.expr import Expr
 from dofkit.forms import Frame, field_frame
+from dofkit.linear import presolve
 from dofkit.motion import Local, Manifold, local_dimension
 from dofkit.rank import free_point, rank_of
 from dofkit.report import Verdict, weakest
@@ -56,6 +58,7 @@ def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None 
     place = {c: i for i, c in enumerate(chart.columns) if c >= 0}
     rows = []
     for node in chart.nodes if nodes is None else nodes:
+        check()
         row = [zero] * len(chart.columns)
         for c, v in gradient(chart.ring, at, point, [(node, zero + 1)]).items():
             if c in place:
@@ -119,21 +122,26 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     """Generic points of the configuration space of a block, and its dimension."""
     if not chart.nodes:
         points = [p for p in (free_point(chart, seed + k) for k in range(SAMPLES)) if p is not None]
-        real = _real(chart, seed, {})
+        real = _real(chart, seed, ())
         verdict: Verdict = "proved"
         return Variety(True, chart.coordinates, verdict, points, real)
-    samples = _pose_samples(chart, pose, seed)
-    if samples:
-        return _from_samples(chart, samples, None, seed, pose)
-    solver = Solver(chart.ring, chart.nodes, seed=seed)
+    superfluous, contradiction = presolve(chart.relations)
+    if contradiction:
+        return Variety(False, None, "proved", reasons=["linear relations contradict each other"])
+    core = [n for i, n in enumerate(chart.nodes) if i not in superfluous]
+    solver = Solver(chart.ring, core, seed=seed)
+    if solver.plan.special:
+        why = "the relations hold only for special values of the parameters"
+        return Variety(False, None, "probable", reasons=[why])
     if solver.plan.contradictory:
         why = "eliminating the unknowns leaves a number that should be 0 and is not"
         return Variety(False, None, "probable", reasons=[why])
     drawn = [p for p in (solver.draw(seed + k + 1) for k in range(SAMPLES)) if p is not None]
     drawn = [p for p in drawn if on_variety(chart, p)]
-    if not drawn:
-        return _numerical(chart, seed)
-    return _from_samples(chart, drawn, solver, seed, {})
+    if drawn:
+        return _from_samples(chart, drawn, solver, seed, core)
+    samples = _pose_samples(chart, pose, seed)
+    return _from_samples(chart, samples, None, seed, core) if samples else _numerical(chart, seed, core)
 
 
 def _pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[FieldPoint]:
@@ -148,12 +156,12 @@ def _pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[Fi
     return found
 
 
-def _real(chart: Chart, seed: int, start: Mapping[Expr, float], starts: int = 12) -> RealPoint | None:
+def _real(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
     if len(chart.columns) > BALL_COLUMNS:
         return None
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
     try:
-        return search.search(seed, start, starts)
+        return search.search(seed)
     except (OverflowError, ValueError, DomainError):
         return None
 
@@ -165,7 +173,7 @@ def split_time(chart: Chart, matrix: list[list[Any]]) -> list[list[Any]]:
 
 
 def _from_samples(
-    chart: Chart, samples: list[FieldPoint], solver: Solver | None, seed: int, pose: Mapping[Expr, Expr]
+    chart: Chart, samples: list[FieldPoint], solver: Solver | None, seed: int, core: Sequence[int]
 ) -> Variety:
     ranks = [rank_of(field_jacobian(chart, p), p.p) for p in samples]
     rank = max(ranks)
@@ -185,7 +193,7 @@ def _from_samples(
             dimension = None if exact is None else exact - timed
             verdict = "undecided" if exact is None else "probable"
             reasons.append(local.reason)
-    real = _real(chart, seed, {}) if len(chart.columns) <= BALL_COLUMNS else None
+    real = _real(chart, seed, core) if len(chart.columns) <= BALL_COLUMNS else None
     return _with_reality(chart, Variety(True, dimension, verdict, samples, real, reasons), rank)
 
 
@@ -248,16 +256,15 @@ def _singular(chart: Chart, found: Variety) -> Variety:
     return found
 
 
-def _numerical(chart: Chart, seed: int) -> Variety:
+def _numerical(chart: Chart, seed: int, core: Sequence[int]) -> Variety:
     """Without points over GF(p): real points only."""
-    real = _real(chart, seed, {})
+    real = _real(chart, seed, core)
     if real is None:
         return Variety(None, None, "undecided", reasons=["no configuration was found that satisfies all of it"])
     columns = len(chart.columns)
     timed = columns - chart.coordinates
-    if real.certified and real.consistent and real.rank == len(chart.nodes):
-        rank_by_columns = real.rank
-        return Variety(True, columns - rank_by_columns - timed, "proved", [], real)
+    if real.certified and real.consistent and real.rank == len(core) == len(chart.nodes):
+        return Variety(True, columns - real.rank - timed, "proved", [], real)
     if not real.certified or not real.consistent:
         return _singular(chart, Variety(True, None, "proved", [], real))
     if real.gap > 1e3:

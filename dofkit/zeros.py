@@ -41,10 +41,23 @@ def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> 
 
     Symbols outside ``variables`` are generic constants; those of ``positive`` are > 0.
     """
+    if _is_linear(e, variables):
+        return ((e,),), ()
     try:
         return _Zeros(positive, variables).of(e)
     except (TooLargeError, DomainError, TooManyBranchesError, ZeroDivisionError):
         return ((e,),), ()
+
+
+def _is_linear(e: Expr, variables: frozenset[Expr]) -> bool:
+    """A sum of numbers times different symbols, one of them a variable: regular as it is."""
+    seen = False
+    for term in e.args if e.op == "add" else (e,):
+        rest = term.args[-1] if term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num" else term
+        if rest.op not in ("sym", "num"):
+            return False
+        seen = seen or rest in variables
+    return seen
 
 
 class _Zeros:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
+from dofkit.deadline import check
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, Scalar, Var
 from dofkit.expr import Expr
@@ -201,6 +202,7 @@ class RealSearch:
             return np.zeros((0, len(self.columns)))
         previous = math.inf
         for _ in range(ITERATIONS):
+            check()
             try:
                 f, j = self._float_system(symbols, seed)
             except (ValueError, ZeroDivisionError, OverflowError):

@@ -14,12 +14,15 @@ from flint import Ordering, fmpq, fmpq_mpoly_ctx
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
+from dofkit.deadline import check
 from dofkit.exact.program import reachable
 from dofkit.exact.ring import ADD, MUL, NUM, POW, Ring
 from dofkit.expr import Expr
 
 MAX_TERMS = 3000
 MAX_POWER = 80
+#: Polynomials are factored up to this many terms times degrees.
+FACTORED = 4000
 
 Poly = Any
 Quotient = tuple[Poly, Poly]
@@ -93,6 +96,7 @@ class Canon:
 
     def reduce(self, poly: Poly) -> Poly:
         """Modulo the generators' algebraic relations."""
+        check()
         for relation in self.relations:
             if len(poly) > MAX_TERMS:
                 raise TooLargeError
@@ -134,7 +138,12 @@ class Canon:
         return ex.add(*terms) if terms else ex.ZERO
 
     def factors(self, poly: Poly) -> list[tuple[Poly, int]]:
-        """Irreducible factors over the rationals, with multiplicities; constants left out."""
+        """Irreducible factors over the rationals, with multiplicities; constants left out.
+
+        Raises TooLargeError past `FACTORED` terms times degrees.
+        """
+        if len(poly) * max(1, int(poly.total_degree())) > FACTORED:
+            raise TooLargeError
         return [(f, int(k)) for f, k in poly.factor()[1] if not f.is_constant()]
 
     def generators_in(self, poly: Poly) -> list[int]:

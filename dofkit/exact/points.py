@@ -18,6 +18,7 @@ from typing import Any
 from flint import fmpq_mat, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
+from dofkit.deadline import check
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.program import reachable
@@ -104,6 +105,7 @@ class Plan:
     """How points are found: ``steps`` in the order of solving; ``free`` unknowns are drawn at random.
 
     ``contradictory``: elimination left a relation between no unknowns that does not hold.
+    ``special``: it left one between parameters only, which hold for special values of them.
     ``stuck``: relations were left that cannot be solved one unknown at a time.
     """
 
@@ -111,6 +113,7 @@ class Plan:
     free: list[Unit] = field(default_factory=list)
     dropped: int = 0
     contradictory: bool = False
+    special: bool = False
     stuck: bool = False
 
 
@@ -162,6 +165,7 @@ class Solver:
         everything = {u for node in remaining for u in units_in(self.ring, node)}
         combined = False
         while remaining:
+            check()
             if self._peel(remaining, solved_last):
                 continue
             remaining = self._settle(remaining)
@@ -191,10 +195,10 @@ class Solver:
                 where[unit].add(node)
         pending = [node for node in remaining if any(len(where[u]) == 1 for u in of[node])]
         peeled = set()
-        while pending:
-            node = pending.pop(0)
+        for node in pending:
             if node in peeled:
                 continue
+            check()
             own = [u for u in of[node] if where[u] == {node}]
             best = self._best(node, own)
             if best is None:
@@ -210,6 +214,8 @@ class Solver:
 
     def _best(self, node: int, own: Sequence[Unit]) -> Unit | None:
         """The unknown of lowest degree; of equals, what is not a parameter, then by order."""
+        if self._parameters_only(node):
+            return None
         ranked = []
         for unit in own:
             degree = self.degree(node, unit)
@@ -298,6 +304,9 @@ class Solver:
         """Drop relations between no unknowns that hold; notice those that do not."""
         kept = []
         for node in remaining:
+            check()
+            if self._parameters_only(node):
+                self.plan.special = True
             if any(self.degree(node, u) for u in units_in(self.ring, node) - self.fixed):
                 kept.append(node)
             elif self.probe is not None and self._constant_value(node, self.probe) == 0:
@@ -306,10 +315,23 @@ class Solver:
                 self.plan.contradictory = True
         return kept
 
+    def _parameters_only(self, node: int) -> bool:
+        """Does the relation hold between named parameters alone (generic geometry is not named)?"""
+        units = {u for u in units_in(self.ring, node) if self.degree(node, u)}
+        return bool(units) and all(self._is_parameter(u) for u in units)
+
+    def _is_parameter(self, unit: Unit) -> bool:
+        var = self.ring.vars[unit[1]]
+        if unit[0] == "angle" or var.kind != "symbol":
+            return False
+        kind, name = var.key.args
+        return bool(kind == "parameter" and not name.startswith("_"))
+
     def _eliminate(self, remaining: list[int]) -> tuple[int, Unit, list[int]] | None:
         """Solve one relation for an unknown that it holds linearly and put that into the others."""
         choices = []
         for node in remaining:
+            check()
             for unit in units_in(self.ring, node) - self.fixed:
                 if unit[0] == "var" and self._linear(node, unit):
                     size = len(reachable(self.ring, [node], through_generators=False))
