@@ -27,7 +27,7 @@ from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, linear_terms
 from dofkit.expr import Expr
-from dofkit.forms import Frame, Rows, Span, certified_rank, field_frame, growth, lie_span, pairing
+from dofkit.forms import Frame, Rows, Span, certified_rank, field_frame, growth, kernel, lie_span, pairing
 from dofkit.hidden import hidden_relation
 from dofkit.local import AtReference, at_reference
 from dofkit.measured import measure
@@ -36,6 +36,7 @@ from dofkit.rank import rank_of
 from dofkit.report import Verdict, weakest
 from dofkit.system import Coordinate
 from dofkit.variety import BALL_COLUMNS, Variety, field_jacobian, find, on_variety, pose_point
+from dofkit.velocities import form_rate, rate
 from dofkit.zeros import never_vanishes, zero_set
 
 #: Rounds of prolongation: each finds one hidden finite relation.
@@ -72,6 +73,7 @@ class Answer:
     modulus: int = 2
     degenerate: bool = False
     instantaneous: int | None = None
+    curved: bool = False
     dependent: tuple[str, ...] = ()
     growth: tuple[int, ...] | None = None
     method: str = ""
@@ -490,12 +492,16 @@ def _nonlinear(block: Block, forms: Codistribution, setting: Setting, result: An
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + result.hidden
     symbols = [ex.coordinate(c) for c in block.coordinates]
     rates = [ex.velocity(c) for c in block.coordinates]
-    linear = [_rate(g, symbols) for g in finite]
-    linear += [_form_rate(r.piece) for r in block.forms if isinstance(r.piece, Pfaffian)]
+    linear = [rate(g) for g in finite]
+    linear += [form_rate(r.piece) for r in block.forms if isinstance(r.piece, Pfaffian)]
     nonlinear = [r.piece.expr for r in block.nonlinear if isinstance(r.piece, Nonlinear)]
     everything = [*finite, *linear, *nonlinear]
-    ring = Ring(everything, setting.positive, aliases(block, finite))
+    hessians = [[[ex.diff(ex.diff(f, v), w) for w in rates] for v in rates] for f in nonlinear]
+    ring = Ring(
+        [*everything, *(e for h in hessians for row in h for e in row)], setting.positive, aliases(block, finite)
+    )
     nodes = [ring.node(e) for e in everything]
+    curvature = [[[ring.node(e) for e in row] for row in h] for h in hessians]
     columns = [ring.var_index(v) for v in rates]
     solver = Solver(ring, [n for n in nodes if ring.code[n] != (0, 0)], seed=5)
     point = solver.draw(7)
@@ -507,9 +513,18 @@ def _nonlinear(block: Block, forms: Codistribution, setting: Setting, result: An
         return
     _nonlinear_rank(ring, nodes[len(finite) :], columns, sample, result, len(linear))
     if not real.certified:
-        result.verdict = weakest(result.verdict, "undecided")
-        result.velocity_dof = None
+        result.verdict, result.velocity_dof, result.dof = "undecided", None, None
         result.reasons.append("the velocities that satisfy the constraints are singular")
+        return
+    if not _curved(ring, nodes[len(finite) :], columns, curvature, real.point):
+        result.verdict, result.velocity_dof, result.dof = "undecided", None, None
+        result.reasons.append(
+            "the velocities that are allowed form flat pieces, which were not written as linear forms"
+        )
+        return
+    result.curved = True
+    if len(nonlinear) > 1:
+        result.verdict = weakest(result.verdict, "probable")
 
 
 def _nonlinear_rank(
@@ -532,14 +547,37 @@ def _nonlinear_rank(
     result.velocity_dof = len(columns) - rank
 
 
-def _rate(g: Expr, symbols: Sequence[Expr]) -> Expr:
-    """dg/dt."""
-    parts = [ex.diff(g, s) * ex.velocity(str(s.args[1])) for s in symbols if s in g.symbols]
-    return ex.add(*parts, ex.diff(g, ex.TIME)) if parts else ex.diff(g, ex.TIME)
+def _curved(
+    ring: Ring,
+    nodes: Sequence[int],
+    columns: Sequence[int | None],
+    hessians: Sequence[list[list[int]]],
+    point: BallPoint,
+) -> bool:
+    """Is the set of allowed velocities curved at the point: a second fundamental form that a ball proves not to be 0?
+
+    A curved set is no union of hyperplanes, so the relation is no Pfaffian form in disguise.
+    """
+    try:
+        at = values(ring, point)
+        rows = []
+        for node in nodes:
+            g = gradient(ring, at, point, [(node, arb(1))])
+            rows.append([g.get(c, arb(0)) if c is not None else arb(0) for c in columns])
+        _, _, kept, pivots = independent_part(np.array([[float(v.mid()) for v in row] for row in rows]))
+        free = tuple(c for c in range(len(columns)) if c not in set(pivots))
+        tangent = kernel(rows, Frame(tuple(kept), tuple(pivots), free), arb(0))
+        return any(_bends(at, h, u, v) for h in hessians for i, u in enumerate(tangent) for v in tangent[: i + 1])
+    except (OutsideDomainError, ZeroDivisionError):
+        return False
 
 
-def _form_rate(form: Pfaffian) -> Expr:
-    return ex.add(*(e * ex.velocity(name) for name, e in form.coefficients.items()), form.dt)
+def _bends(at: Sequence[arb], hessian: list[list[int]], u: Sequence[arb], v: Sequence[arb]) -> bool:
+    total = arb(0)
+    for a, row in zip(u, hessian, strict=True):
+        for node, b in zip(row, v, strict=True):
+            total = total + a * at[node] * b
+    return not total.contains(0)
 
 
 def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:

@@ -13,15 +13,18 @@ from dofkit import expr as ex
 from dofkit.analysis import Answer, Setting, alone, answer
 from dofkit.blocks import Block, Row, split, uses_time
 from dofkit.count import Facts, count
+from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, check, limited
 from dofkit.entries import Told, entry
 from dofkit.errors import Fault, SceneError, TextError
 from dofkit.expr import Expr
 from dofkit.lowering import lower
-from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, normalise
+from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, normalise, without_instants
+from dofkit.rank import bounded
 from dofkit.redundancy import Redundancies, Rows, analyse
 from dofkit.report import ConstraintEntry, ForceEntry, Redundancy, Report, Verdict, weakest
 from dofkit.scene import Scene
 from dofkit.system import Constraint, System
+from dofkit.velocities import reduced as reduced_velocities
 from dofkit.zeros import never_holds
 
 #: Choices of branches that are looked at.
@@ -83,11 +86,10 @@ class Outcome:
 def classify(scene: Scene | System, budget: float | None = None) -> Report:
     """How the system of ``scene`` can move.
 
-    ``budget``: seconds after which no new part of the scene is begun; what is not finished is undecided.
+    ``budget``: seconds for the scene (60 where none is given); what is not finished then is undecided.
     Raises `SceneError` with every fault where the scene cannot be read as mathematics.
     """
     system = scene if isinstance(scene, System) else lower(scene)
-    deadline = None if budget is None else time.monotonic() + budget
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
     reduced = reduce_all(system, positive)
@@ -100,8 +102,9 @@ def classify(scene: Scene | System, budget: float | None = None) -> Report:
         system.tolerance,
         system.size,
     )
-    outcome = solve(system, reduced, setting, deadline)
-    return _report(system, reduced, setting, outcome)
+    with limited(DEFAULT_SECONDS if budget is None else budget):
+        outcome = solve(system, reduced, setting)
+        return _report(system, reduced, setting, outcome)
 
 
 def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
@@ -115,7 +118,7 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
                 inequalities.append(Inequality(relation.expr, relation.sense == ">"))
                 continue
             try:
-                normals.append(normalise(relation.expr, positive, written))
+                normals.append(without_instants(normalise(relation.expr, positive, written)))
             except TextError as error:
                 faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
         found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
@@ -124,7 +127,7 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
     return found
 
 
-def solve(system: System, reduced: Sequence[Reduced], setting: Setting, deadline: float | None) -> Outcome:
+def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:
     """The largest of the branches, answered block by block."""
     normals = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
@@ -141,9 +144,10 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting, deadline
                 impossible.append(i)
             else:
                 rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
-        outcome = _answered(system, rows, impossible, setting, deadline, cache)
-        if best is None or outcome.size > best.size:
-            best = outcome
+        for way in reduced_velocities(rows, positive):
+            outcome = _answered(system, way, impossible, setting, cache)
+            if best is None or outcome.size > best.size:
+                best = outcome
     return best or Outcome([], [], [], [c.name for c in system.coordinates])
 
 
@@ -152,7 +156,6 @@ def _answered(
     rows: list[Row],
     impossible: list[int],
     setting: Setting,
-    deadline: float | None,
     cache: dict[tuple[int, ...], Answer],
 ) -> Outcome:
     blocks, untouched = split([c.name for c in system.coordinates], rows)
@@ -161,12 +164,18 @@ def _answered(
         key = tuple(id(row.piece) for row in block.rows)
         known = cache.get(key)
         if known is None:
-            if deadline is not None and time.monotonic() > deadline:
-                known = Answer(None, verdict="undecided", reasons=["the time allowed for the scene was used up"])
-            else:
-                known = cache[key] = answer(block, setting)
+            known = cache[key] = _in_time(block, setting)
         answers.append(known)
     return Outcome(rows, blocks, answers, untouched, impossible)
+
+
+def _in_time(block: Block, setting: Setting) -> Answer:
+    """The block's answer; undecided where the time is used up."""
+    try:
+        check()
+        return answer(block, setting)
+    except OutOfTimeError as error:
+        return Answer(None, verdict="undecided", reasons=[str(error)])
 
 
 # -- the report ------------------------------------------------------------------------------------------
@@ -195,6 +204,8 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
         ),
     )
     redundant_equations = None if velocity_dof is None else max(0, equations - (len(system.coordinates) - velocity_dof))
+    if redundant_equations == 0:
+        redundancies = []
     return Report(
         scene=system.name,
         consistent=outcome.consistent,
@@ -263,7 +274,18 @@ def _redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
             found.append(_by_leaving_out(block, setting, a, nullity))
         else:
             parts.append(Rows(matrix, owners, finite, a.modulus))
-    return found + [analyse(group) for group in _sharing(parts)]
+    return found + [r for group in _sharing(parts) for r in _analysed(group)]
+
+
+def _analysed(group: list[Rows]) -> list[Redundancies]:
+    """One group's redundancies; none where there is no time left for them."""
+    try:
+        check()
+        for part in group:
+            bounded(len(part.matrix), len(part.matrix[0]) if part.matrix else 0)
+        return [analyse(group)]
+    except OutOfTimeError:
+        return []
 
 
 def _sharing(parts: Sequence[Rows]) -> list[list[Rows]]:
@@ -347,8 +369,11 @@ def _entries(
     for i, r in enumerate(reduced):
         own = [t.row for t in told[i]]
         by_itself = None
-        if any(isinstance(row.piece, Pfaffian) for row in own):
-            by_itself = _inherited(told[i]) or alone(own, setting, coordinates)
+        written = [p for normal in r.normals for p in normal.pieces]
+        if any(isinstance(p, Nonlinear) for p in written):
+            by_itself = _curved(told[i]) or _alone_in_time([Row(i, p) for p in written], setting, coordinates)
+        elif any(isinstance(row.piece, Pfaffian) for row in own):
+            by_itself = _inherited(told[i]) or _alone_in_time(own, setting, coordinates)
         circuit = circuits.get(i)
         entries.append(
             entry(
@@ -360,9 +385,23 @@ def _entries(
                 setting.positive,
                 independent.get(i, 0 if not told[i] else None),
                 None if circuit is None else [names[j] for j in circuit],
+                outcome.consistent,
             )
         )
     return entries
+
+
+def _curved(told: Sequence[Told]) -> Answer | None:
+    """Velocities that bend under the other constraints bend without them."""
+    return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
+
+
+def _alone_in_time(own: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:
+    try:
+        check()
+        return alone(own, setting, coordinates)
+    except OutOfTimeError as error:
+        return Answer(None, verdict="undecided", reasons=[str(error)])
 
 
 def _inherited(told: Sequence[Told]) -> Answer | None:
@@ -458,7 +497,7 @@ def _conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outc
 
 def _inconsistent(system: System, reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> bool:
     some = [r if i in set(numbers) else Reduced(r.constraint, (), ()) for i, r in enumerate(reduced)]
-    return solve(system, some, setting, None).consistent is False
+    return solve(system, some, setting).consistent is False
 
 
 __all__ = ["Verdict", "classify"]

@@ -42,6 +42,7 @@ def entry(
     positive: frozenset[Expr],
     independent: int | None,
     circuit: list[str] | None,
+    consistent: bool | None,
 ) -> ConstraintEntry:
     """Everything that is told of one constraint."""
     pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(inequalities)
@@ -51,8 +52,10 @@ def entry(
     times = [scleronomic(p, positive) for p in pieces]
     in_system, sure = _in_system(told, inequalities, proofs, forms)
     own, sure_own = _alone(form, by_itself, proofs, forms, inequalities)
+    if consistent is False and in_system is None:
+        in_system, sure = own, sure_own
     equations = len(normals)
-    verdict = weakest(sure, sure_own, *(v for _, v in times))
+    verdict = weakest(sure, sure_own, *(v for _, v in times), *(t.answer.verdict for t in told))
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,
@@ -108,8 +111,8 @@ def _in_system(
         if isinstance(t.row.piece, Finite) or id(t.row.piece) in proved:
             labels.append(True)
         elif isinstance(t.row.piece, Nonlinear):
-            labels.append(False)
-            verdicts.append("probable" if t.answer.verdict == "probable" else "proved")
+            labels.append(False if t.answer.curved else None)
+            verdicts.append("proved" if t.answer.curved else "undecided")
         elif t.label is None:
             labels.append(None)
             verdicts.append("undecided")
@@ -126,8 +129,8 @@ def _strongest(told: Sequence[Told], proved: set[int]) -> Verdict:
     """How sure the surest row is that it is not holonomic."""
     found: list[Verdict] = []
     for t in told:
-        if isinstance(t.row.piece, Nonlinear):
-            found.append("probable" if t.answer.verdict == "probable" else "proved")
+        if isinstance(t.row.piece, Nonlinear) and t.answer.curved:
+            found.append("proved")
         elif t.label is not None and t.label.holonomic is False and id(t.row.piece) not in proved:
             found.append(t.label.verdict)
     return min(found, key=VERDICTS.index, default="proved")
@@ -140,8 +143,11 @@ def _alone(
     forms: Sequence[Pfaffian],
     inequalities: Sequence[Inequality],
 ) -> tuple[bool | None, Verdict]:
-    if inequalities or form == "nonlinear":
+    if inequalities:
         return False, "proved"
+    if form == "nonlinear":
+        curved = by_itself is not None and by_itself.curved
+        return (False, "proved") if curved else (None, "undecided")
     if by_itself is None or (forms and all(p.proved for p in proofs)):
         return True, "proved"
     labels = list(by_itself.labels.values())
@@ -167,6 +173,10 @@ def _reason(
         reason = "A relation between coordinates (and time): holonomic."
         if not told:
             reason = "It relates no coordinates and holds always."
+    elif form == "nonlinear" and in_system:
+        reason = "Not linear in the velocities alone; with the other constraints it becomes integrable: holonomic here."
+    elif form == "nonlinear" and in_system is None:
+        reason = "Not decided: the velocities it allows may form flat pieces, so that it is linear in disguise."
     elif form == "nonlinear":
         reason = (
             "It is not linear in the velocities and no finite relation gives it: non-holonomic; "

@@ -16,7 +16,7 @@ from dofkit import expr as ex
 from dofkit.errors import TextError
 from dofkit.expr import Expr
 from dofkit.quadratic import split_quadratic
-from dofkit.zeros import zero_set
+from dofkit.zeros import PRODUCT_NOTE, zero_set
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,7 @@ class Inequality:
     strict: bool = False
 
 
+INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 QUADRATIC_NOTE = "over the reals the quadratic form in the velocities splits into linear ones"
 
 Piece = Finite | Pfaffian | Nonlinear | Inequality
@@ -177,7 +178,8 @@ def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
 
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
-    branches, notes = zero_set(e, positive, frozenset(velocities_of(e)))
+    moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
+    branches, notes = zero_set(e, positive, moving)
     found: list[tuple[Piece, ...]] = []
     said = list(notes)
     for branch in branches:
@@ -199,3 +201,19 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> list[tuple[Piece, ..
     if split is None:
         return [(Nonlinear(e),)]
     return [tuple(f for g in branch if (f := linear_form(g)) is not None) for branch in split]
+
+
+def without_instants(normal: Normal) -> Normal:
+    """A product's branch that only fixes the time (t = 0 of ``t (x - y) = 0``) is no branch of motion: left out."""
+    kept = tuple(b for b in normal.branches if not any(_instant(p) for p in b))
+    if not kept or len(kept) == len(normal.branches):
+        return normal
+    return Normal(kept, (*(n for n in normal.notes if n != PRODUCT_NOTE), INSTANT_NOTE))
+
+
+def _instant(piece: Piece) -> bool:
+    return (
+        isinstance(piece, Finite)
+        and bool(piece.expr.symbols)
+        and all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
+    )

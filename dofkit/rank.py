@@ -11,7 +11,6 @@ from dofkit.deadline import OutOfTimeError
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.program import values
 
-
 #: rows * columns * min(rows, columns) of a matrix that is still eliminated.
 MAX_WORK = 30_000_000_000
 

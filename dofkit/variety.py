@@ -125,6 +125,10 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
         real = _real(chart, seed, ())
         verdict: Verdict = "proved"
         return Variety(True, chart.coordinates, verdict, points, real)
+    if any(u.args[1].startswith("_a") for u in chart.unknowns if chart.ring.var_index(u) is not None):
+        posed = _pose_samples(chart, pose, seed)
+        if posed:
+            return _from_samples(chart, posed, None, seed, chart.nodes)
     superfluous, contradiction = presolve(chart.relations)
     if contradiction:
         return Variety(False, None, "proved", reasons=["linear relations contradict each other"])

@@ -165,7 +165,7 @@ class RealSearch:
         self.unknowns = [u for u in unknowns if ring.var_index(u) is not None]
         self.columns = [ring.var_index(u) or 0 for u in self.unknowns]
         self.positive = positive
-        self.upto = max(self.nodes, default=-1) + 1
+        self.upto = len(ring.code)
 
     def start(self, seed: int, given: Mapping[Expr, float]) -> dict[Expr, float]:
         """Random dyadic values, so that what is not solved for is an exact number."""
