@@ -587,6 +587,7 @@ def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> 
     merged = Answer()
     for a in answers:
         merged.verdict = weakest(merged.verdict, a.verdict)
+        merged.curved = merged.curved or a.curved
         merged.labels |= {len(merged.labels) + i: label for i, label in a.labels.items()}
         if a.consistent is not True:
             merged.consistent = a.consistent

@@ -11,7 +11,8 @@ import networkx as nx
 
 from dofkit import expr as ex
 from dofkit.analysis import Answer, Setting, alone, answer
-from dofkit.blocks import Block, Row, split, uses_time
+from dofkit.blocks import Block, Row, coordinates_of, split, uses_time
+from dofkit.branches import follows, through_reference
 from dofkit.count import Facts, count
 from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, check, limited
 from dofkit.entries import Told, entry
@@ -31,6 +32,9 @@ from dofkit.zeros import never_holds
 MAX_CHOICES = 16
 #: Constraints of a conflict that are tried one by one for a minimal set, and the seconds spent on it.
 MAX_CONFLICT, CONFLICT_SECONDS = 60, 5.0
+
+#: Up to this many coordinates, those of one constraint are listed in the scene's order.
+FEW = 2000
 
 _BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
 
@@ -57,6 +61,7 @@ class Outcome:
     answers: list[Answer]
     untouched: list[str]
     impossible: list[int] = field(default_factory=list)
+    first_order: int | None = None
 
     @property
     def consistent(self) -> bool | None:
@@ -129,7 +134,7 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
 
 def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:
     """The largest of the branches, answered block by block."""
-    normals = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
+    normals = [(i, through_reference(normal, setting)) for i, r in enumerate(reduced) for normal in r.normals]
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
     never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
@@ -148,7 +153,20 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
             outcome = _answered(system, way, impossible, setting, cache)
             if best is None or outcome.size > best.size:
                 best = outcome
-    return best or Outcome([], [], [], [c.name for c in system.coordinates])
+    best = best or Outcome([], [], [], [c.name for c in system.coordinates])
+    if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
+        best.first_order = _first_order(system, normals, setting)
+    return best
+
+
+def _first_order(system: System, normals: Sequence[tuple[int, Normal]], setting: Setting) -> int | None:
+    """Velocities allowed to first order where branches cross: there the gradient of a product is 0."""
+    rows = [
+        Row(i, p) for i, n in normals if len(n.branches) == 1 for p in n.branches[0] if not isinstance(p, Inequality)
+    ]
+    blocks, untouched = split([c.name for c in system.coordinates], rows)
+    parts = [_in_time(b, setting).instantaneous for b in blocks]
+    return None if any(p is None for p in parts) else len(untouched) + sum(p for p in parts if p is not None)
 
 
 def _answered(
@@ -225,7 +243,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
         ],
         conflicting=[names[i] for i in conflicting],
         generalized_coordinates=_generalized(system, outcome),
-        growth_vector=_growth(outcome),
+        growth_vector=_growth(outcome, entries),
         constraints=entries,
         forces=[ForceEntry(name=f.name, reason=f.reason) for f in system.forces],
         verdict=verdict,
@@ -249,6 +267,8 @@ def _finite_equations(r: Reduced) -> int:
 def _instantaneous(system: System, outcome: Outcome) -> int | None:
     if system.reference is None or outcome.consistent is not True:
         return None
+    if outcome.first_order is not None:
+        return outcome.first_order
     parts = [a.instantaneous for a in outcome.answers]
     if any(p is None for p in parts):
         return None
@@ -260,6 +280,8 @@ def _redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
     found = [_void(reduced)]
     if not outcome.consistent:
         return found
+    if any(len(through_reference(n, setting).branches) > 1 for r in reduced for n in r.normals):
+        return _over_branches(reduced, setting, outcome)
     parts: list[Rows] = []
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         if not block.rows or a.velocity_dof is None:
@@ -286,6 +308,40 @@ def _analysed(group: list[Rows]) -> list[Redundancies]:
         return [analyse(group)]
     except OutOfTimeError:
         return []
+
+
+def _over_branches(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
+    """With several branches a constraint is redundant where it holds on every branch of the others."""
+    numbers = [i for i, r in enumerate(reduced) if r.normals]
+    independent = {i: reduced[i].equations for i in numbers}
+    if len(numbers) > MAX_CHOICES:
+        return [Redundancies(independent, [], [], {})]
+    kept, circuits = list(numbers), {}
+    for i in reversed(numbers):
+        others = [j for j in kept if j != i]
+        if _follows(reduced, i, others, setting):
+            kept = others
+            independent[i] = 0
+            circuits[i] = _needed(reduced, i, others, setting)
+    redundant = sorted(circuits)
+    groups = [
+        (sum(reduced[i].equations for i in redundant), sorted({*redundant, *(j for c in circuits.values() for j in c)}))
+    ]
+    return [Redundancies(independent, redundant, groups if redundant else [], circuits)]
+
+
+def _follows(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> bool:
+    known = [through_reference(n, setting) for j in others for n in reduced[j].normals]
+    return all(follows(through_reference(n, setting), known, setting) for n in reduced[i].normals)
+
+
+def _needed(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> list[int]:
+    """A minimal set of the others that is enough."""
+    kept = list(others)
+    for j in reversed(others):
+        if _follows(reduced, i, [k for k in kept if k != j], setting):
+            kept.remove(j)
+    return kept
 
 
 def _sharing(parts: Sequence[Rows]) -> list[list[Rows]]:
@@ -364,16 +420,15 @@ def _entries(
         for row in block.rows:
             if isinstance(row.piece, Nonlinear):
                 told[row.constraint].append(Told(row, None, a))
-    coordinates = [n for b in outcome.blocks for n in b.coordinates]
     entries = []
     for i, r in enumerate(reduced):
         own = [t.row for t in told[i]]
         by_itself = None
         written = [p for normal in r.normals for p in normal.pieces]
         if any(isinstance(p, Nonlinear) for p in written):
-            by_itself = _curved(told[i]) or _alone_in_time([Row(i, p) for p in written], setting, coordinates)
+            by_itself = _curved(told[i]) or _alone_in_time([Row(i, p) for p in written], setting)
         elif any(isinstance(row.piece, Pfaffian) for row in own):
-            by_itself = _inherited(told[i]) or _alone_in_time(own, setting, coordinates)
+            by_itself = _inherited(told[i]) or _alone_in_time(own, setting)
         circuit = circuits.get(i)
         entries.append(
             entry(
@@ -396,7 +451,11 @@ def _curved(told: Sequence[Told]) -> Answer | None:
     return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
 
 
-def _alone_in_time(own: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:
+def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
+    mentioned = {name for row in own for name in coordinates_of(row.piece)}
+    coordinates = (
+        [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < FEW else sorted(mentioned)
+    )
     try:
         check()
         return alone(own, setting, coordinates)
@@ -419,20 +478,22 @@ def _generalized(system: System, outcome: Outcome) -> list[str] | None:
     return chosen if len(chosen) == outcome.dof else None
 
 
-def _growth(outcome: Outcome) -> list[int] | None:
+def _growth(outcome: Outcome, entries: Sequence[ConstraintEntry]) -> list[int] | None:
     """Dimensions of D, D + [D, D], ... for the whole: blocks do not bracket with each other; they share only time."""
     if not outcome.consistent or not any(b.forms for b in outcome.blocks):
         return None
     growths: list[tuple[int, ...]] = []
-    timed = 0
+    timed = timeless = 0
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         shared = uses_time(block)
         timed += shared
+        owners = {r.constraint for r in block.rows}
+        timeless += shared and all(entries[i].scleronomic and entries[i].catastatic is not False for i in owners)
         if block.nonlinear or (a.growth is None and block.forms) or a.velocity_dof is None:
             return None
         growths.append(a.growth if a.growth is not None else (a.velocity_dof + shared,))
     length = max(len(g) for g in growths)
-    base = len(outcome.untouched) - max(0, timed - 1)
+    base = len(outcome.untouched) - (timed if timed == timeless else max(0, timed - 1))
     return [base + sum(g[min(k, len(g) - 1)] for g in growths) for k in range(length)]
 
 

@@ -1,0 +1,79 @@
+"""Relations that hold on several branches: which pass through the reference, and what follows from what."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product as cartesian
+
+from dofkit import expr as ex
+from dofkit.analysis import Setting, make_chart
+from dofkit.blocks import Block, Row, coordinates_of
+from dofkit.exact.field import NoPointError
+from dofkit.exact.program import values
+from dofkit.expr import Expr
+from dofkit.normal import Finite, Normal, Piece
+from dofkit.variety import find, on_variety, pose_point
+
+#: Choices of branches that are looked at.
+MAX_CHOICES = 16
+
+
+def through_reference(normal: Normal, setting: Setting) -> Normal:
+    """The branches that hold at the reference configuration; all of them where none is given, or none holds there."""
+    if setting.reference is None or len(normal.branches) < 2:
+        return normal
+    kept = tuple(b for b in normal.branches if _holds(b, setting))
+    return replace(normal, branches=kept) if kept else normal
+
+
+def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
+    finite = [p for p in branch if isinstance(p, Finite)]
+    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    chart = make_chart(_block(finite), setting)
+    point = pose_point(chart, known, 5)
+    return point is not None and on_variety(chart, point)
+
+
+def _block(pieces: Sequence[Finite]) -> Block:
+    names = sorted({n for p in pieces for n in coordinates_of(p)})
+    return Block(tuple(names), tuple(Row(i, p) for i, p in enumerate(pieces)))
+
+
+def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool:
+    """Does a finite relation hold on every branch of the others?
+
+    It is evaluated at generic points of each branch over GF(p). False also where no such points were found.
+    """
+    if not _finite(normal) or not all(_finite(o) for o in others):
+        return False
+    choices = list(cartesian(*(o.branches for o in others)))
+    if len(choices) > MAX_CHOICES:
+        return False
+    return all(
+        _vanishes(normal, [p for b in choice for p in b if isinstance(p, Finite)], setting) for choice in choices
+    )
+
+
+def _finite(normal: Normal) -> bool:
+    return all(isinstance(p, Finite) for p in normal.pieces)
+
+
+def _vanishes(normal: Normal, pieces: Sequence[Finite], setting: Setting) -> bool:
+    """Does one of the relation's branches hold at generic points of the pieces' set?"""
+    extra = [p.expr for p in normal.pieces if isinstance(p, Finite)]
+    names = sorted({n for p in (*pieces, *normal.pieces) for n in coordinates_of(p)})
+    block = Block(tuple(names), tuple(Row(i, p) for i, p in enumerate(pieces)))
+    chart = make_chart(block, replace(setting, reference=None), (), extra)
+    found = find(chart, {})
+    if found.consistent is False:
+        return True
+    nodes: dict[Expr, int] = {e: chart.ring.node(e) for e in extra}
+    try:
+        for point in found.samples:
+            at = values(chart.ring, point)
+            if not any(all(at[nodes[p.expr]] == 0 for p in b if isinstance(p, Finite)) for b in normal.branches):
+                return False
+    except (ZeroDivisionError, NoPointError):
+        return False
+    return bool(found.samples)
