@@ -45,6 +45,12 @@ MAX_ROUNDS = 12
 CERTIFIED_COLUMNS = 16
 
 
+OFF_REFERENCE = (
+    "the reference configuration does not satisfy all finite relations: the answer is for configurations that do, "
+    "and nothing is said of the reference itself"
+)
+
+
 @dataclass(frozen=True)
 class Label:
     """Whether a row is a consequence of finite relations, how sure, and why."""
@@ -154,6 +160,8 @@ def _finite_answer(block: Block, setting: Setting) -> Answer:
             return drawn
     found = find(chart, setting.pose)
     result = Answer(found.consistent, found.dimension, found.dimension, found.verdict, reasons=list(found.reasons))
+    if setting.reference is not None:
+        result.reasons.append(OFF_REFERENCE)
     result.method = "rank over GF(p)" + (" and balls" if found.real else "")
     if found.samples:
         _finite_matrix(chart, found, result)

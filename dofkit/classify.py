@@ -13,6 +13,7 @@ from dofkit import expr as ex
 from dofkit.analysis import Answer, Setting, alone, answer
 from dofkit.blocks import Block, Row, coordinates_of, split, uses_time
 from dofkit.branches import follows, through_reference
+from dofkit.choice import generalized
 from dofkit.count import Facts, count
 from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, check, limited
 from dofkit.entries import Told, entry
@@ -62,6 +63,7 @@ class Outcome:
     untouched: list[str]
     impossible: list[int] = field(default_factory=list)
     first_order: int | None = None
+    copies: dict[int, int] = field(default_factory=dict)
 
     @property
     def consistent(self) -> bool | None:
@@ -138,6 +140,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
     never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
+    copied = copies(reduced)
     best: Outcome | None = None
     cache: dict[tuple[int, ...], Answer] = {}
     for number, choice in enumerate(cartesian(*options)):
@@ -147,12 +150,14 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
         for (i, normal), branch in zip(normals, choice, strict=True):
             if branch is None:
                 impossible.append(i)
-            else:
+            elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
         for way in reduced_velocities(rows, positive):
             outcome = _answered(system, way, impossible, setting, cache)
             if best is None or outcome.size > best.size:
                 best = outcome
+    if best is not None:
+        best.copies = copied
     best = best or Outcome([], [], [], [c.name for c in system.coordinates])
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
         best.first_order = _first_order(system, normals, setting)
@@ -167,6 +172,34 @@ def _first_order(system: System, normals: Sequence[tuple[int, Normal]], setting:
     blocks, untouched = split([c.name for c in system.coordinates], rows)
     parts = [_in_time(b, setting).instantaneous for b in blocks]
     return None if any(p is None for p in parts) else len(untouched) + sum(p for p in parts if p is not None)
+
+
+def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
+    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original."""
+    seen: dict[tuple[object, ...], int] = {}
+    found = {}
+    for i, r in enumerate(reduced):
+        if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
+            continue
+        key = tuple(sorted(repr(_up_to_a_number(normal)) for normal in r.normals))
+        if key in seen:
+            found[i] = seen[key]
+        else:
+            seen[key] = i
+    return found
+
+
+def _up_to_a_number(normal: Normal) -> list[list[object]]:
+    return [[_scaled(p) for p in branch] for branch in normal.branches]
+
+
+def _scaled(piece: object) -> object:
+    """A piece with the first coefficient made 1."""
+    if isinstance(piece, Finite):
+        first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
+        number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
+        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
+    return piece
 
 
 def _answered(
@@ -235,14 +268,13 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
         scleronomic=_all([e.scleronomic for e in entries]),
         count=told,
         redundant_equations=redundant_equations,
-        redundant=[names[i] for i in sorted(i for r in redundancies for i in r.redundant)],
+        redundant=[names[i] for i in sorted({i for r in redundancies for i in r.redundant})],
         redundancies=[
             Redundancy(nullity=nullity, members=[names[i] for i in members])
-            for r in redundancies
-            for nullity, members in r.groups
+            for nullity, members in _merged(redundancies)
         ],
         conflicting=[names[i] for i in conflicting],
-        generalized_coordinates=_generalized(system, outcome),
+        generalized_coordinates=_generalized(system, setting, outcome),
         growth_vector=_growth(outcome, entries),
         constraints=entries,
         forces=[ForceEntry(name=f.name, reason=f.reason) for f in system.forces],
@@ -277,7 +309,7 @@ def _instantaneous(system: System, outcome: Outcome) -> int | None:
 
 def _redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
     """Block by block, by the rank of the rows; where that does not measure dependence, by leaving constraints out."""
-    found = [_void(reduced)]
+    found = [_void(reduced), *_copied(reduced, outcome)]
     if not outcome.consistent:
         return found
     if any(len(through_reference(n, setting).branches) > 1 for r in reduced for n in r.normals):
@@ -353,6 +385,25 @@ def _sharing(parts: Sequence[Rows]) -> list[list[Rows]]:
     return [[parts[k] for kind, k in sorted(c) if kind == "part"] for c in components]
 
 
+def _copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
+    """What was written before is redundant."""
+    return [
+        Redundancies({i: 0}, [i], [(reduced[i].equations, sorted((i, j)))], {i: [j]}) for i, j in outcome.copies.items()
+    ]
+
+
+def _merged(found: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
+    """Groups that share a constraint are one."""
+    graph: nx.Graph = nx.Graph()
+    groups = [g for r in found for g in r.groups]
+    for _, members in groups:
+        nx.add_path(graph, members) if len(members) > 1 else graph.add_node(members[0])
+    merged = []
+    for component in nx.connected_components(graph):
+        merged.append((sum(n for n, members in groups if members[0] in component), sorted(component)))
+    return sorted(merged, key=lambda g: g[1])
+
+
 def _void(reduced: Sequence[Reduced]) -> Redundancies:
     """Relations that hold always (0 = 0) are redundant by themselves."""
     independent, redundant, groups = {}, [], []
@@ -420,13 +471,15 @@ def _entries(
         for row in block.rows:
             if isinstance(row.piece, Nonlinear):
                 told[row.constraint].append(Told(row, None, a))
+    for i, original in outcome.copies.items():
+        told[i] = [Told(Row(i, t.row.piece), t.label, t.answer) for t in told[original]]
     entries = []
     for i, r in enumerate(reduced):
         own = [t.row for t in told[i]]
         by_itself = None
-        written = [p for normal in r.normals for p in normal.pieces]
-        if any(isinstance(p, Nonlinear) for p in written):
-            by_itself = _curved(told[i]) or _alone_in_time([Row(i, p) for p in written], setting)
+        written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
+        if any(isinstance(row.piece, Nonlinear) for row in written):
+            by_itself = _curved(told[i]) or _alone_in_time(written, setting)
         elif any(isinstance(row.piece, Pfaffian) for row in own):
             by_itself = _inherited(told[i]) or _alone_in_time(own, setting)
         circuit = circuits.get(i)
@@ -470,12 +523,17 @@ def _inherited(told: Sequence[Told]) -> Answer | None:
     return Answer(labels={0: told[0].label})
 
 
-def _generalized(system: System, outcome: Outcome) -> list[str] | None:
+def _generalized(system: System, setting: Setting, outcome: Outcome) -> list[str] | None:
+    """An independent choice of ``dof`` coordinates: those that are not pivots of what integrates."""
     if outcome.dof is None:
         return None
-    dependent = {name for a in outcome.answers for name in a.dependent}
-    chosen = [c.name for c in system.coordinates if c.name not in dependent]
-    return chosen if len(chosen) == outcome.dof else None
+    chosen = set(outcome.untouched)
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        own = generalized(block, a, setting, system.rotations)
+        if own is None:
+            return None
+        chosen |= set(own)
+    return [c.name for c in system.coordinates if c.name in chosen]
 
 
 def _growth(outcome: Outcome, entries: Sequence[ConstraintEntry]) -> list[int] | None:

@@ -50,11 +50,13 @@ def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
 
 
 def drawn_bodies(world: World) -> set[str]:
-    """The bodies that the drawing places: by their own geometry, or welded to one that is."""
+    """The bodies that the drawing places: by their own geometry, or welded to the ground or to one that is."""
     drawn = world.drawn - {GROUND}
     welded: dict[str, list[str]] = {}
     for first, second in world.welds:
-        if GROUND not in (first, second):
+        if GROUND in (first, second):
+            drawn |= {first, second} - {GROUND}
+        else:
             welded.setdefault(first, []).append(second)
             welded.setdefault(second, []).append(first)
     stack = list(drawn)

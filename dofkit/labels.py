@@ -9,7 +9,8 @@ from flint.utils.flint_exceptions import DomainError
 from dofkit import expr as ex
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.canon import Canon, TooLargeError
-from dofkit.exact.field import NoPointError, field_point
+from dofkit.exact.field import NoPointError
+from dofkit.exact.identity import is_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring
@@ -92,32 +93,6 @@ def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[E
     except (TooLargeError, ZeroDivisionError, DomainError):
         return False
     return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
-
-
-def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Zero identically: in the canonical ring (a proof), or else at random points over GF(p)."""
-    if e.is_zero:
-        return True
-    ring = Ring([e], positive)
-    node = ring.node(e)
-    try:
-        return Canon(ring).is_zero(node)
-    except (TooLargeError, ZeroDivisionError, DomainError):
-        return _zero_at_points(ring, node)
-
-
-def _zero_at_points(ring: Ring, node: int) -> bool:
-    seen = 0
-    for seed in range(60):
-        try:
-            if values(ring, field_point([ring], seed))[node] != 0:
-                return False
-        except (ZeroDivisionError, NoPointError):
-            continue
-        seen += 1
-        if seen == 3:
-            return True
-    return False
 
 
 def _homogeneous(e: Expr) -> bool:

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 from itertools import product as cartesian
 
 from dofkit import expr as ex
-from dofkit.errors import TextError
+from dofkit.differentials import in_velocities, no_acceleration
 from dofkit.expr import Expr
 from dofkit.quadratic import split_quadratic
+from dofkit.signs import holds_on_a_region
 from dofkit.zeros import PRODUCT_NOTE, zero_set
 
 
@@ -56,6 +57,9 @@ class Inequality:
     strict: bool = False
 
 
+REGION_NOTE = (
+    "for one sign of what stands in abs() or under the root it holds on a whole region, and takes nothing away"
+)
 INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 QUADRATIC_NOTE = "over the reals the quadratic form in the velocities splits into linear ones"
 
@@ -75,44 +79,6 @@ class Normal:
     def pieces(self) -> tuple[Piece, ...]:
         """Every piece of every branch."""
         return tuple(piece for branch in self.branches for piece in branch)
-
-
-# -- differentials and velocities ---------------------------------------------------------------
-
-
-def differential_degree(e: Expr) -> int | None:
-    """The degree in (dq, dt), None for the number 0. Raises TextError where terms differ."""
-    if e.is_zero:
-        return None
-    if not any(s.args[0] in ("differential", "dt") for s in e.symbols):
-        return 0
-    if e.op == "sym":
-        return 1
-    if e.op == "add":
-        degrees = {differential_degree(term) for term in e.args} - {None}
-        if len(degrees) > 1:
-            raise TextError(
-                "differentials and finite terms are added together",
-                hint="divide every term by dt (write qdot), or multiply every term by a differential",
-            )
-        return degrees.pop() if degrees else None
-    if e.op == "mul":
-        return sum(differential_degree(factor) or 0 for factor in e.args)
-    if e.op == "pow" and e.args[1].op == "num":
-        degree = (differential_degree(e.args[0]) or 0) * e.args[1].args[0]
-        if degree.denominator == 1:
-            return int(degree)
-    raise TextError("a differential stands inside a function", hint="differentials are only added, multiplied, divided")
-
-
-def in_velocities(e: Expr) -> tuple[Expr, bool]:
-    """``e`` in velocities instead of differentials, and whether it had a dt to divide by."""
-    degree = differential_degree(e)
-    if not degree and not any(s.args[0] in ("differential", "dt") for s in e.symbols):
-        return e, False
-    mapping = {s: ex.velocity(s.args[1]) for s in e.symbols if s.args[0] == "differential"}
-    mapping |= {s: ex.ONE for s in e.symbols if s.args[0] == "dt"}
-    return ex.substitute(e, mapping), bool(degree)
 
 
 def velocities_of(e: Expr) -> list[Expr]:
@@ -154,11 +120,7 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
 
     Raises TextError for accelerations and for sums of differentials with finite terms.
     """
-    if any(s.args[0] == "acceleration" for s in e.symbols):
-        raise TextError(
-            "a second derivative is no constraint on configurations or velocities",
-            hint="integrate it once, or put it into the equations of motion",
-        )
+    no_acceleration(e)
     velocity_form, divided = in_velocities(e)
     if not velocities_of(velocity_form):
         if divided:
@@ -173,6 +135,8 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     if not written:
         return Normal(((Finite(e),),))
+    if holds_on_a_region(e, positive):
+        return Normal(((),), (REGION_NOTE,))
     branches, notes = zero_set(e, positive, frozenset(s for s in e.symbols if s.args[0] in ("coordinate", "time")))
     return Normal(tuple(tuple(Finite(g) for g in branch) for branch in branches), notes)
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from dofkit import expr as ex
+from dofkit.exact.identity import is_zero
 from dofkit.expr import Expr
 from dofkit.integrals import integrate
-from dofkit.labels import exact, is_zero
+from dofkit.labels import exact
 from dofkit.normal import Pfaffian
 
 

@@ -30,9 +30,15 @@ def rigid_motions(chart: Chart, point: FieldPoint) -> int:
 
 def rigid_motions_real(chart: Chart, value: Callable[[int], float]) -> int:
     """The same at a real point; ``value`` of a generator index."""
+    fields = displacements_real(chart, value)
+    return int(np.linalg.matrix_rank(fields, tol=1e-9)) if fields.size else 0
+
+
+def displacements_real(chart: Chart, value: Callable[[int], float]) -> Any:
+    """The displacement fields that keep all relations, at a real point, as rows over the columns."""
     away = free_point(chart, 11)
     if away is None:
-        return 0
+        return np.zeros((0, 0))
     rows = []
     for field in displacement_fields(chart):
         if not _keeps(chart, away, field):
@@ -41,7 +47,7 @@ def rigid_motions_real(chart: Chart, value: Callable[[int], float]) -> int:
         for column, terms in field.items():
             row[column] = sum(f * (1.0 if o is None else value(chart.columns[o])) for f, o in terms)
         rows.append(row)
-    return int(np.linalg.matrix_rank(np.array(rows), tol=1e-9)) if rows else 0
+    return np.array(rows)
 
 
 def _at(chart: Chart, point: FieldPoint, field: Displacement) -> list[Any]:

@@ -16,12 +16,14 @@ MOST_HINTS = 100
 
 #: What may be mentioned: in a fixed value, in a law of positions, in an equation.
 FIXED = frozenset({"parameter"})
+LAW = frozenset({"parameter", "time"})
 FINITE = frozenset({"parameter", "coordinate", "time"})
 MOVING = FINITE | {"velocity"}
 ANYTHING = MOVING | {"acceleration", "differential", "dt"}
 
 _ONLY = {
     FIXED: "numbers and parameters",
+    LAW: "parameters and time",
     FINITE: "positions, parameters and time",
     MOVING: "positions, velocities, parameters and time",
 }

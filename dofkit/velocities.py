@@ -7,8 +7,8 @@ from itertools import product as cartesian
 
 from dofkit import expr as ex
 from dofkit.blocks import Row, coordinates_of
+from dofkit.exact.identity import is_zero
 from dofkit.expr import Expr
-from dofkit.labels import is_zero
 from dofkit.normal import Finite, Inequality, Nonlinear, Pfaffian, normalise, velocities_of
 
 #: Ways to split the nonlinear relations that are looked at.

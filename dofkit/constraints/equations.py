@@ -8,6 +8,8 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from dofkit.constraints.base import ConstraintBase
+from dofkit.differentials import in_velocities, no_acceleration
+from dofkit.errors import TextError
 from dofkit.expr import MINUS_ONE, ONE, Expr, coordinate, mul, power, substitute
 from dofkit.geometry import Placed
 from dofkit.naming import within_member
@@ -31,6 +33,12 @@ class Equation(ConstraintBase):
 
     def relations(self, world: World) -> Iterator[Relation]:
         for e, sense in world.relations(self.text, "text"):
+            try:
+                no_acceleration(e)
+                in_velocities(e)
+            except TextError as error:
+                world.fault(error.message, "text", hint=error.hint)
+                return
             yield Relation(e, sense)
 
     def texts(self) -> Iterator[str]:

@@ -19,7 +19,7 @@ from dofkit.expr import HALF, MINUS_ONE, Expr, fn, mul
 from dofkit.geometry import Frame, Vec, between, cross, difference, dot, is_zero, length, minus, relative, scaled, unit
 from dofkit.parts import show_vector
 from dofkit.system import Relation
-from dofkit.texts import FINITE
+from dofkit.texts import LAW
 from dofkit.values import Text, Vector
 from dofkit.world import Direction, World
 
@@ -94,7 +94,7 @@ class Driven(Axial):
     def driven(self, world: World) -> Iterator[Expr]:
         """The law of the drive, if there is one."""
         if self.drive is not None:
-            yield world.expression(self.drive, "drive", allow=FINITE)
+            yield world.expression(self.drive, "drive", allow=LAW)
 
 
 def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:

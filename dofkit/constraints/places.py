@@ -34,6 +34,7 @@ class Fixed(ConstraintBase):
         elif self.body is not None:
             frame = world.frame(self.body, "body")
             if not frame.fixed:
+                world.drawn.add(frame.name)
                 yield from _hold(frame)
 
     def _hold_point(self, world: World, point: str | Vector | BodyPoint) -> Iterator[Relation]:

@@ -1,0 +1,135 @@
+"""Generalized coordinates: which of the scene's own coordinates can be chosen freely, ``dof`` of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from dofkit import expr as ex
+from dofkit.analysis import Answer, Setting, make_chart
+from dofkit.blocks import Block
+from dofkit.chart import Chart
+from dofkit.deadline import expired
+from dofkit.exact.balls import FloatPoint, RealSearch, jacobian
+from dofkit.exact.program import values
+from dofkit.expr import Expr
+from dofkit.local import ball_point
+from dofkit.rigid import displacements_real
+from dofkit.system import Rotation
+from dofkit.variety import pose_point
+
+#: How far a singular or special configuration is left to look at the set nearby, and what counts as 0 there.
+AWAY, ZERO = 0.05, 1e-7
+TRIES = 4
+MAX_COLUMNS = 120
+
+
+def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rotation]) -> list[str] | None:
+    """The free coordinates of a block; None where none could be told."""
+    if a.dof is None:
+        return None
+    if a.dof == 0:
+        return []
+    turning = [r for r in rotations if r.chart == "gibbs" and set(r.names) & set(block.coordinates)]
+    direct = [c for c in block.coordinates if c not in set(a.dependent)]
+    if not turning and len(direct) == a.dof:
+        return direct
+    if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear:
+        return direct if len(direct) == a.dof else None
+    found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
+    return found if found is not None else (direct if len(direct) == a.dof and not turning else None)
+
+
+def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
+    """From the tangent space at a regular point near the reference, or anywhere where there is none."""
+    chart = make_chart(block, setting)
+    start = _start(chart, setting)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    for seed in range(TRIES):
+        symbols = search.start(seed, {})
+        for s, v in start.items():
+            symbols[s] = v + AWAY * (symbols[s] / 2 if s.args[0] == "coordinate" else 0)
+        if search.descend(symbols, seed) is None:
+            continue
+        tangent = _tangent(chart, symbols, turning)
+        if tangent is not None and tangent.shape[0] == dof:
+            return _columns(chart, tangent)
+    return None
+
+
+def _start(chart: Chart, setting: Setting) -> dict[Expr, float]:
+    if setting.reference is None:
+        return {}
+    known = {**setting.reference, ex.TIME: ex.ZERO}
+    point = pose_point(chart, known, 3)
+    ball = None if point is None else ball_point(chart, known, point)
+    return {} if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
+
+
+def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation]) -> Any:
+    """A basis of the tangent space at fixed time over the block's coordinates, as rows."""
+    point = FloatPoint(symbols, 0)
+    at = values(chart.ring, point)
+    names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
+    columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
+    j = np.array(jacobian(chart.ring, at, point, chart.nodes, columns, 0.0), dtype=float).reshape(-1, len(columns))
+    norms = np.linalg.norm(j, axis=1, keepdims=True)
+    j = j / np.where(norms > ZERO, norms, 1.0)
+    _, singular, right = np.linalg.svd(j)
+    rank = int(np.sum(singular > ZERO))
+    basis = right[rank:]
+    for rotation in turning:
+        basis = _euler_rates(basis, [names.index(n) for n in rotation.names if n in names], at, chart, rotation)
+    return basis
+
+
+def _euler_rates(basis: Any, places: Sequence[int], at: Any, chart: Chart, rotation: Rotation) -> Any:
+    """The columns of a Gibbs vector g turned into those of the Euler angles (phi, theta, psi), up to a factor each.
+
+    omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot R e_z, with n along e_z x R e_z.
+    Where the body keeps its z axis upright, psi stands for the turn about it, theta and phi for tilts.
+    """
+    if len(places) != 3:
+        return basis
+    g = np.array([_value(at, chart, n) for n in rotation.names])
+    cross = np.array([[0, -g[2], g[1]], [g[2], 0, -g[0]], [-g[1], g[0], 0]])
+    turned = np.eye(3) + 2 * (cross + cross @ cross) / (1 + g @ g)
+    axes = np.array([[0, 0, 1.0], np.cross([0, 0, 1.0], turned[:, 2]), turned[:, 2]]).T
+    if abs(np.linalg.det(axes)) < ZERO:
+        axes = np.array([[0, 1.0, 0], [1.0, 0, 0], [0, 0, 1.0]])
+    rates = np.linalg.solve(axes, 2 * (np.eye(3) + cross) / (1 + g @ g))
+    changed = basis.copy()
+    changed[:, list(places)] = basis[:, list(places)] @ rates.T
+    return changed
+
+
+def _value(at: Any, chart: Chart, name: str) -> float:
+    index = chart.ring.var_index(ex.coordinate(name))
+    return 0.0 if index is None else float(at[chart.ring.var_node[index]])
+
+
+def _rigid(block: Block, dof: int, setting: Setting) -> list[str] | None:
+    """Where only motions of the whole are left: from the displacement fields at the reference."""
+    chart = make_chart(block, setting)
+    start = _start(chart, setting)
+    if not start:
+        search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+        start = search.start(1, {})
+        if search.descend(start, 1) is None:
+            return None
+    fields = displacements_real(chart, lambda i: start.get(chart.ring.vars[i].key, 0.0))
+    rank = int(np.linalg.matrix_rank(fields, tol=ZERO)) if fields.size else 0
+    return _columns(chart, fields) if rank == dof else None
+
+
+def _columns(chart: Chart, tangent: Any) -> list[str]:
+    """The first coordinates, in order, on which the tangent space projects regularly."""
+    names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
+    chosen: list[int] = []
+    rank = int(np.linalg.matrix_rank(tangent, tol=ZERO))
+    for c in range(len(names)):
+        if len(chosen) < rank and np.linalg.matrix_rank(tangent[:, [*chosen, c]], tol=1e-5) > len(chosen):
+            chosen.append(c)
+    return [names[c] for c in chosen]
