@@ -25,7 +25,7 @@ from dofkit.exact.balls import (
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
-from dofkit.exact.ring import Ring, linear_terms
+from dofkit.exact.ring import Ring, independent_generators, linear_terms
 from dofkit.expr import Expr
 from dofkit.forms import Frame, Rows, Span, certified_rank, field_frame, growth, kernel, lie_span, pairing
 from dofkit.hidden import hidden_relation
@@ -375,11 +375,16 @@ def _span(forms: Codistribution, point: FieldPoint) -> Sampled | None:
         return None
 
 
-def _ball_span(forms: Codistribution, frame: Frame, point: BallPoint) -> tuple[Span, list[list[arb]]] | None:
+def _ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span, list[list[arb]]] | None:
+    """The Lie algebra with balls; None where the point is no regular one, or has another rank than over GF(p)."""
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
+        found, _, rows, columns = independent_part(np.array([[float(v.mid()) for v in row] for row in matrix]))
+        if found != rank:
+            return None
+        free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(columns))
         point.rng.seed("dofkit curve")
-        return lie_span(forms.rows, frame, point), matrix
+        return lie_span(forms.rows, Frame(tuple(rows), tuple(columns), free), point), matrix
     except (ZeroDivisionError, OutsideDomainError):
         return None
 
@@ -408,7 +413,8 @@ def _field_labels(
         return
     ball = None
     if total <= CERTIFIED_COLUMNS and found.real is not None and found.real.certified and found.real.consistent:
-        ball = _ball_span(forms, sampled.frame, found.real.point)
+        ball = _ball_span(forms, rank, found.real.point)
+    trusted = independent_generators(forms.chart.ring)
     result.verdict = weakest(found.verdict, _rank_verdict(sampled, ball, rank))
     if any(s.span.dimension != sampled.span.dimension for _, s in good):
         result.verdict = weakest(result.verdict, "probable")
@@ -418,7 +424,9 @@ def _field_labels(
             result.labels[i] = Label(True, "proved")
             continue
         place = i if i < len(block.finite) else i + forms.finite - len(block.finite)
-        result.labels[i] = _label(place, good, ball, sampled, rank, total)
+        result.labels[i] = _label(place, good, ball, sampled, rank, total, trusted)
+        if result.labels[i].holonomic is None:
+            result.verdict, result.dof, result.growth = "undecided", None, None
     result.dependent = _integrable_names(forms, sampled, point)
 
 
@@ -443,18 +451,20 @@ def _label(
     sampled: Sampled,
     rank: int,
     total: int,
+    trusted: bool,
 ) -> Label:
     """Is the row in the largest integrable part: does it annihilate the Lie algebra of D?"""
     zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in good]
     if all(zero):
         line = total - rank <= 1
         return Label(True, "proved" if line and ball is not None else "probable", "line" if line else "")
+    disagree = "exact arithmetic and balls disagree: an identity between functions was not seen"
     if ball is None:
-        return Label(False, "probable")
+        return Label(False, "probable") if trusted else Label(None, "undecided", disagree)
     nonzero = any(not v.contains(0) for v in pairing(ball[1][place], ball[0].vectors))
     if nonzero:
         return Label(False, "proved")
-    return Label(None, "undecided", "exact arithmetic and balls disagree: an identity between functions was not seen")
+    return Label(None, "undecided", disagree)
 
 
 def _integrable_names(forms: Codistribution, sampled: Sampled, point: FieldPoint) -> tuple[str, ...]:
@@ -471,10 +481,9 @@ def _ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: A
     """With real points only: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
-    rank, gap, rows, columns = independent_part(np.array([[float(v.mid()) for v in row] for row in matrix]))
+    rank, gap, _, _ = independent_part(np.array([[float(v.mid()) for v in row] for row in matrix]))
     total, n = len(forms.chart.symbols), forms.n
-    frame = Frame(tuple(rows), tuple(columns), tuple(c for c in range(total) if c not in set(columns)))
-    found = _ball_span(forms, frame, real.point)
+    found = _ball_span(forms, rank, real.point)
     if found is None or gap < 1e3:
         result.verdict, result.consistent = "undecided", None
         result.reasons.append("the only points found are singular")

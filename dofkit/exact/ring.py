@@ -488,3 +488,24 @@ def _factors(value: int) -> list[tuple[int, int]]:
         if k:
             powers.append((prime, k))
     return [*powers, (rest, 1)] if rest > 1 else powers
+
+
+def independent_generators(ring: Ring) -> bool:
+    """True where the generators are algebraically independent up to the relations that the ring knows.
+
+    Symbols, sines, cosines and exponentials of different terms are (Ax 1971), and so are unknown functions, square
+    roots of different primes and one root of symbols. False says that a relation may have been missed: two roots of
+    sums, inverse functions, logarithms, transcendental constants.
+    """
+    roots = 0
+    for var in ring.vars:
+        if var.kind in ("asin", "atan", "atan2", "log", "sign", "pi"):
+            return False
+        constant = not ring.var_expr[var.index].symbols
+        if var.kind == "root" and not isinstance(var.key[0], Expr):
+            roots += 1
+            if constant:
+                return False
+        elif constant and var.kind in ("cos", "sin", "exp") and var.key[0] != ex.PI:
+            return False
+    return roots < 2
