@@ -22,6 +22,8 @@ from dofkit.variety import pose_point
 
 #: How far a singular or special configuration is left to look at the set nearby, and what counts as 0 there.
 AWAY, ZERO = 0.05, 1e-7
+#: The same at a singular point, which a descent reaches to half its digits.
+ROUGH = 1e-5
 TRIES = 4
 MAX_COLUMNS = 120
 
@@ -120,7 +122,7 @@ def _rigid(block: Block, dof: int, setting: Setting) -> list[str] | None:
         if search.descend(start, 1) is None:
             return None
     fields = displacements_real(chart, lambda i: start.get(chart.ring.vars[i].key, 0.0))
-    rank = int(np.linalg.matrix_rank(fields, tol=ZERO)) if fields.size else 0
+    rank = int(np.linalg.matrix_rank(fields, tol=ROUGH)) if fields.size else 0
     return _columns(chart, fields) if rank == dof else None
 
 
@@ -128,7 +130,7 @@ def _columns(chart: Chart, tangent: Any) -> list[str]:
     """The first coordinates, in order, on which the tangent space projects regularly."""
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     chosen: list[int] = []
-    rank = int(np.linalg.matrix_rank(tangent, tol=ZERO))
+    rank = int(np.linalg.matrix_rank(tangent, tol=ROUGH))
     for c in range(len(names)):
         if len(chosen) < rank and np.linalg.matrix_rank(tangent[:, [*chosen, c]], tol=1e-5) > len(chosen):
             chosen.append(c)

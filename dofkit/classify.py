@@ -256,7 +256,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
     )
     redundant_equations = None if velocity_dof is None else max(0, equations - (len(system.coordinates) - velocity_dof))
     if redundant_equations == 0:
-        redundancies = []
+        redundancies = _copied(reduced, outcome)
     return Report(
         scene=system.name,
         consistent=outcome.consistent,
@@ -309,11 +309,12 @@ def _instantaneous(system: System, outcome: Outcome) -> int | None:
 
 def _redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
     """Block by block, by the rank of the rows; where that does not measure dependence, by leaving constraints out."""
-    found = [_void(reduced), *_copied(reduced, outcome)]
+    found = [_void(reduced)]
     if not outcome.consistent:
         return found
+    found += _copied(reduced, outcome)
     if any(len(through_reference(n, setting).branches) > 1 for r in reduced for n in r.normals):
-        return _over_branches(reduced, setting, outcome)
+        return found + _over_branches(reduced, setting, outcome)
     parts: list[Rows] = []
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         if not block.rows or a.velocity_dof is None:
@@ -344,7 +345,7 @@ def _analysed(group: list[Rows]) -> list[Redundancies]:
 
 def _over_branches(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
     """With several branches a constraint is redundant where it holds on every branch of the others."""
-    numbers = [i for i, r in enumerate(reduced) if r.normals]
+    numbers = [i for i, r in enumerate(reduced) if r.normals and i not in outcome.copies]
     independent = {i: reduced[i].equations for i in numbers}
     if len(numbers) > MAX_CHOICES:
         return [Redundancies(independent, [], [], {})]

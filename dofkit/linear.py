@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 from flint import fmpq, fmpq_mat
@@ -31,26 +32,53 @@ def linear(e: Expr) -> Terms | None:
     return terms
 
 
-def presolve(relations: Sequence[Expr]) -> tuple[set[int], bool]:
-    """(numbers of linear relations that earlier ones imply, do the linear ones contradict each other?).
+@dataclass(frozen=True)
+class Presolved:
+    """``reduced``: the linear relations in echelon form; ``superfluous`` numbers of those that earlier ones imply.
+
+    ``contradiction``: no values of the unknowns satisfy them, for generic parameters.
+    """
+
+    reduced: tuple[Expr, ...]
+    linear: frozenset[int]
+    superfluous: frozenset[int]
+    contradiction: bool
+
+
+def presolve(relations: Sequence[Expr]) -> Presolved:
+    """The linear relations among some, solved exactly over the rationals: what is found is proved.
 
     Coordinates and time are unknowns; parameters are generic constants, so x = a with x = b is a contradiction.
-    Exact elimination over the rationals: a proof.
+    Unknowns that occur in linear relations only are solved for first.
     """
     found = {i: t for i, e in enumerate(relations) if (t := linear(e)) is not None}
     if len(found) < 2:
-        return set(), False
-    symbols = sorted({s for t in found.values() for s in t}, key=repr)
-    unknown = [s for s in symbols if s.op == "sym" and s.args[0] in ("coordinate", "time")]
-    ordered = unknown + [s for s in symbols if s not in set(unknown)]
-    if len(found) * len(ordered) > MAX_ENTRIES:
-        return set(), False
-    table = [[_fmpq(t.get(s, Fraction(0))) for t in found.values()] for s in ordered]
-    pivots = _pivots(fmpq_mat(table))
+        return Presolved((), frozenset(), frozenset(), False)
+    elsewhere = frozenset().union(*(e.symbols for i, e in enumerate(relations) if i not in found))
+    symbols = sorted({s for t in found.values() for s in t}, key=lambda s: (_place(s), s in elsewhere, repr(s)))
+    if len(found) * len(symbols) > MAX_ENTRIES:
+        return Presolved((), frozenset(), frozenset(), False)
+    rows = [[_fmpq(t.get(s, Fraction(0))) for s in symbols] for t in found.values()]
+    reduced, rank = fmpq_mat(rows).rref()
+    unknown = sum(_place(s) < 2 for s in symbols)
+    pivots = [next(c for c in range(len(symbols)) if reduced[r, c] != 0) for r in range(rank)]
+    kept = _pivots(fmpq_mat([list(column) for column in zip(*rows, strict=True)]))
     numbers = list(found)
-    kept = {numbers[c] for c in pivots}
-    free = len(_pivots(fmpq_mat(table[: len(unknown)]))) if unknown else 0
-    return set(numbers) - kept, free < len(pivots)
+    superfluous = frozenset(numbers) - {numbers[c] for c in kept}
+    echelon = tuple(_expression(reduced, r, symbols) for r in range(rank))
+    return Presolved(echelon, frozenset(numbers), superfluous, any(c >= unknown for c in pivots))
+
+
+def _place(symbol: Expr) -> int:
+    """Coordinates, then time, then parameters and numbers."""
+    if symbol.op != "sym":
+        return 2
+    return {"coordinate": 0, "time": 1}.get(symbol.args[0], 2)
+
+
+def _expression(matrix: fmpq_mat, r: int, symbols: Sequence[Expr]) -> Expr:
+    entries = ((s, matrix[r, c]) for c, s in enumerate(symbols) if matrix[r, c] != 0)
+    return ex.add(*(ex.mul(ex.num(Fraction(int(v.p), int(v.q))), s) for s, v in entries))
 
 
 def _fmpq(value: Fraction) -> fmpq:

@@ -129,11 +129,12 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
         posed = _pose_samples(chart, pose, seed)
         if posed:
             return _from_samples(chart, posed, None, seed, chart.nodes)
-    superfluous, contradiction = presolve(chart.relations)
-    if contradiction:
+    linear = presolve(chart.relations)
+    if linear.contradiction:
         return Variety(False, None, "proved", reasons=["linear relations contradict each other"])
-    core = [n for i, n in enumerate(chart.nodes) if i not in superfluous]
-    solver = Solver(chart.ring, core, seed=seed)
+    core = [n for i, n in enumerate(chart.nodes) if i not in linear.superfluous]
+    others = [n for i, n in enumerate(chart.nodes) if i not in linear.linear]
+    solver = Solver(chart.ring, [*(chart.ring.node(e) for e in linear.reduced), *others], seed=seed)
     if solver.plan.special:
         why = "the relations hold only for special values of the parameters"
         return Variety(False, None, "probable", reasons=[why])
@@ -187,7 +188,7 @@ def _from_samples(
     dimension: int | None = columns - rank - timed
     verdict: Verdict = "proved" if rank == len(chart.nodes) else "probable"
     reasons: list[str] = []
-    if rank < len(chart.nodes):
+    if rank < len(chart.nodes) and not _smooth(chart, samples[0], solver):
         local = local_at(chart, samples[0], None, 0)
         if local.dimension is None or local.dimension < columns - rank:
             bound = _free_dimension(chart, solver)
@@ -199,6 +200,31 @@ def _from_samples(
             reasons.append(local.reason)
     real = _real(chart, seed, core) if len(chart.columns) <= BALL_COLUMNS else None
     return _with_reality(chart, Variety(True, dimension, verdict, samples, real, reasons), rank)
+
+
+def _smooth(chart: Chart, point: FieldPoint, solver: Solver | None) -> bool:
+    """Is the set with all parameters free a manifold at the point, of the dimension of the family drawn from?
+
+    Then a generic fibre over the parameters is one too (Sard), and its dimension is the number of columns less the
+    rank. The family has as many dimensions as there are symbols less steps; a root's own relation adds both.
+    """
+    if solver is None or solver.plan.stuck or solver.plan.contradictory:
+        return False
+    ring = chart.ring
+    if any(ring.vars[i].kind not in ("symbol", "pi") for i in generators_of(chart)):
+        return False
+    symbols = [v.index for v in ring.vars if v.kind == "symbol"]
+    at = values(ring, point)
+    one = point.number(ex.ONE.args[0])
+    place = {c: k for k, c in enumerate(symbols)}
+    rows = []
+    for node in chart.nodes:
+        check()
+        row = [0] * len(symbols)
+        for c, v in gradient(ring, at, point, [(node, one)]).items():
+            row[place[c]] = int(v)
+        rows.append(row)
+    return rank_of(rows, point.p) == len(solver.plan.steps)
 
 
 def _free_dimension(chart: Chart, solver: Solver | None) -> int | None:

@@ -406,7 +406,7 @@ def test_the_renaming_renames() -> None:
             "bodies": ["b"],
             "coordinates": ["phi"],
             "constraints": [
-                {"type": "equation", "text": "dx_A = R cos(phi) phidot"},
+                {"type": "equation", "text": "dx_A = R cos(phi) dphi"},
                 {"type": "on", "members": ["A"], "curve": ["x = R"]},
                 {"type": "link", "between": ["A", {"on": "b", "at": [1, 2]}], "length": "2 R"},
             ],
