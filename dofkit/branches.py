@@ -17,6 +17,8 @@ from dofkit.variety import find, on_variety, pose_point
 
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16
+#: Times that points are drawn: each may land on another part of the set.
+SEEDS = 4
 
 
 def through_reference(normal: Normal, setting: Setting) -> Normal:
@@ -65,15 +67,18 @@ def _vanishes(normal: Normal, pieces: Sequence[Finite], setting: Setting) -> boo
     names = sorted({n for p in (*pieces, *normal.pieces) for n in coordinates_of(p)})
     block = Block(tuple(names), tuple(Row(i, p) for i, p in enumerate(pieces)))
     chart = make_chart(block, replace(setting, reference=None), (), extra)
-    found = find(chart, {})
-    if found.consistent is False:
-        return True
     nodes: dict[Expr, int] = {e: chart.ring.node(e) for e in extra}
-    try:
-        for point in found.samples:
-            at = values(chart.ring, point)
-            if not any(all(at[nodes[p.expr]] == 0 for p in b if isinstance(p, Finite)) for b in normal.branches):
-                return False
-    except (ZeroDivisionError, NoPointError):
-        return False
-    return bool(found.samples)
+    seen = 0
+    for seed in range(SEEDS):
+        found = find(chart, {}, 10 * seed)
+        if found.consistent is False:
+            return True
+        try:
+            for point in found.samples:
+                at = values(chart.ring, point)
+                if not any(all(at[nodes[p.expr]] == 0 for p in b if isinstance(p, Finite)) for b in normal.branches):
+                    return False
+                seen += 1
+        except (ZeroDivisionError, NoPointError):
+            return False
+    return seen > 0

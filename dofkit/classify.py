@@ -329,7 +329,29 @@ def _redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
             found.append(_by_leaving_out(block, setting, a, nullity))
         else:
             parts.append(Rows(matrix, owners, finite, a.modulus))
-    return found + [r for group in _sharing(parts) for r in _analysed(group)]
+    by_rank = [r for group in _sharing(parts) for r in _analysed(group)]
+    if _only_nearby(reduced, setting, outcome, by_rank):
+        return found + _over_branches(reduced, setting, outcome)
+    return found + by_rank
+
+
+def _only_nearby(
+    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, by_rank: Sequence[Redundancies]
+) -> bool:
+    """Is a written equation called redundant by its differential that does not hold wherever the others do?
+
+    x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
+    """
+    dropped = {i for r in by_rank for i in r.redundant}
+    written = [i for i, r in enumerate(reduced) if r.normals and i not in outcome.copies]
+    if not dropped or setting.reference is not None or len(written) > MAX_CHOICES:
+        return False
+    plain = all(reduced[i].constraint.type in ("equation", "on") for i in written)
+    finite = all(isinstance(p, Finite) for i in written for n in reduced[i].normals for p in n.pieces)
+    if not plain or not finite:
+        return False
+    kept = [i for i in written if i not in dropped]
+    return not all(_follows(reduced, i, kept, setting) for i in dropped)
 
 
 def _analysed(group: list[Rows]) -> list[Redundancies]:

@@ -417,7 +417,7 @@ def test_the_renaming_renames() -> None:
     assert renamed["parameters"] == {"R9": "positive"}
     assert renamed["particles"] == [{"name": "A9"}]
     equation, on, link = renamed["constraints"]
-    assert equation["text"] == "dx_A9 = R9 cos(phi9) phi9dot"
+    assert equation["text"] == "dx_A9 = R9 cos(phi9) dphi9"
     assert (on["members"], on["curve"]) == (["A9"], ["x = R9"])
     assert (link["between"], link["length"]) == (["A9", {"on": "b9", "at": [1, 2]}], "2 R9")
 

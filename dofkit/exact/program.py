@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from flint import arb
+
 from dofkit.exact.ring import ADD, MUL, NUM, POW, VAR, Point, Ring, Scalar, Var, reachable
 
 
@@ -32,8 +34,20 @@ def values(ring: Ring, point: Point, upto: int | None = None) -> list[Scalar]:
             push(point.number(payload))
         else:
             base, exponent = payload
-            push(out[base] ** exponent if exponent > 0 else 1 / out[base] ** -exponent)
+            push(integer_power(out[base], exponent) if exponent > 0 else 1 / integer_power(out[base], -exponent))
     return out
+
+
+def integer_power(value: Scalar, n: int) -> Scalar:
+    """value^n for n > 0; a ball's own power goes through its logarithm and is no number where it contains 0."""
+    if not isinstance(value, arb):
+        return value**n
+    total = value
+    for bit in bin(n)[3:]:
+        total = total * total
+        if bit == "1":
+            total = total * value
+    return total
 
 
 def partials(ring: Ring, var: Var, at: Sequence[Scalar], point: Point) -> list[tuple[int, Scalar]]:
@@ -89,7 +103,7 @@ def gradient(ring: Ring, at: Sequence[Scalar], point: Point, seeds: Iterable[tup
             _product_rule(payload, at, bar, adjoint)
         elif op == POW:
             base, n = payload
-            part = bar * n * (at[base] ** (n - 1) if n > 1 else at[node] / at[base])
+            part = bar * n * (integer_power(at[base], n - 1) if n > 1 else at[node] / at[base])
             adjoint[base] = adjoint[base] + part if base in adjoint else part
         elif op == VAR:
             var = ring.vars[payload]
@@ -115,4 +129,4 @@ def polynomial_nodes(ring: Ring) -> bool:
     return all(op != POW or payload[1] > 0 for op, payload in ring.code)
 
 
-__all__ = ["gradient", "partials", "polynomial_nodes", "reachable", "values"]
+__all__ = ["gradient", "integer_power", "partials", "polynomial_nodes", "reachable", "values"]
