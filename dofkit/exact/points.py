@@ -247,8 +247,8 @@ class Solver:
         one = nmod_poly([1], point.p)
         values: dict[int, Any] = {}
         if unit[0] == "angle":
-            below = one + x * x
-            cos, sin = Rational(one - x * x, below), Rational(2 * x, below)
+            below = 5 * (one + x * x)
+            cos, sin = (Rational(top, below) for top in _circle(x, one))
             var = self.ring.vars[unit[1]]
             pair = {var.index: cos if var.kind == "cos" else sin, var.partner: sin if var.kind == "cos" else cos}
         else:
@@ -442,11 +442,17 @@ class Solver:
         if unit[0] == "var":
             point.set(var, value)
             return
-        below = 1 + value * value
-        cos, sin = (1 - value * value) / below, 2 * value / below
+        below = 5 * (1 + value * value)
+        cos, sin = (top / below for top in _circle(value, value * 0 + 1))
         partner = self.ring.vars[var.partner]
         point.set(var, cos if var.kind == "cos" else sin)
         point.set(partner, sin if var.kind == "cos" else cos)
+
+
+def _circle(w: Any, one: Any) -> tuple[Any, Any]:
+    """5 (1 + w^2) times cos and sin of 2 atan(w) + atan(4/3): the point that no w gives is no special one."""
+    cos, sin = one - w * w, 2 * w
+    return 3 * cos - 4 * sin, 4 * cos + 3 * sin
 
 
 def _linear_root(polynomial: Any) -> list[Any]:
