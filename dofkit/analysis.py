@@ -41,6 +41,8 @@ from dofkit.zeros import never_vanishes, zero_set
 
 #: Rounds of prolongation: each finds one hidden finite relation.
 MAX_ROUNDS = 12
+#: Branches of one hidden relation that are followed.
+MAX_HIDDEN_BRANCHES = 3
 #: Lie algebras are certified with balls up to this many columns.
 CERTIFIED_COLUMNS = 16
 
@@ -290,8 +292,9 @@ def _first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr])
     return forms.n - rank_of([row[: forms.n] for row in matrix], point.p)
 
 
-def _prolonged(block: Block, setting: Setting, result: Answer) -> Answer:
-    extra: list[Expr] = []
+def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[Expr] = ()) -> Answer:
+    """The answer with the hidden relations that the rows force added one after another; of branches the largest."""
+    extra = list(given)
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
         found = find(forms.chart, setting.pose)
@@ -301,20 +304,26 @@ def _prolonged(block: Block, setting: Setting, result: Answer) -> Answer:
             return result
         new = _confined(forms, found)
         if new is None:
-            break
+            return _with_spans(block, forms, found, extra, setting)
         outcome = _prolong(new, setting)
         if not outcome:
             result.consistent, result.verdict, result.hidden = False, "probable", extra
             result.reasons.append("the constraints leave no motion through an interval of time")
             return result
-        fresh = [g for g in outcome if g not in extra]
+        if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
+            ways = [_prolonged(block, setting, Answer(), [*extra, *branch]) for branch in outcome[:MAX_HIDDEN_BRANCHES]]
+            return max(ways, key=_largest)
+        fresh = [g for g in outcome[0] if g not in extra]
         if not fresh:
-            result.verdict = "undecided"
-            result.consistent = None
-            result.reasons.append("motion is confined to a locus that could not be written down")
-            return result
+            break
         extra += fresh
-    return _with_spans(block, forms, found, extra, setting)
+    result.verdict, result.consistent = "undecided", None
+    result.reasons.append("motion is confined to a locus that could not be written down")
+    return result
+
+
+def _largest(a: Answer) -> tuple[int, int, int]:
+    return (int(a.consistent is not False), -1 if a.dof is None else a.dof, a.velocity_dof or 0)
 
 
 def _confined(forms: Codistribution, found: Variety) -> Expr | None:
@@ -329,13 +338,15 @@ def _confined(forms: Codistribution, found: Variety) -> Expr | None:
     return hidden_relation(forms.rows, n, point)
 
 
-def _prolong(relation: Expr, setting: Setting) -> tuple[Expr, ...]:
-    """What a hidden relation says; nothing where it cannot hold."""
-    if never_vanishes(relation, setting.positive):
+def _prolong(relation: Expr, setting: Setting) -> tuple[tuple[Expr, ...], ...]:
+    """The branches of a hidden relation; none where it cannot hold."""
+    if relation.is_zero or never_vanishes(relation, setting.positive):
+        return () if not relation.is_zero else ((),)
+    if not any(s.args[0] == "coordinate" for s in relation.symbols):
         return ()
     variables = frozenset(s for s in relation.symbols if s.args[0] in ("coordinate", "time"))
     branches, _ = zero_set(relation, setting.positive, variables)
-    return min(branches, key=len) if branches else ()
+    return branches
 
 
 def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list[Expr], setting: Setting) -> Answer:

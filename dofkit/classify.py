@@ -18,6 +18,7 @@ from dofkit.count import Facts, count
 from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, check, limited
 from dofkit.entries import Told, entry
 from dofkit.errors import Fault, SceneError, TextError
+from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
 from dofkit.lowering import lower
 from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, normalise, without_instants
@@ -227,6 +228,8 @@ def _in_time(block: Block, setting: Setting) -> Answer:
         return answer(block, setting)
     except OutOfTimeError as error:
         return Answer(None, verdict="undecided", reasons=[str(error)])
+    except (ArithmeticError, NoPointError):
+        return Answer(None, verdict="undecided", reasons=["an expression has no value at the points that were tried"])
 
 
 # -- the report ------------------------------------------------------------------------------------------
@@ -535,8 +538,8 @@ def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
     try:
         check()
         return alone(own, setting, coordinates)
-    except OutOfTimeError as error:
-        return Answer(None, verdict="undecided", reasons=[str(error)])
+    except (OutOfTimeError, ArithmeticError, NoPointError):
+        return Answer(None, verdict="undecided")
 
 
 def _inherited(told: Sequence[Told]) -> Answer | None:

@@ -7,21 +7,20 @@ If lambda A = 0 for the coordinates' columns A and lambda b is not 0 for the tim
 
 from __future__ import annotations
 
-from typing import Any
-
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import FieldPoint
 from dofkit.exact.program import values
-from dofkit.exact.ring import ADD, MUL, NUM
+from dofkit.exact.ring import ADD, MUL, NUM, Ring, reachable
 from dofkit.expr import Expr
 from dofkit.forms import Rows
 
 
 def hidden_relation(rows: Rows, n: int, point: FieldPoint) -> Expr:
-    """lambda b as an expression, by cross-multiplied elimination; zero is decided at a generic point of the variety.
+    """lambda b as an expression, by elimination, in lowest terms (a pivot is no factor of it); zero is decided
+    at a generic point of the variety.
 
     ``n`` is the number of coordinate columns; time is column n. Returns 0 where the relation grows too large.
     """
@@ -38,7 +37,7 @@ def hidden_relation(rows: Rows, n: int, point: FieldPoint) -> Expr:
         left.remove(pivot)
         for r in left:
             if r in candidates:
-                work[r] = [_cross(ring, work[pivot][c], work[r][k], work[r][c], work[pivot][k]) for k in range(n + 1)]
+                work[r] = [_reduced(ring, work[r][k], work[r][c], work[pivot][k], work[pivot][c]) for k in range(n + 1)]
     at = values(ring, point)
     found = [work[r][n] for r in left if at[work[r][n]] != 0]
     if not found:
@@ -46,22 +45,23 @@ def hidden_relation(rows: Rows, n: int, point: FieldPoint) -> Expr:
     node = min(found, key=lambda i: _size(ring, i))
     try:
         canon = Canon(ring)
-        return canon.to_expr(canon.quotient(node)[0])
+        top, bottom = canon.quotient(node)
+        return canon.to_expr(top / top.gcd(bottom))
     except (TooLargeError, ZeroDivisionError, DomainError):
         return ex.ZERO
 
 
-def _cross(ring: Any, a: int, b: int, c: int, d: int) -> int:
-    """a b - c d, with the plain cases kept plain."""
+def _reduced(ring: Ring, b: int, factor: int, d: int, pivot: int) -> int:
+    """b - factor d / pivot, with the plain cases kept plain."""
     zero, one = ring.emit(NUM, ex.ZERO.args[0]), ring.emit(NUM, ex.ONE.args[0])
-    left = zero if zero in (a, b) else b if a == one else a if b == one else ring.emit(MUL, (a, b))
-    right = zero if zero in (c, d) else d if c == one else c if d == one else ring.emit(MUL, (c, d))
-    if right == zero:
-        return int(left)
-    return int(ring.emit(ADD, (left, ring.negative(right)) if left != zero else (ring.negative(right),)))
+    if zero in (factor, d):
+        return b
+    parts = [part for part in (factor, d) if part != one]
+    if pivot != one:
+        parts.append(ring.power_node(pivot, -1))
+    taken = ring.emit(MUL, (ring.emit(NUM, ex.MINUS_ONE.args[0]), *parts))
+    return taken if b == zero else ring.emit(ADD, (b, taken))
 
 
-def _size(ring: Any, node: int) -> int:
-    from dofkit.exact.ring import reachable
-
+def _size(ring: Ring, node: int) -> int:
     return len(reachable(ring, [node], through_generators=False))

@@ -32,7 +32,7 @@ from dofkit.singular import numeric_local
 #: Blocks with more columns than this are not certified with balls.
 BALL_COLUMNS = 60
 #: Points over GF(p) that must agree.
-SAMPLES = 2
+SAMPLES, MORE_SAMPLES = 2, 6
 
 
 @dataclass
@@ -49,6 +49,12 @@ class Variety:
     samples: list[FieldPoint] = field(default_factory=list)
     real: RealPoint | None = None
     reasons: list[str] = field(default_factory=list)
+
+
+def samples_for(chart: Chart) -> int:
+    """More points where signs and roots may be chosen differently at each."""
+    free = any(v.kind in ("sign", "root") and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars)
+    return MORE_SAMPLES if free else SAMPLES
 
 
 def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None = None) -> list[list[Any]]:
@@ -121,7 +127,7 @@ def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | 
 def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     """Generic points of the configuration space of a block, and its dimension."""
     if not chart.nodes:
-        points = [p for p in (free_point(chart, seed + k) for k in range(SAMPLES)) if p is not None]
+        points = [p for p in (free_point(chart, seed + k) for k in range(samples_for(chart))) if p is not None]
         real = _real(chart, seed, ())
         verdict: Verdict = "proved"
         return Variety(True, chart.coordinates, verdict, points, real)
@@ -138,15 +144,31 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     if solver.plan.special:
         why = "the relations hold only for special values of the parameters"
         return Variety(False, None, "probable", reasons=[why])
+    if solver.plan.contradictory and not excludes_zero(chart, solver.plan.witness):
+        why = "eliminating the unknowns leaves a number of which it is not known whether it is 0"
+        return Variety(None, None, "undecided", reasons=[why])
     if solver.plan.contradictory:
         why = "eliminating the unknowns leaves a number that should be 0 and is not"
         return Variety(False, None, "probable", reasons=[why])
-    drawn = [p for p in (solver.draw(seed + k + 1) for k in range(SAMPLES)) if p is not None]
+    drawn = [p for p in (solver.draw(seed + k + 1) for k in range(samples_for(chart))) if p is not None]
     drawn = [p for p in drawn if on_variety(chart, p)]
     if drawn:
         return _from_samples(chart, drawn, solver, seed, core)
     samples = _pose_samples(chart, pose, seed)
     return _from_samples(chart, samples, None, seed, core) if samples else _numerical(chart, seed, core)
+
+
+def excludes_zero(chart: Chart, node: int) -> bool:
+    """Does a ball at some real point exclude 0 as the value of a node?"""
+    search = RealSearch(chart.ring, (), (), chart.positive)
+    for seed in range(8):
+        point = BallPoint(search.start(seed, {}), seed)
+        try:
+            if not values(chart.ring, point)[node].contains(0):
+                return True
+        except (OutsideDomainError, ZeroDivisionError):
+            continue
+    return False
 
 
 def _pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[FieldPoint]:
@@ -276,6 +298,8 @@ def _singular(chart: Chart, found: Variety) -> Variety:
     """All real points that were found are singular: the dimension is that of the set near one of them."""
     real = found.real
     local = None if real is None else numeric_local(chart, real)
+    if local is None:
+        found.consistent = None
     if local is None or local.dimension is None:
         found.verdict, found.dimension = "undecided", None
         found.reasons.append("every real configuration that was found is singular; what moves there was not decided")

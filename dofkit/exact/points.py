@@ -105,7 +105,7 @@ class Plan:
     """How points are found: ``steps`` in the order of solving; ``free`` unknowns are drawn at random.
 
     ``contradictory``: elimination left a relation between no unknowns that does not hold.
-    ``special``: it left one between parameters only, which hold for special values of them.
+    ``witness`` is that relation. ``special``: it left one between parameters only, which holds for special values.
     ``stuck``: relations were left that cannot be solved one unknown at a time.
     """
 
@@ -114,6 +114,7 @@ class Plan:
     dropped: int = 0
     contradictory: bool = False
     special: bool = False
+    witness: int = -1
     stuck: bool = False
 
 
@@ -312,7 +313,7 @@ class Solver:
             elif self.probe is not None and self._constant_value(node, self.probe) == 0:
                 self.plan.dropped += 1
             elif not self.fixed:
-                self.plan.contradictory = True
+                self.plan.contradictory, self.plan.witness = True, node
         return kept
 
     def _parameters_only(self, node: int) -> bool:

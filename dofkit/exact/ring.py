@@ -28,6 +28,8 @@ NUM, VAR, ADD, MUL, POW = range(5)
 
 #: Products of sums are multiplied out in arguments up to this many terms.
 EXPAND_TERMS = 64
+#: sin(n u) is a polynomial in sin u and cos u up to this n; beyond, it is a generator of its own.
+MAX_MULTIPLE = 64
 
 
 @dataclass(frozen=True)
@@ -142,6 +144,7 @@ class Ring:
         positive: frozenset[Expr] = frozenset(),
         alias: Mapping[Expr, Expr] | None = None,
     ) -> None:
+        self.related = False
         self.positive = positive
         self.alias = alias or {}
         self.var_expr: list[Expr] = []
@@ -370,6 +373,9 @@ class Ring:
                 parts.append(self.node(ex.power(rest.args[1], ex.num(factor))))
                 continue
             denominator = self._denominators.get(("exp", rest), factor.denominator)
+            if abs(factor * denominator) > MAX_MULTIPLE:
+                self.related = True
+                rest, factor, denominator = Expr("mul", (ex.num(factor), rest)), Fraction(1), 1
             basic = ex.num(Fraction(1, denominator)) * rest
             generator = self._var("exp", (rest, denominator), Expr("fn", ("exp", basic)), (self.node(basic),))
             parts.append(self._pow(generator, int(factor * denominator)))
@@ -387,6 +393,9 @@ class Ring:
 
     def _basic_angle(self, rest: Expr, factor: Fraction) -> tuple[int, int, int]:
         denominator = self._denominators.get(("cis", rest), factor.denominator)
+        if abs(factor * denominator) > MAX_MULTIPLE:
+            self.related = True
+            rest, factor, denominator = Expr("mul", (ex.num(factor), rest)), Fraction(1), 1
         if denominator == 1 and rest.op == "fn" and rest.args[0] in ("asin", "atan", "atan2"):
             return (*self._cis_of_inverse(rest), int(factor))
         basic = ex.num(Fraction(1, denominator)) * rest
@@ -508,4 +517,4 @@ def independent_generators(ring: Ring) -> bool:
                 return False
         elif constant and var.kind in ("cos", "sin", "exp") and var.key[0] != ex.PI:
             return False
-    return roots < 2
+    return roots < 2 and not ring.related
