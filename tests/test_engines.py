@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 import sympy
-from flint import arb, nmod, nmod_poly
+from flint import arb, arb_poly, nmod, nmod_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,13 +19,13 @@ from dofkit.errors import TextError
 from dofkit.exact.balls import BallPoint, RealSearch, independent_part
 from dofkit.exact.canon import Canon, is_identically_zero
 from dofkit.exact.field import field_point
+from dofkit.exact.identity import is_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, expand, linear_terms
 from dofkit.exact.series import Series, SeriesPoint, series_values
 from dofkit.expr import Expr
 from dofkit.forms import Frame, Rows, certified_rank, field_frame, field_rank, growth, lie_span
-from dofkit.labels import is_zero
 from dofkit.motion import Manifold, local_dimension, signature_of
 from dofkit.normal import Finite, Nonlinear, Normal, Pfaffian, normalise
 from dofkit.redundancy import Rows as Equations
@@ -119,7 +119,7 @@ HARD_ZERO = [
 NOT_ZERO = [
     "1e-12 x",
     "x/1e9",
-    "x 1e-30",
+    "1e-30 x",
     "exp(-200 x)",
     "exp(-200 x) - exp(-201 x)",
     "sin(x) - x",
@@ -135,8 +135,18 @@ NOT_ZERO = [
     "sqrt(x^2 + 1e-20) - abs(x)",
     "tanh(x) - 1",
     "cos(pi/7) - cos(pi/9)",
-    "asin(sin(x)) - x",
     "sqrt(1 + x^2) - 1",
+]
+#: Zero on a part of the line only.
+SOMEWHERE_ZERO = [
+    "asin(sin(x)) - x",
+    "acos(cos(x)) - x",
+    "abs(x) - x",
+    "abs(x) + x",
+    "sqrt((x - 1)^2) - x + 1",
+    "sqrt(1 - cos(x)^2) - sin(x)",
+    "sqrt(1 - sin(x)^2) - cos(x)",
+    "atan(x) + atan(1/x) - pi/2",
 ]
 
 
@@ -158,10 +168,16 @@ def test_what_is_not_zero_is_not_taken_for_zero(text: str) -> None:
 def test_a_label_that_hangs_on_a_zero_test_is_right_or_undecided(text: str, holonomic: bool) -> None:
     """dz + E y dx integrates where E is zero, and is a contact form where it is not."""
     report = classified("x y z", f"dz + ({text}) y dx = 0")
-    entry = report.constraints[0]
-    decided = text not in HARD_ZERO
-    assert entry.holonomic is holonomic or (entry.holonomic is None and not decided or entry.verdict == "undecided")
+    label = report.constraints[0].holonomic
+    assert label is holonomic or (label is None and text in HARD_ZERO)
     assert report.dof in (2 if holonomic else 3, None)
+
+
+@pytest.mark.parametrize("text", SOMEWHERE_ZERO)
+def test_what_integrates_on_one_side_only_is_not_holonomic(text: str) -> None:
+    report = classified("x y z", f"dz + ({text}) y dx = 0")
+    assert report.constraints[0].holonomic is not True
+    assert report.dof in (3, None)
 
 
 @pytest.mark.parametrize("text", [*ZERO, *HARD_ZERO])
@@ -214,27 +230,21 @@ def test_balls_hold_true_values() -> None:
 
 
 entries = st.fractions(min_value=-3, max_value=3, max_denominator=4)
-matrices = st.integers(1, 4).flatmap(
-    lambda n: st.lists(st.lists(entries, min_size=n, max_size=n), min_size=1, max_size=4)
-)
+rows_of_four = st.lists(st.lists(entries, min_size=4, max_size=4), min_size=1, max_size=4)
 
 
 @settings(max_examples=60, deadline=None)
-@given(matrices, st.lists(entries, min_size=4, max_size=4))
+@given(rows_of_four, st.lists(entries, min_size=4, max_size=4))
 def test_ranks_agree_with_sympy(matrix: list[list[Fraction]], weights: list[Fraction]) -> None:
     """The last row is a combination of the others, so that ranks drop often."""
-    combined = [
-        sum((w * row[c] for w, row in zip(weights, matrix, strict=False)), Fraction(0)) for c in range(len(matrix[0]))
-    ]
-    rows = [*matrix, combined]
-    true = sympy.Matrix(rows).rank()
-    over_field = [[nmod(v.numerator, P) / nmod(v.denominator, P) for v in row] for row in rows]
-    assert field_rank(over_field, P) == true
-    balls = [[arb(v.numerator) / arb(v.denominator) for v in row] for row in rows]
-    assert certified_rank(balls) <= true
-    assert certified_rank(balls[:-1]) <= sympy.Matrix(matrix).rank()
-    integers = [[arb(int(12 * v)) for v in row] for row in rows]
-    assert certified_rank(integers) <= true
+    last = [sum((w * row[c] for w, row in zip(weights, matrix, strict=False)), Fraction(0)) for c in range(4)]
+    rows = [*matrix, last]
+    true = sympy.Matrix([[sympy.Rational(v.numerator, v.denominator) for v in row] for row in rows]).rank()
+    assert field_rank([[nmod(v.numerator, P) / nmod(v.denominator, P) for v in row] for row in rows], P) == true
+    assert certified_rank([[arb(v.numerator) / arb(v.denominator) for v in row] for row in rows]) <= true
+    exact = [[arb(int(v * 1728**2)) for v in row] for row in matrix]
+    assert certified_rank(exact) <= true
+    assert certified_rank(exact[:1]) == any(matrix[0])
 
 
 @settings(max_examples=40, deadline=None)
@@ -342,38 +352,27 @@ def test_no_real_point_where_there_is_none() -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["exp(x)", "sin(x)", "cos(2 x)", "log(1 + x)", "sqrt(1 + x)", "(1 + x)^(1/3)", "atan(x)", "asin(x)", "1/(1 - x + x^2)",
-     "tan(x)", "exp(sin(x))", "sinh(x)/(2 + x)", "atan2(x, 1 + x)", "sqrt(4 + x^2) cos(x)", "x^5 + 3 x - 7", "(1 + x)^(-5/2)"],
+    ["exp(x)", "sin(x)", "cos(2 x)", "log(1 + x)", "sqrt(1 + x)", "(1 + x)^(1/3)", "atan(x)", "asin(x)",
+     "1/(1 - x + x^2)", "tan(x)", "exp(sin(x))", "sinh(x)/(2 + x)", "atan2(x, 1 + x)", "sqrt(4 + x^2) cos(x)",
+     "x^5 + 3 x - 7", "(1 + x)^(-5/2)"],
 )  # fmt: skip
 def test_series_are_those_of_sympy(text: str) -> None:
+    """Along the path x = s + s^2."""
     order = 7
     f = read(text)
     ring = Ring([f])
     node = ring.node(f)
     base = BallPoint({X: 0.0}, 0)
     values(ring, base)
-    like = Series(nmod_poly([0], 7), 1).poly if not ring.code else arb_zero()
-    path = {ring.var_index(X) or 0: Series(like + parabola(), order)}
+    like = arb_poly([])
+    path = {ring.var_index(X) or 0: Series(arb_poly([0, 1, 1]), order)}
     found = series_values(ring, SeriesPoint(base, path, order, like))[node]
     x = sympy.Symbol("x")
     whole = sympy.sympify(text.replace("^", "**").replace("2 x", "2*x").replace("3 x", "3*x").replace(") cos", ")*cos"))
-    true = sympy.series(whole.subs(x, x + x**2), x, 0, order).removeO()
+    true = sympy.Poly(sympy.series(whole.subs(x, x + x**2), x, 0, order).removeO(), x)
     for k in range(order):
         value = found.coefficient(k)
-        assert abs(float(value.mid()) - float(true.coeff(x, k))) < 1e-12, k
-
-
-def arb_zero() -> Any:
-    from flint import arb_poly
-
-    return arb_poly([])
-
-
-def parabola() -> Any:
-    """The path x = s + s^2."""
-    from flint import arb_poly
-
-    return arb_poly([0, 1, 1])
+        assert abs(float(value.mid()) - float(true.coeff_monomial(x**k))) < 1e-12, k
 
 
 def test_series_over_a_field() -> None:
@@ -444,7 +443,7 @@ def local(texts: Sequence[str], at: dict[Expr, int], rigid: int = 0) -> int | No
     relations = [read(text) for text in texts]
     ring = Ring(relations)
     nodes = [ring.node(g) for g in relations]
-    columns = [ring.var_index(s) if ring.var_index(s) is not None else -1 for s in at]
+    columns = [-1 if (index := ring.var_index(s)) is None else index for s in at]
     point = field_point([ring], 5)
     for s, value in at.items():
         if (index := ring.var_index(s)) is not None:
@@ -456,9 +455,7 @@ def local(texts: Sequence[str], at: dict[Expr, int], rigid: int = 0) -> int | No
     matrix = [[slope.get(c, zero) for c in columns] for slope in slopes]
     frame = field_frame(matrix, len(columns), point.p)
     ball = BallPoint({s: float(value) for s, value in at.items()}, 5)
-    manifolds = [
-        Manifold(ring, nodes, [c if c is not None else -1 for c in columns], frame, base) for base in (point, ball)
-    ]
+    manifolds = [Manifold(ring, nodes, columns, frame, base) for base in (point, ball)]
     return local_dimension(manifolds[0], manifolds[1], rigid).dimension
 
 
@@ -527,11 +524,13 @@ def test_nothing_is_redundant_where_all_is_independent() -> None:
 # Real zeros
 
 
-def zeros(text: str) -> list[set[str]]:
-    e = read(text)
-    variables = frozenset(s for s in e.symbols if s.args[0] != "parameter")
-    branches, _ = zero_set(e, POSITIVE, variables)
-    return [{to_text(g) for g in branch} for branch in branches]
+def same(one: Expr, other: Expr) -> bool:
+    """Equal up to the sign."""
+    return is_identically_zero(one - other) is True or is_identically_zero(one + other) is True
+
+
+def same_branch(one: Sequence[Expr], other: Sequence[Expr]) -> bool:
+    return len(one) == len(other) and all(any(same(g, f) for f in other) for g in one)
 
 
 @pytest.mark.parametrize(
@@ -563,15 +562,17 @@ def zeros(text: str) -> list[set[str]]:
     ],
 )
 def test_the_real_zero_set(text: str, expected: list[set[str]]) -> None:
-    def order(branch: set[str]) -> list[str]:
-        return sorted(branch)
-
-    assert sorted(zeros(text), key=order) == sorted(expected, key=order)
+    e = read(text)
+    branches, _ = zero_set(e, POSITIVE, frozenset(s for s in e.symbols if s.args[0] != "parameter"))
+    wanted = [[read(g) for g in branch] for branch in expected]
+    assert len(branches) == len(wanted)
+    assert all(any(same_branch(branch, other) for other in wanted) for branch in branches)
+    assert all(any(same_branch(branch, other) for other in branches) for branch in wanted)
 
 
 @pytest.mark.parametrize(
     ("text", "never"),
-    [("exp(x)", True), ("1 + x^2", True), ("2 + sin(x)", True), ("3 + sin(x) cos(y) - cos(x)", True), ("R", True),
+    [("exp(x)", True), ("1 + x^2", True), ("2 + sin(x)", True), ("3 + sin(x) cos(y) - cos(x)", True), ("R + x^2", True),
      ("x", False), ("1 + sin(x)", False), ("x^2", False), ("a", False), ("sqrt(1 + x^2)", True), ("abs(x) + 1", True)],
 )  # fmt: skip
 def test_what_never_vanishes(text: str, never: bool) -> None:
@@ -580,8 +581,8 @@ def test_what_never_vanishes(text: str, never: bool) -> None:
 
 @pytest.mark.parametrize(
     ("text", "strict", "never"),
-    [("-x^2 - 1", False, True), ("-x^2", False, False), ("-x^2", True, True), ("x", False, False), ("x^2 + 1", False, False),
-     ("-R", False, True), ("-exp(x)", False, True)],
+    [("-x^2 - 1", False, True), ("-x^2", False, False), ("-x^2", True, True), ("x", False, False),
+     ("x^2 + 1", False, False), ("-R", False, True), ("-exp(x)", False, True)],
 )  # fmt: skip
 def test_what_never_holds(text: str, strict: bool, never: bool) -> None:
     assert never_holds(read(text), strict, POSITIVE) is never
@@ -592,7 +593,7 @@ def test_what_never_holds(text: str, strict: bool, never: bool) -> None:
 
 def normal(text: str) -> Normal:
     (relation,) = parse_relations(text, NAMES)
-    return normalise(relation.left - relation.right if hasattr(relation, "left") else relation.expr, POSITIVE, True)
+    return normalise(relation.left - relation.right, POSITIVE, True)
 
 
 def kinds(text: str) -> list[list[str]]:
@@ -635,7 +636,7 @@ def test_what_is_no_constraint(text: str) -> None:
     names = Names(coordinates=frozenset("xyz"), allow_accelerations=True)
     (relation,) = parse_relations(text, names)
     with pytest.raises(TextError):
-        normalise(relation.expr, frozenset(), True)
+        normalise(relation.left - relation.right, frozenset(), True)
 
 
 def test_pieces_are_of_four_kinds() -> None:

@@ -139,7 +139,8 @@ class Renaming:
     """New names for all that a scene declares: of owners, and of symbols in texts."""
 
     def __init__(self, scene: Scene, new: Callable[[str], str]) -> None:
-        self.owners = {part.name: new(part.name) for part in (*scene.particles, *scene.bodies)}
+        owners: Owners = (*scene.particles, *scene.bodies)
+        self.owners = {part.name: new(part.name) for part in owners}
         self.symbols = {name: new(name) for name in (*scene.coordinates, *scene.parameters, *scene.functions)}
         both: tuple[Owners, Owners] = (scene.particles, scene.bodies)
         for parts, roles in zip(both, ROLES[scene.dimension], strict=True):
