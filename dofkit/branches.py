@@ -57,6 +57,11 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool:
     )
 
 
+def algebraic(e: Expr) -> bool:
+    """No functions beyond sines and cosines: then what is not 0 over GF(p) is not 0."""
+    return all(n.op != "fn" or n.args[0] in ("sin", "cos", "tan") for n in ex.nodes(e))
+
+
 def _finite(normal: Normal) -> bool:
     return all(isinstance(p, Finite) for p in normal.pieces)
 

@@ -12,7 +12,7 @@ import networkx as nx
 from dofkit import expr as ex
 from dofkit.analysis import Answer, Setting, alone, answer
 from dofkit.blocks import Block, Row, coordinates_of, split, uses_time
-from dofkit.branches import follows, through_reference
+from dofkit.branches import algebraic, follows, through_reference
 from dofkit.choice import generalized
 from dofkit.count import Facts, count
 from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, check, limited
@@ -259,7 +259,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
     )
     redundant_equations = None if velocity_dof is None else max(0, equations - (len(system.coordinates) - velocity_dof))
     if redundant_equations == 0:
-        redundancies = _copied(reduced, outcome)
+        redundancies = [r for r in redundancies if r.redundant]
     return Report(
         scene=system.name,
         consistent=outcome.consistent,
@@ -350,8 +350,8 @@ def _only_nearby(
     if not dropped or setting.reference is not None or len(written) > MAX_CHOICES:
         return False
     plain = all(reduced[i].constraint.type in ("equation", "on") for i in written)
-    finite = all(isinstance(p, Finite) for i in written for n in reduced[i].normals for p in n.pieces)
-    if not plain or not finite:
+    pieces = [p for i in written for n in reduced[i].normals for p in n.pieces]
+    if not plain or not all(isinstance(p, Finite) and algebraic(p.expr) for p in pieces):
         return False
     kept = [i for i in written if i not in dropped]
     return not all(_follows(reduced, i, kept, setting) for i in dropped)
@@ -628,6 +628,8 @@ def _conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outc
         return [outcome.impossible[0]]
     guilty = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
     kept = sorted({row.constraint for row in guilty.rows})
+    if not _inconsistent(system, reduced, setting, kept):
+        kept = [i for i, r in enumerate(reduced) if r.normals]
     if len(kept) > MAX_CONFLICT:
         return kept
     until = time.monotonic() + CONFLICT_SECONDS

@@ -65,8 +65,8 @@ def why(system: System, facts: Facts, naive: int) -> str | None:
     reasons = []
     if facts.dof > naive:
         reasons.append(
-            f"{facts.dof - naive} of the {facts.written} finite equations depend on the others here "
-            "and take nothing away"
+            f"of the {facts.written} finite equations only {facts.written - facts.dof + naive} are independent here: "
+            "what the others say already takes nothing away"
         )
         complete = complete_sets(system)
         reasons += complete

@@ -54,8 +54,10 @@ def entry(
     own, sure_own = _alone(form, by_itself, proofs, forms, inequalities)
     if consistent is False and in_system is None:
         in_system, sure = own, sure_own
+    still = [catastatic(f, positive) for f in forms] if form == "pfaffian" else []
+    closed = [exact(f, positive) for f in forms] if form == "pfaffian" else []
     equations = len(normals)
-    verdict = weakest(sure, sure_own, *(v for _, v in times), *(t.answer.verdict for t in told))
+    verdict = weakest(sure, sure_own, *(v for _, v in (*times, *still, *closed)), *(t.answer.verdict for t in told))
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,
@@ -64,9 +66,9 @@ def entry(
         holonomic=in_system,
         holonomic_alone=own,
         scleronomic=_together([t for t, _ in times]),
-        catastatic=all(catastatic(f, positive) for f in forms) if form == "pfaffian" else None,
+        catastatic=all(c for c, _ in still) if form == "pfaffian" else None,
         bilateral=not inequalities,
-        exact=all(exact(f, positive) for f in forms) if form == "pfaffian" else None,
+        exact=all(c for c, _ in closed) if form == "pfaffian" else None,
         integrating_factor=_joined([p.factor for p in proofs]),
         integral=_joined([p.integral for p in proofs]) if own else None,
         circuit=circuit,

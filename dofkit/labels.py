@@ -10,13 +10,13 @@ from dofkit import expr as ex
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import NoPointError
-from dofkit.exact.identity import is_zero
+from dofkit.exact.identity import is_zero, told_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Inequality, Pfaffian, Piece, velocities_of
-from dofkit.report import Verdict
+from dofkit.report import Verdict, weakest
 from dofkit.zeros import never_vanishes
 
 Told = tuple[bool | None, Verdict]
@@ -38,6 +38,9 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr]) -> Told:
     if ex.TIME not in g.symbols or _factors_without_time(g, positive):
         return True, "proved"
     slope = ex.diff(g, ex.TIME)
+    still, sure = told_zero(slope, positive)
+    if still:
+        return True, sure
     ring = Ring([g, slope], positive)
     node, rate = ring.node(g), ring.node(slope)
     point = Solver(ring, [node]).draw(1)
@@ -69,15 +72,17 @@ def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr]) -> Told:
-    if not form.dt.is_zero and not is_zero(form.dt, positive):
-        return False, "proved"
+    still, sure = told_zero(form.dt, positive)
+    if not still:
+        return False, sure
     coefficients = list(form.coefficients.values())
     if all(ex.TIME not in e.symbols for e in coefficients):
-        return True, "proved"
+        return True, sure
     turning = [a * ex.diff(b, ex.TIME) - b * ex.diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
-    if not all(is_zero(e, positive) for e in turning):
+    told = [told_zero(e, positive) for e in turning]
+    if not all(zero for zero, _ in told):
         return False, "proved"
-    return _common_factor_without_zeros(coefficients, positive), "proved"
+    return _common_factor_without_zeros(coefficients, positive), weakest(sure, *(v for _, v in told))
 
 
 def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[Expr]) -> bool:
@@ -101,18 +106,24 @@ def _homogeneous(e: Expr) -> bool:
     return any(is_zero(radial - degree * e, frozenset()) for degree in range(7))
 
 
-def catastatic(form: Pfaffian, positive: frozenset[Expr]) -> bool:
+def catastatic(form: Pfaffian, positive: frozenset[Expr]) -> Told:
     """No dt term."""
-    return form.dt.is_zero or is_zero(form.dt, positive)
+    return told_zero(form.dt, positive)
 
 
-def exact(form: Pfaffian, positive: frozenset[Expr]) -> bool:
+def exact(form: Pfaffian, positive: frozenset[Expr]) -> Told:
     """Closed as written: d(omega) = 0 in (q, t). Not integrability: x dy - y dx integrates and is not closed."""
     items = list(form.items())
     symbols = dict(items)
     others = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - set(symbols)
     everything = [*items, *((s, ex.ZERO) for s in others)]
-    return all(is_zero(ex.diff(b, s) - ex.diff(a, u), positive) for (s, a), (u, b) in combinations(everything, 2))
+    sure: Verdict = "proved"
+    for (s, a), (u, b) in combinations(everything, 2):
+        closed, verdict = told_zero(ex.diff(b, s) - ex.diff(a, u), positive)
+        if not closed:
+            return False, verdict
+        sure = weakest(sure, verdict)
+    return True, sure
 
 
 def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:

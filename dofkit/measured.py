@@ -20,11 +20,13 @@ from dofkit.chart import Chart
 from dofkit.exact.balls import FloatPoint, dependency_pattern, greedy_pivots, jacobian
 from dofkit.exact.program import values
 from dofkit.expr import Expr
+from dofkit.rigid import displacements_real
 from dofkit.system import Coordinate
 
 #: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY nothing is decided.
 SLACK, GREY = 3.0, 30.0
 STEP, ROUNDS = 0.12, 60
+HALF = 0.5
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,14 @@ class _Scene:
         self.symbols = [s for s in chart.symbols if s != ex.TIME]
         self.scale = np.array([size if str(s.args[1]) in lengths else 1.0 for s in self.symbols])
         self.columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
+
+    def whole(self, at: Mapping[Expr, float]) -> Any:
+        """Displacements of everything as one body, in scaled coordinates."""
+        variables = self.chart.ring.vars
+        fields = displacements_real(self.chart, lambda i: at.get(variables[i].key, 0.0) if i >= 0 else 0.0)
+        timed = len(self.chart.symbols) - len(self.symbols)
+        fields = fields[:, : fields.shape[1] - timed] if fields.size and timed else fields
+        return fields / self.scale if fields.size else fields
 
     def system(self, at: Mapping[Expr, float]) -> tuple[Any, Any]:
         """(residuals as fractions of the size, scaled Jacobian)."""
@@ -116,7 +126,7 @@ def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:
 def _moves(scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance: float, seed: int) -> bool:
     rng = random.Random(f"dofkit measured {seed}")
     _, _, right = np.linalg.svd(j)
-    null = right[rank:]
+    null = _beside(right[rank:], scene.whole(at))
     direction = np.array([rng.uniform(-1, 1) for _ in null]) @ null
     direction *= STEP / np.linalg.norm(direction)
     moved = {**at}
@@ -130,5 +140,15 @@ def _moves(scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance
         step = np.linalg.lstsq(jac, -f, rcond=tolerance * SLACK)[0]
         if float(np.linalg.norm(step)) < tolerance * 1e-3:
             break
-    away = sum(((moved[s] - at[s]) / k) ** 2 for s, k in zip(scene.symbols, scene.scale, strict=True)) ** 0.5
-    return residual <= tolerance * SLACK and away > STEP / 3
+    moves = np.array([(moved[s] - at[s]) / k for s, k in zip(scene.symbols, scene.scale, strict=True)])
+    return residual <= tolerance * SLACK and float(moves @ direction) > STEP**2 / 2
+
+
+def _beside(null: Any, whole: Any) -> Any:
+    """The null space less the motions of the whole: those are motions anyway."""
+    if not whole.size:
+        return null
+    inside = np.linalg.qr((whole @ null.T).T)[0] if len(null) else null.T
+    kept = np.linalg.svd(np.eye(len(null)) - inside @ inside.T)
+    count = int(np.sum(kept[1] > HALF))
+    return kept[2][:count] @ null if count else null

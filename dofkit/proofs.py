@@ -7,6 +7,7 @@ from itertools import combinations
 
 from dofkit import expr as ex
 from dofkit.exact.identity import is_zero
+from dofkit.exact.ring import Ring, odd_constants
 from dofkit.expr import Expr
 from dofkit.integrals import integrate
 from dofkit.labels import exact
@@ -28,14 +29,22 @@ def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None)
     if alone is False:
         return Integrability(False)
     reason = _proof(form, positive)
-    found = integrate(form, positive) if reason or alone else None
+    plain = not odd_constants(_ring(form, positive))
+    found = integrate(form, positive) if plain and (reason or alone) else None
     if found is not None:
         return Integrability(True, "an integral was found and checked", found.factor, found.integral)
     return Integrability(reason is not None, reason or "")
 
 
+def _ring(form: Pfaffian, positive: frozenset[Expr]) -> Ring:
+    ring = Ring([e for _, e in form.items()], positive)
+    for _, e in form.items():
+        ring.node(e)
+    return ring
+
+
 def _proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
-    if exact(form, positive):
+    if exact(form, positive) == (True, "proved"):
         return "it is closed, so locally the differential of a function"
     items = list(form.items())
     symbols = {s for s, _ in items} | {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")}

@@ -4,23 +4,54 @@ from __future__ import annotations
 
 from flint.utils.flint_exceptions import DomainError
 
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import NoPointError, field_point
 from dofkit.exact.program import values
-from dofkit.exact.ring import Ring
+from dofkit.exact.ring import Ring, independent_generators
 from dofkit.expr import Expr
+from dofkit.report import Verdict
 
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Zero identically: in the canonical ring (a proof), or else at random points over GF(p)."""
-    if e.is_zero:
-        return True
+    """Is the expression zero identically, as far as can be told? See `told_zero` for how sure that is."""
+    return told_zero(e, positive)[0]
+
+
+def told_zero(e: Expr, positive: frozenset[Expr]) -> tuple[bool, Verdict]:
+    """(zero?, how sure).
+
+    Zero in the canonical ring is a proof; so is not zero there where the generators are independent, or where a
+    ball at some real point excludes 0. What is 0 at random points over GF(p) is probably zero; what no ball tells
+    from 0 is so numerically.
+    """
+    if e.op == "num":
+        return e.is_zero, "proved"
     ring = Ring([e], positive)
     node = ring.node(e)
     try:
-        return Canon(ring).is_zero(node)
+        if Canon(ring).is_zero(node):
+            return True, "proved"
+        if independent_generators(ring):
+            return False, "proved"
     except (TooLargeError, ZeroDivisionError, DomainError):
-        return _zero_at_points(ring, node)
+        pass
+    if _excluded(ring, node, positive):
+        return False, "proved"
+    return True, "probable" if _zero_at_points(ring, node) else "numeric"
+
+
+def _excluded(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
+    """A ball at some real point excludes 0."""
+    search = RealSearch(ring, (), (), positive)
+    for seed in range(8):
+        point = BallPoint(search.start(seed, {}), seed)
+        try:
+            if not values(ring, point)[node].contains(0):
+                return True
+        except (OutsideDomainError, ZeroDivisionError):
+            continue
+    return False
 
 
 def _zero_at_points(ring: Ring, node: int) -> bool:

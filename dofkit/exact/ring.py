@@ -256,7 +256,11 @@ class Ring:
     def _root(self, radicand: Expr, degree: int) -> int:
         """The real ``degree``-th root; of a product, the product of the roots; of an integer, over its primes."""
         if radicand.op == "mul":
-            return self._mul(*(self._root(part, degree) for part in radicand.args))
+            apart, rest = self._known_signs(radicand)
+            if degree % 2:
+                apart, rest = list(radicand.args), ex.ONE
+            if rest.op != "mul" or apart:
+                return self._mul(*(self._root(part, degree) for part in [*apart, *([rest] if rest != ex.ONE else [])]))
         if radicand.op == "pow" and radicand.args[1].op == "num":
             return self._root_of_power(radicand, degree)
         if radicand.op == "num":
@@ -266,6 +270,28 @@ class Ring:
             if content != 1:
                 return self._mul(self._root_of_number(content, degree), self._root(rest, degree))
         return self._new_root((_sorted_sum(radicand), degree), radicand, self.node(radicand))
+
+    def _known_signs(self, product: Expr) -> tuple[list[Expr], Expr]:
+        """(factors that are never negative, the product of the others): only those have roots and logs of their own."""
+        apart: list[Expr] = []
+        rest: list[Expr] = []
+        for part in product.args:
+            (apart if self._never_negative(part) else rest).append(part)
+        number = next((p for p in rest if p.op == "num"), None)
+        if number is not None and number.args[0] != -1:
+            apart.append(ex.num(abs(number.args[0])))
+            rest = [ex.MINUS_ONE if p is number else p for p in rest]
+        return apart, Expr("mul", tuple(rest)) if len(rest) > 1 else rest[0] if rest else ex.ONE
+
+    def _never_negative(self, part: Expr) -> bool:
+        if part.op == "num":
+            return bool(part.args[0] > 0)
+        if part in self.positive or part.op == "const" or (part.op == "fn" and part.args[0] in ("exp", "abs", "cosh")):
+            return True
+        if part.op != "pow" or part.args[1].op != "num":
+            return False
+        exponent: Fraction = part.args[1].args[0]
+        return exponent.denominator % 2 == 0 or exponent.numerator % 2 == 0 or self._never_negative(part.args[0])
 
     def _new_root(self, key: tuple[Any, int], radicand: Expr, node: int) -> int:
         degree = key[1]
@@ -342,8 +368,10 @@ class Ring:
     def _log(self, u: Expr) -> int:
         """log of a product as the sum of logs, of a power as a multiple, of an integer over its primes."""
         if u.op == "mul":
-            return self._add(*(self._log(part) for part in u.args))
-        if u.op == "pow":
+            apart, rest = self._known_signs(u)
+            if apart:
+                return self._add(*(self._log(part) for part in [*apart, *([rest] if rest != ex.ONE else [])]))
+        if u.op == "pow" and (self._never_negative(u.args[0]) or u.args[1].op != "num" or u.args[1].args[0] % 2):
             return self._mul(self.node(u.args[1]), self._log(u.args[0]))
         if u.op == "fn" and u.args[0] == "exp":
             return self.node(u.args[1])
@@ -497,6 +525,15 @@ def _factors(value: int) -> list[tuple[int, int]]:
         if k:
             powers.append((prime, k))
     return [*powers, (rest, 1)] if rest > 1 else powers
+
+
+def odd_constants(ring: Ring) -> bool:
+    """Do constants occur that may be related (nested roots, inverse functions and logarithms of numbers)?"""
+    constant = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
+    return any(
+        v.kind in ("asin", "atan", "atan2", "log", "sign") or (v.kind == "root" and not isinstance(v.key[0], Expr))
+        for v in constant
+    )
 
 
 def independent_generators(ring: Ring) -> bool:
