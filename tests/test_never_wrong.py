@@ -498,6 +498,25 @@ def test_what_no_motion_satisfies_is_never_called_consistent(constraints: list[s
     assert report.dof is None
 
 
+@pytest.mark.parametrize("size", ["1e-9", "1e-3", "1000", "5000", "1e6", "1e12"])
+@pytest.mark.parametrize(
+    ("constraints", "freedom"),
+    [
+        (["x = {0}"], 1),
+        (["x + {0} t = 1"], 1),
+        (["x^2 + y^2 = {0}"], 1),
+        (["(x - {0})^2 + (y - 2*{0})^2 = {0}^2"], 1),
+        (["x y = {0}"], 1),
+        (["x = {0} sin(t)", "y = {0} cos(t)"], 0),
+        (["exp(x) = {0}"], 1),
+        (["{0} x + y = 1"], 1),
+    ],
+)
+def test_units_do_not_matter(constraints: list[str], freedom: int, size: str) -> None:
+    report = classified(coordinates=["x", "y"], constraints=[text.format(f"({size})") for text in constraints])
+    assert (report.consistent, report.dof, report.velocity_dof) == (True, freedom, freedom)
+
+
 @pytest.mark.parametrize("zero", ["atan(1) - pi/4", "cos(pi/5) - (1 + sqrt(5))/4", "sqrt(3 + 2 sqrt(2)) - 1 - sqrt(2)"])
 def test_hidden_zeros_make_no_label_wrong(zero: str) -> None:
     """The coefficient is 0 in every case."""

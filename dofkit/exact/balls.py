@@ -215,9 +215,9 @@ class RealSearch:
                 return j
             previous = residual
             step = np.linalg.lstsq(j, -f, rcond=1e-12)[0]
-            length = float(np.linalg.norm(step))
-            if length > 1:
-                step /= length
+            length, reach = float(np.linalg.norm(step)), max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
+            if length > reach:
+                step *= reach / length
             for u, s in zip(self.unknowns, step, strict=True):
                 symbols[u] += float(s)
         return None
