@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from flint import ctx
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
@@ -11,6 +12,9 @@ from dofkit.exact.program import values
 from dofkit.exact.ring import Ring, independent_generators
 from dofkit.expr import Expr
 from dofkit.report import Verdict
+
+#: Bits of the balls that must hold 0 before anything is taken for 0.
+PRECISIONS = (256, 1024)
 
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
@@ -44,14 +48,18 @@ def told_zero(e: Expr, positive: frozenset[Expr]) -> tuple[bool, Verdict]:
 def _excluded(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
     """A ball at some real point excludes 0."""
     search = RealSearch(ring, (), (), positive)
-    for seed in range(8):
-        point = BallPoint(search.start(seed, {}), seed)
-        try:
-            if not values(ring, point)[node].contains(0):
+    for precision in PRECISIONS:
+        with ctx.workprec(precision):
+            if any(_excluded_at(ring, node, BallPoint(search.start(seed, {}), seed)) for seed in range(8)):
                 return True
-        except (OutsideDomainError, ZeroDivisionError):
-            continue
     return False
+
+
+def _excluded_at(ring: Ring, node: int, point: BallPoint) -> bool:
+    try:
+        return not values(ring, point)[node].contains(0)
+    except (OutsideDomainError, ZeroDivisionError):
+        return False
 
 
 def _zero_at_points(ring: Ring, node: int) -> bool:
