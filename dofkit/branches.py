@@ -7,8 +7,9 @@ from dataclasses import replace
 from itertools import product as cartesian
 
 from dofkit import expr as ex
-from dofkit.analysis import Setting, make_chart
+from dofkit.answers import Setting
 from dofkit.blocks import Block, Row, coordinates_of
+from dofkit.charting import make_chart
 from dofkit.exact.field import NoPointError
 from dofkit.exact.program import values
 from dofkit.expr import Expr

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from dofkit import expr as ex
-from dofkit.analysis import Answer, Setting, make_chart
+from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block
 from dofkit.chart import Chart
+from dofkit.charting import make_chart
 from dofkit.deadline import expired
 from dofkit.exact.balls import FloatPoint, RealSearch, jacobian
 from dofkit.exact.program import values

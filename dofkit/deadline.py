@@ -11,6 +11,7 @@ from dofkit.errors import DofkitError
 
 #: Seconds for one scene where the caller gives no budget.
 DEFAULT_SECONDS = 60.0
+OUT_OF_TIME = "the time allowed for the scene was used up"
 
 _until: ContextVar[float] = ContextVar("until", default=float("inf"))
 
@@ -32,7 +33,7 @@ def limited(seconds: float) -> Iterator[None]:
 def check() -> None:
     """Raise OutOfTimeError where the time is used up."""
     if time.monotonic() > _until.get():
-        raise OutOfTimeError("the time allowed for the scene was used up")
+        raise OutOfTimeError(OUT_OF_TIME)
 
 
 def expired() -> bool:

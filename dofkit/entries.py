@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from dofkit.analysis import Answer, Label
+from dofkit.answers import Answer, Label
 from dofkit.blocks import Row
 from dofkit.expr import Expr
 from dofkit.labels import catastatic, exact, scleronomic
@@ -76,6 +76,32 @@ def entry(
         independent=None if independent is None else min(independent, equations),
         verdict=verdict,
         reason=_reason(form, in_system, own, proofs, told, circuit),
+    )
+
+
+def unfinished(
+    constraint: Constraint, normals: Sequence[Normal], inequalities: Sequence[Inequality], why: str
+) -> ConstraintEntry:
+    """An entry without labels: there was no time for them."""
+    pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(inequalities)
+    return ConstraintEntry(
+        name=constraint.name,
+        type=constraint.type,
+        text=constraint.text,
+        form=max((form_of(p) for p in pieces), key=FORMS.index, default="finite"),
+        holonomic=None,
+        holonomic_alone=None,
+        scleronomic=None,
+        catastatic=None,
+        bilateral=not inequalities,
+        exact=None,
+        integrating_factor=None,
+        integral=None,
+        circuit=None,
+        equations=len(normals),
+        independent=None,
+        verdict="undecided",
+        reason=f"Not decided: {why}.",
     )
 
 

@@ -64,7 +64,8 @@ def analyse(parts: Sequence[Rows]) -> Redundancies:
     redundant: list[int] = []
     for _, members in groups:
         redundant += _droppable(parts, [o for o in order if o in members], bases)
-    circuits = {owner: _circuit(parts, order, owner, bases) for owner in redundant}
+    rows_of = Counter(o for part in parts for o in part.owners)
+    circuits = {owner: _circuit(parts, order, owner, bases, rows_of[owner] == 1) for owner in redundant}
     return Redundancies(independent, sorted(redundant), groups, circuits)
 
 
@@ -143,16 +144,11 @@ def _droppable(parts: Sequence[Rows], members: list[int], bases: Sequence[_Basis
     return dropped
 
 
-def _single(parts: Sequence[Rows], owner: int) -> bool:
-    """Did the constraint write one row only?"""
-    return sum(o == owner for p in parts for o in p.owners) == 1
-
-
-def _circuit(parts: Sequence[Rows], order: list[int], owner: int, bases: Sequence[_Basis]) -> list[int]:
+def _circuit(parts: Sequence[Rows], order: list[int], owner: int, bases: Sequence[_Basis], single: bool) -> list[int]:
     """A minimal set of other constraints on which a redundant one depends, of those before it where that can be."""
     if not any(owner in b.pivot_owners for b in bases):
         supports = set().union(*(b.circuits.get(owner, set()) for b in bases)) - {owner}
-        if len(supports) < 2 or len(supports) > SEARCHED or _single(parts, owner):
+        if len(supports) < 2 or len(supports) > SEARCHED or single:
             return sorted(supports)
         kept = [o for o in order if o in supports]
     else:

@@ -1,0 +1,59 @@
+"""What is known of one block, and what the engines may assume of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from dofkit.expr import Expr
+from dofkit.report import Verdict
+from dofkit.system import Coordinate
+
+
+@dataclass(frozen=True)
+class Label:
+    """Whether a row is a consequence of finite relations, how sure, and why."""
+
+    holonomic: bool | None
+    verdict: Verdict
+    reason: str = ""
+
+
+@dataclass
+class Answer:
+    """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
+
+    ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
+    redundancy; ``hidden`` the finite relations that the differential ones force.
+    """
+
+    consistent: bool | None = True
+    dof: int | None = None
+    velocity_dof: int | None = None
+    verdict: Verdict = "proved"
+    labels: dict[int, Label] = field(default_factory=dict)
+    reasons: list[str] = field(default_factory=list)
+    hidden: list[Expr] = field(default_factory=list)
+    matrix: list[list[int]] = field(default_factory=list)
+    modulus: int = 2
+    degenerate: bool = False
+    instantaneous: int | None = None
+    curved: bool = False
+    dependent: tuple[str, ...] = ()
+    growth: tuple[int, ...] | None = None
+    method: str = ""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What the engines may assume of the symbols."""
+
+    positive: frozenset[Expr]
+    generic: tuple[Expr, ...] = ()
+    pose: Mapping[Expr, Expr] = field(default_factory=dict)
+    reference: Mapping[Expr, Expr] | None = None
+    roles: tuple[Coordinate, ...] = ()
+    tolerance: Fraction | None = None
+    size: float = 1.0
+    grows: bool = True

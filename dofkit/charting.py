@@ -1,0 +1,56 @@
+"""A block's program: its ring with the finite relations, and coordinates that are functions of others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dofkit import expr as ex
+from dofkit.answers import Setting
+from dofkit.blocks import Block, expressions, uses_time
+from dofkit.chart import Chart
+from dofkit.exact.ring import Ring, linear_terms
+from dofkit.expr import Expr
+from dofkit.normal import Finite
+
+
+def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
+    """Coordinates that a finite relation gives explicitly (theta = w t), where they stand inside functions."""
+    inside = {s for e in (*expressions(block), *finite) for s in _inside_functions(e)}
+    found: dict[Expr, Expr] = {}
+    for g in finite:
+        if not any(s in inside for s in g.symbols):
+            continue
+        terms = linear_terms(g)
+        for s in sorted(g.symbols & inside, key=repr):
+            if s.args[0] != "coordinate" or s not in terms or any(s in u.symbols for u in terms if u != s):
+                continue
+            value = ex.substitute((ex.mul(ex.num(terms[s]), s) - g) / ex.num(terms[s]), found)
+            if s not in value.symbols:
+                found = {k: ex.substitute(v, {s: value}) for k, v in found.items()} | {s: value}
+                break
+    return found
+
+
+def _inside_functions(e: Expr) -> frozenset[Expr]:
+    found: frozenset[Expr] = frozenset()
+    for node in ex.nodes(e):
+        if node.op == "fn" or (node.op == "pow" and node.args[1].op != "num"):
+            found |= node.symbols
+    return found
+
+
+def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more: Sequence[Expr] = ()) -> Chart:
+    """The ring of a block with its finite relations and ``extra`` ones; ``more`` is evaluated too."""
+    finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(extra)
+    everything = [*expressions(block), *extra, *more]
+    alias = aliases(block, finite) if block.forms or block.nonlinear else {}
+    ring = Ring(everything, setting.positive, alias)
+    nodes = tuple(ring.node(g) for g in finite)
+    for e in everything:
+        ring.node(e)
+    symbols = tuple(ex.coordinate(c) for c in block.coordinates)
+    if uses_time(block) or any(ex.TIME in e.symbols for e in extra):
+        symbols = (*symbols, ex.TIME)
+    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
+    unknowns = (*(s for s in symbols if s != ex.TIME), *setting.generic)
+    return Chart(ring, nodes, symbols, columns, unknowns, setting.positive, setting.roles, tuple(finite))

@@ -1,0 +1,244 @@
+"""Blocks with differential relations: hidden finite ones, the Lie algebra of what is allowed, labels."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from flint import arb, nmod_mat
+
+from dofkit import expr as ex
+from dofkit.answers import Answer, Label, Setting
+from dofkit.blocks import Block, uses_time
+from dofkit.chart import Chart
+from dofkit.charting import make_chart
+from dofkit.exact.balls import (
+    BallPoint,
+    OutsideDomainError,
+    RealPoint,
+    independent_part,
+)
+from dofkit.exact.field import FieldPoint, NoPointError
+from dofkit.exact.program import values
+from dofkit.exact.ring import independent_generators
+from dofkit.expr import Expr
+from dofkit.finite import dependent_names
+from dofkit.forms import Frame, Rows, Span, field_frame, growth, lie_span, pairing
+from dofkit.hidden import hidden_relation
+from dofkit.normal import Finite, Nonlinear, Pfaffian
+from dofkit.rank import rank_of
+from dofkit.report import Verdict, weakest
+from dofkit.variety import Variety, on_variety, pose_point
+from dofkit.zeros import never_vanishes, zero_set
+
+#: Lie algebras are certified with balls up to this many columns.
+CERTIFIED_COLUMNS = 16
+
+
+@dataclass
+class Codistribution:
+    """The rows of a block as one-forms over a chart: finite differentials, then Pfaffian forms."""
+
+    chart: Chart
+    rows: Rows
+    finite: int
+
+    @property
+    def n(self) -> int:
+        return self.chart.coordinates
+
+
+def codistribution(block: Block, setting: Setting, extra: Sequence[Expr]) -> Codistribution:
+    """dg for every finite relation (those ``extra`` included), then the Pfaffian forms."""
+    finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(extra)
+    timed = uses_time(block) or any(ex.TIME in e.symbols for e in extra)
+    symbols = [ex.coordinate(c) for c in block.coordinates] + ([ex.TIME] if timed else [])
+    gradients = [{i: ex.diff(g, s) for i, s in enumerate(symbols) if s in g.symbols} for g in finite]
+    place = {s: i for i, s in enumerate(symbols)}
+    forms = [{place[s]: e for s, e in r.piece.items()} for r in block.forms if isinstance(r.piece, Pfaffian)]
+    chart = make_chart(block, setting, extra, [e for g in gradients for e in g.values()])
+    entries = tuple({c: chart.ring.node(e) for c, e in row.items() if not e.is_zero} for row in (*gradients, *forms))
+    return Codistribution(chart, Rows(chart.ring, entries, chart.columns), len(finite))
+
+
+def first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> int | None:
+    """Velocities that the rows allow at the reference configuration; None where it is not on the variety."""
+    if block.nonlinear:
+        return None
+    forms = codistribution(block, setting, ())
+    point = pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 3)
+    if point is None or not on_variety(forms.chart, point):
+        return None
+    try:
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
+    except (ZeroDivisionError, NoPointError):
+        return None
+    return forms.n - rank_of([row[: forms.n] for row in matrix], point.p)
+
+
+def confined(forms: Codistribution, found: Variety) -> Expr | None:
+    """The relation to which motion is confined where dt lies in the span of the rows; else None."""
+    if len(forms.chart.symbols) == forms.n or not found.samples:
+        return None
+    point = found.samples[0]
+    matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
+    n = forms.n
+    if rank_of([row[:n] for row in matrix], point.p) == rank_of(matrix, point.p):
+        return None
+    return hidden_relation(forms.rows, n, point)
+
+
+def prolong(relation: Expr, setting: Setting) -> tuple[tuple[Expr, ...], ...]:
+    """The branches of a hidden relation; none where it cannot hold."""
+    if relation.is_zero or never_vanishes(relation, setting.positive):
+        return () if not relation.is_zero else ((),)
+    if not any(s.args[0] == "coordinate" for s in relation.symbols):
+        return ()
+    variables = frozenset(s for s in relation.symbols if s.args[0] in ("coordinate", "time"))
+    branches, _ = zero_set(relation, setting.positive, variables)
+    return branches
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A span at a point, with the matrix and the frame there."""
+
+    span: Span
+    matrix: list[list[Any]]
+    frame: Frame
+
+
+def span_at(forms: Codistribution, point: FieldPoint) -> Sampled | None:
+    try:
+        zero = point.number(ex.ZERO.args[0])
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
+        frame = field_frame(matrix, len(forms.chart.symbols), point.p)
+        return Sampled(lie_span(forms.rows, frame, point), matrix, frame)
+    except (ZeroDivisionError, NoPointError):
+        return None
+
+
+def _ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span, list[list[arb]]] | None:
+    """The Lie algebra with balls; None where the point is no regular one, or has another rank than over GF(p)."""
+    try:
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
+        found, _, rows, columns = independent_part(np.array([[float(v.mid()) for v in row] for row in matrix]))
+        if found != rank:
+            return None
+        free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(columns))
+        point.rng.seed("dofkit curve")
+        return lie_span(forms.rows, Frame(tuple(rows), tuple(columns), free), point), matrix
+    except (ZeroDivisionError, OutsideDomainError):
+        return None
+
+
+def field_labels(
+    block: Block,
+    forms: Codistribution,
+    found: Variety,
+    good: list[tuple[FieldPoint, Sampled]],
+    result: Answer,
+    grows: bool,
+) -> None:
+    point, sampled = max(good, key=lambda pair: pair[1].span.dimension)
+    total, n = len(forms.chart.symbols), forms.n
+    result.matrix, result.modulus = [[int(v) for v in row] for row in sampled.matrix], point.p
+    result.method = "Lie algebra along a curve over GF(p)"
+    integrable = total - sampled.span.dimension
+    rank = len(sampled.frame.rows)
+    result.velocity_dof = n - rank
+    result.dof = n - integrable
+    result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if grows else None
+    rank_finite = rank_of(sampled.matrix[: forms.finite], point.p)
+    if found.dimension is None or found.dimension != n - rank_finite:
+        result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True
+        result.reasons.append("the finite relations are singular where they hold; the rest was not decided there")
+        return
+    ball = None
+    if total <= CERTIFIED_COLUMNS and found.real is not None and found.real.certified and found.real.consistent:
+        ball = _ball_span(forms, rank, found.real.point)
+    trusted = independent_generators(forms.chart.ring)
+    result.verdict = weakest(found.verdict, _rank_verdict(sampled, ball, rank))
+    if any(s.span.dimension != sampled.span.dimension for _, s in good):
+        result.verdict = weakest(result.verdict, "probable")
+        result.reasons.append("the freedom differs between points: the generic one is given")
+    for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear)):
+        if isinstance(row.piece, Finite):
+            result.labels[i] = Label(True, "proved")
+            continue
+        place = i if i < len(block.finite) else i + forms.finite - len(block.finite)
+        result.labels[i] = _label(place, good, ball, sampled, rank, total, trusted)
+        if result.labels[i].holonomic is None:
+            result.verdict, result.dof, result.growth = "undecided", None, None
+    result.dependent = _integrable_names(forms, sampled, point)
+
+
+def _rank_verdict(sampled: Sampled, ball: tuple[Span, list[list[arb]]] | None, rank: int) -> Verdict:
+    """The Lie algebra's dimension is proved where it is everything and a ball certifies it, or where D is a line."""
+    if ball is None:
+        return "probable"
+    n = sum(map(len, (sampled.frame.dependent, sampled.frame.free)))
+    if (
+        ball[0].dimension == sampled.span.dimension
+        and sampled.span.dimension in (n, n - rank)
+        and (sampled.span.dimension == n or n - rank <= 1)
+    ):
+        return "proved"
+    return "probable"
+
+
+def _label(
+    place: int,
+    good: list[tuple[FieldPoint, Sampled]],
+    ball: tuple[Span, list[list[arb]]] | None,
+    sampled: Sampled,
+    rank: int,
+    total: int,
+    trusted: bool,
+) -> Label:
+    """Is the row in the largest integrable part: does it annihilate the Lie algebra of D?"""
+    zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in good]
+    if all(zero):
+        line = total - rank <= 1
+        return Label(True, "proved" if line and ball is not None else "probable", "line" if line else "")
+    disagree = "exact arithmetic and balls disagree: an identity between functions was not seen"
+    if ball is None:
+        return Label(False, "probable") if trusted else Label(None, "undecided", disagree)
+    nonzero = any(not v.contains(0) for v in pairing(ball[1][place], ball[0].vectors))
+    if nonzero:
+        return Label(False, "proved")
+    return Label(None, "undecided", disagree)
+
+
+def _integrable_names(forms: Codistribution, sampled: Sampled, point: FieldPoint) -> tuple[str, ...]:
+    """Dependent coordinates: pivots of the annihilator of the Lie algebra."""
+    if not sampled.span.vectors:
+        return tuple(str(s.args[1]) for s in forms.chart.symbols if s != ex.TIME)
+    vectors = nmod_mat([[int(v) for v in vector] for vector in sampled.span.vectors], point.p)
+    basis, nullity = vectors.nullspace()
+    rows = [[basis[i, k] for i in range(basis.nrows())] for k in range(nullity)]
+    return dependent_names(rows, forms.chart, point.p) if rows else ()
+
+
+def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> None:
+    """With real points only: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
+    at = values(forms.chart.ring, real.point)
+    matrix = forms.rows.matrix(at, arb(0))
+    rank, gap, _, _ = independent_part(np.array([[float(v.mid()) for v in row] for row in matrix]))
+    total, n = len(forms.chart.symbols), forms.n
+    found = _ball_span(forms, rank, real.point)
+    if found is None or gap < 1e3:
+        result.verdict, result.consistent = "undecided", None
+        result.reasons.append("the only points found are singular")
+        return
+    span, _ = found
+    result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
+    result.velocity_dof, result.dof = n - rank, n - (total - span.dimension)
+    result.reasons.append(f"decided at real points of high precision, with a gap of {gap:.1e} between singular values")
+    for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear)):
+        place = i if i < len(block.finite) else i + forms.finite - len(block.finite)
+        zero = all(v.contains(0) for v in pairing(matrix[place], span.vectors))
+        sure: Verdict = "proved" if isinstance(row.piece, Finite) or not zero else "numeric"
+        result.labels[i] = Label(zero, sure)

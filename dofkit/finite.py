@@ -1,0 +1,117 @@
+"""Blocks of finite relations only: freedom at the reference, or at generic points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from flint import nmod
+
+from dofkit import expr as ex
+from dofkit.answers import Answer, Setting
+from dofkit.blocks import Block
+from dofkit.chart import Chart
+from dofkit.charting import make_chart
+from dofkit.exact.balls import (
+    RealPoint,
+    dependency_pattern,
+    greedy_pivots,
+)
+from dofkit.expr import Expr
+from dofkit.forms import field_frame
+from dofkit.local import AtReference, at_reference
+from dofkit.measured import measure
+from dofkit.rank import rank_of
+from dofkit.variety import Variety, field_jacobian, find
+
+OFF_REFERENCE = (
+    "the reference configuration does not satisfy all finite relations: the answer is for configurations that do, "
+    "and nothing is said of the reference itself"
+)
+
+
+def finite_answer(block: Block, setting: Setting) -> Answer:
+    chart = make_chart(block, setting)
+    if setting.reference is not None:
+        drawn = _drawn_answer(chart, setting, setting.reference)
+        if drawn is not None:
+            return drawn
+    found = find(chart, setting.pose)
+    result = Answer(found.consistent, found.dimension, found.dimension, found.verdict, reasons=list(found.reasons))
+    if setting.reference is not None:
+        result.reasons.append(OFF_REFERENCE)
+    result.method = "rank over GF(p)" + (" and balls" if found.real else "")
+    if found.samples:
+        _finite_matrix(chart, found, result)
+    elif found.real is not None:
+        result.method = "real points with balls"
+        _numeric_matrix(chart, found.real, result)
+    return result
+
+
+def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
+    """Which relations depend on which, and which coordinates on which, from a regular real point."""
+    if real.matrix is None or not real.certified or not real.rows or len(real.matrix) != len(chart.nodes):
+        return
+    result.matrix = dependency_pattern(real.matrix, real.rows)
+    shown = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
+    columns = [i for i, s in enumerate(shown) if s != ex.TIME]
+    pivots = greedy_pivots(real.matrix[list(real.rows)][:, columns].T, len(real.rows))
+    result.dependent = tuple(str(shown[columns[i]].args[1]) for i in pivots)
+
+
+def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]) -> Answer | None:
+    """At the reference configuration; None where the relations do not hold there."""
+    found = at_reference(chart, reference, exact=setting.tolerance is None)
+    if found is None:
+        return None
+    if setting.tolerance is not None:
+        return _measured_answer(chart, setting, found)
+    result = Answer(True, found.local.dimension, found.local.dimension, found.local.verdict)
+    result.method = "rank over GF(p) at the given configuration"
+    result.instantaneous = found.instantaneous
+    result.matrix, result.modulus = found.matrix, found.modulus
+    rows = [[nmod(v, found.modulus) for v in row] for row in found.matrix]
+    result.dependent = dependent_names(rows, chart, found.modulus)
+    n = chart.coordinates
+    if found.confined:
+        result.consistent, result.dof, result.velocity_dof, result.verdict = False, None, None, "probable"
+        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
+    elif found.rank < len(found.matrix):
+        result.reasons.append(found.local.reason)
+        result.degenerate = found.local.dimension != n - (found.rank if not found.confined else 0)
+    return result
+
+
+def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answer:
+    """Measured geometry: the rank within the tolerance."""
+    at = {s: float(v.mid()) for s, v in found.ball.symbols.items()} if found.ball is not None else {}
+    told = measure(chart, at, setting.roles, float(setting.tolerance or 0), setting.size, found.rigid)
+    result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
+    result.method = "singular values within the tolerance at the given configuration"
+    result.instantaneous = told.instantaneous
+    result.reasons.append(f"{told.reason}; the gap between singular values is {told.gap:.1e}")
+    result.matrix, result.modulus = told.dependencies, 2
+    result.dependent = tuple(str(chart.symbols[c].args[1]) for c in told.columns)
+    result.degenerate = told.dimension != told.instantaneous
+    return result
+
+
+def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:
+    point = found.samples[0]
+    matrix = field_jacobian(chart, point)
+    n = chart.coordinates
+    rank, rank_q = rank_of(matrix, point.p), rank_of([row[:n] for row in matrix], point.p)
+    result.matrix, result.modulus = [[int(v) for v in row] for row in matrix], point.p
+    result.dependent = dependent_names(matrix, chart, point.p)
+    if rank_q < rank:
+        result.consistent, result.dof, result.velocity_dof = False, None, None
+        result.verdict = "probable"
+        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
+        return
+    result.degenerate = result.dof is not None and result.dof != n - rank
+
+
+def dependent_names(matrix: list[list[Any]], chart: Chart, p: int) -> tuple[str, ...]:
+    frame = field_frame([row[: chart.coordinates] for row in matrix], chart.coordinates, p)
+    return tuple(str(chart.symbols[c].args[1]) for c in frame.dependent)

@@ -1,0 +1,113 @@
+"""The report's entries, one a constraint, from the blocks' answers."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from dofkit.analysis import alone
+from dofkit.answers import Answer, Setting
+from dofkit.blocks import Row, coordinates_of
+from dofkit.deadline import OutOfTimeError, check
+from dofkit.entries import Told, entry, unfinished
+from dofkit.exact.field import NoPointError
+from dofkit.normal import Inequality, Nonlinear, Pfaffian
+from dofkit.redundancy import Redundancies
+from dofkit.report import ConstraintEntry
+from dofkit.solving import Outcome, Reduced
+
+#: Up to this many coordinates, those of one constraint are listed in the scene's order.
+FEW = 2000
+
+
+def entries_of(
+    reduced: Sequence[Reduced],
+    setting: Setting,
+    outcome: Outcome,
+    dependent: Sequence[Redundancies],
+    names: Sequence[str],
+) -> list[ConstraintEntry]:
+    """An entry for every constraint, in order; one that there is no time for says so."""
+    independent: Counter[int] = Counter()
+    for found in dependent:
+        independent.update(found.independent)
+    known = {i for found in dependent for i in found.independent}
+    circuits = {i: c for found in dependent for i, c in found.circuits.items()}
+    told = _told(len(reduced), outcome)
+    entries = []
+    for i, r in enumerate(reduced):
+        number = independent[i] if i in known else None if told[i] else 0
+        circuit = None if i not in circuits else [names[j] for j in circuits[i]]
+        try:
+            check()
+            entries.append(_one(i, r, told[i], setting, outcome, number, circuit))
+        except OutOfTimeError as error:
+            entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
+    return entries
+
+
+def _one(
+    i: int,
+    r: Reduced,
+    told: list[Told],
+    setting: Setting,
+    outcome: Outcome,
+    independent: int | None,
+    circuit: list[str] | None,
+) -> ConstraintEntry:
+    by_itself = None
+    written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
+    if any(isinstance(row.piece, Nonlinear) for row in written):
+        by_itself = _curved(told) or _alone_in_time(written, setting)
+    elif any(isinstance(t.row.piece, Pfaffian) for t in told):
+        by_itself = _inherited(told) or _alone_in_time([t.row for t in told], setting)
+    return entry(
+        r.constraint,
+        r.normals,
+        r.inequalities,
+        told,
+        by_itself,
+        setting.positive,
+        independent,
+        circuit,
+        outcome.consistent,
+    )
+
+
+def _told(number: int, outcome: Outcome) -> list[list[Told]]:
+    """Every constraint's rows with their labels; a copy has those of its original."""
+    told: list[list[Told]] = [[] for _ in range(number)]
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        linear = [r for r in block.rows if not isinstance(r.piece, Nonlinear)]
+        for i, row in enumerate(linear):
+            told[row.constraint].append(Told(row, a.labels.get(i), a))
+        for row in block.rows:
+            if isinstance(row.piece, Nonlinear):
+                told[row.constraint].append(Told(row, None, a))
+    for i, original in outcome.copies.items():
+        told[i] = [Told(Row(i, t.row.piece), t.label, t.answer) for t in told[original]]
+    return told
+
+
+def _curved(told: Sequence[Told]) -> Answer | None:
+    """Velocities that bend under the other constraints bend without them."""
+    return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
+
+
+def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
+    mentioned = {name for row in own for name in coordinates_of(row.piece)}
+    coordinates = (
+        [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < FEW else sorted(mentioned)
+    )
+    try:
+        check()
+        return alone(own, setting, coordinates)
+    except (OutOfTimeError, ArithmeticError, NoPointError):
+        return Answer(None, verdict="undecided")
+
+
+def _inherited(told: Sequence[Told]) -> Answer | None:
+    """A single form that is non-holonomic in the system is so alone: what integrates alone integrates in any system."""
+    if len(told) != 1 or told[0].label is None or told[0].label.holonomic is not False:
+        return None
+    return Answer(labels={0: told[0].label})

@@ -1,0 +1,191 @@
+"""The blocks of a system answered, over the branches of its relations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import product as cartesian
+
+from dofkit import expr as ex
+from dofkit.analysis import answer
+from dofkit.answers import Answer, Setting
+from dofkit.blocks import Block, Row, split
+from dofkit.branches import through_reference
+from dofkit.deadline import OutOfTimeError, check
+from dofkit.errors import Fault, SceneError, TextError
+from dofkit.exact.field import NoPointError
+from dofkit.expr import Expr
+from dofkit.normal import Finite, Inequality, Normal, normalise, without_instants
+from dofkit.system import Constraint, System
+from dofkit.velocities import reduced as reduced_velocities
+from dofkit.zeros import never_holds
+
+#: Choices of branches that are looked at.
+MAX_CHOICES = 16
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """A constraint with every relation reduced; ``inequalities`` apart."""
+
+    constraint: Constraint
+    normals: tuple[Normal, ...]
+    inequalities: tuple[Inequality, ...]
+
+    @property
+    def equations(self) -> int:
+        return len(self.normals)
+
+
+@dataclass
+class Outcome:
+    """The blocks of one choice of branches and their answers."""
+
+    rows: list[Row]
+    blocks: list[Block]
+    answers: list[Answer]
+    untouched: list[str]
+    impossible: list[int] = field(default_factory=list)
+    first_order: int | None = None
+    copies: dict[int, int] = field(default_factory=dict)
+
+    @property
+    def consistent(self) -> bool | None:
+        if self.impossible or any(a.consistent is False for a in self.answers):
+            return False
+        return None if any(a.consistent is None for a in self.answers) else True
+
+    @property
+    def dof(self) -> int | None:
+        return self._total([a.dof for a in self.answers])
+
+    @property
+    def velocity_dof(self) -> int | None:
+        return self._total([a.velocity_dof for a in self.answers])
+
+    def _total(self, parts: Sequence[int | None]) -> int | None:
+        if not self.consistent or any(p is None for p in parts):
+            return None
+        return len(self.untouched) + sum(p for p in parts if p is not None)
+
+    @property
+    def size(self) -> tuple[int, int, int]:
+        """What makes one choice of branches larger than another."""
+        return (int(self.consistent is not False), -1 if self.dof is None else self.dof, self.velocity_dof or 0)
+
+
+def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
+    """Every relation of every constraint as what it says; all that cannot be one are faults together."""
+    found, faults = [], []
+    for i, constraint in enumerate(system.constraints):
+        normals, inequalities = [], []
+        written = constraint.type in ("equation", "on")
+        for relation in constraint.relations:
+            if relation.sense != "=":
+                inequalities.append(Inequality(relation.expr, relation.sense == ">"))
+                continue
+            try:
+                normals.append(without_instants(normalise(relation.expr, positive, written)))
+            except TextError as error:
+                faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
+        found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
+    if faults:
+        raise SceneError(tuple(faults), system.name)
+    return found
+
+
+def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:
+    """The largest of the branches, answered block by block."""
+    normals = [(i, through_reference(normal, setting)) for i, r in enumerate(reduced) for normal in r.normals]
+    options = [range(len(normal.branches)) or (None,) for _, normal in normals]
+    positive = setting.positive
+    never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
+    copied = copies(reduced)
+    best: Outcome | None = None
+    cache: dict[tuple[int, ...], Answer] = {}
+    for number, choice in enumerate(cartesian(*options)):
+        if number == MAX_CHOICES:
+            break
+        rows, impossible = [], list(never)
+        for (i, normal), branch in zip(normals, choice, strict=True):
+            if branch is None:
+                impossible.append(i)
+            elif i not in copied:
+                rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
+        for way in reduced_velocities(rows, positive):
+            outcome = _answered(system, way, impossible, setting, cache)
+            if best is None or outcome.size > best.size:
+                best = outcome
+    if best is not None:
+        best.copies = copied
+    best = best or Outcome([], [], [], [c.name for c in system.coordinates])
+    if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
+        best.first_order = _first_order(system, normals, setting)
+    return best
+
+
+def _first_order(system: System, normals: Sequence[tuple[int, Normal]], setting: Setting) -> int | None:
+    """Velocities allowed to first order where branches cross: there the gradient of a product is 0."""
+    rows = [
+        Row(i, p) for i, n in normals if len(n.branches) == 1 for p in n.branches[0] if not isinstance(p, Inequality)
+    ]
+    blocks, untouched = split([c.name for c in system.coordinates], rows)
+    parts = [in_time(b, setting).instantaneous for b in blocks]
+    return None if any(p is None for p in parts) else len(untouched) + sum(p for p in parts if p is not None)
+
+
+def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
+    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original."""
+    seen: dict[tuple[object, ...], int] = {}
+    found = {}
+    for i, r in enumerate(reduced):
+        if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
+            continue
+        key = tuple(sorted(repr(_up_to_a_number(normal)) for normal in r.normals))
+        if key in seen:
+            found[i] = seen[key]
+        else:
+            seen[key] = i
+    return found
+
+
+def _up_to_a_number(normal: Normal) -> list[list[object]]:
+    return [[_scaled(p) for p in branch] for branch in normal.branches]
+
+
+def _scaled(piece: object) -> object:
+    """A piece with the first coefficient made 1."""
+    if isinstance(piece, Finite):
+        first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
+        number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
+        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
+    return piece
+
+
+def _answered(
+    system: System,
+    rows: list[Row],
+    impossible: list[int],
+    setting: Setting,
+    cache: dict[tuple[int, ...], Answer],
+) -> Outcome:
+    blocks, untouched = split([c.name for c in system.coordinates], rows)
+    answers = []
+    for block in blocks:
+        key = tuple(id(row.piece) for row in block.rows)
+        known = cache.get(key)
+        if known is None:
+            known = cache[key] = in_time(block, setting)
+        answers.append(known)
+    return Outcome(rows, blocks, answers, untouched, impossible)
+
+
+def in_time(block: Block, setting: Setting) -> Answer:
+    """The block's answer; undecided where the time is used up."""
+    try:
+        check()
+        return answer(block, setting)
+    except OutOfTimeError as error:
+        return Answer(None, verdict="undecided", reasons=[str(error)])
+    except (ArithmeticError, NoPointError):
+        return Answer(None, verdict="undecided", reasons=["an expression has no value at the points that were tried"])
