@@ -8,7 +8,8 @@ from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.blocks import Block, expressions, uses_time
 from dofkit.chart import Chart
-from dofkit.exact.ring import Ring, linear_terms
+from dofkit.exact.ring import Ring
+from dofkit.exact.terms import linear_terms
 from dofkit.expr import Expr
 from dofkit.normal import Finite
 

@@ -22,8 +22,9 @@ from dofkit.exact.field import field_point
 from dofkit.exact.identity import is_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
-from dofkit.exact.ring import Ring, expand, linear_terms
+from dofkit.exact.ring import Ring
 from dofkit.exact.series import Series, SeriesPoint, series_values
+from dofkit.exact.terms import expand, linear_terms
 from dofkit.expr import Expr
 from dofkit.forms import Frame, Rows, certified_rank, field_frame, field_rank, growth, lie_span
 from dofkit.motion import Manifold, local_dimension, signature_of

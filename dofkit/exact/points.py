@@ -22,6 +22,7 @@ from dofkit.deadline import check
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.program import reachable
+from dofkit.exact.rational import Rational
 from dofkit.exact.ring import ADD, MUL, NUM, POW, VAR, Ring
 
 #: An elimination that makes the program longer than this is given up.
@@ -33,47 +34,6 @@ DRAWS = 60
 
 Unit = tuple[str, int]
 ZERO, ONE = Fraction(0), Fraction(1)
-
-
-class Rational:
-    """A quotient of polynomials in one unknown over GF(p)."""
-
-    __slots__ = ("bottom", "top")
-
-    def __init__(self, top: Any, bottom: Any) -> None:
-        self.top = top
-        self.bottom = bottom
-
-    def _pair(self, other: Any) -> Rational:
-        return other if isinstance(other, Rational) else Rational(self.top * 0 + other, self.bottom * 0 + 1)
-
-    def __add__(self, other: Any) -> Rational:
-        b = self._pair(other)
-        if self.bottom == b.bottom:
-            return Rational(self.top + b.top, self.bottom)
-        return Rational(self.top * b.bottom + b.top * self.bottom, self.bottom * b.bottom)
-
-    def __mul__(self, other: Any) -> Rational:
-        b = self._pair(other)
-        return Rational(self.top * b.top, self.bottom * b.bottom)
-
-    __radd__ = __add__
-    __rmul__ = __mul__
-
-    def __neg__(self) -> Rational:
-        return Rational(-self.top, self.bottom)
-
-    def __pow__(self, n: int) -> Rational:
-        return Rational(self.top**n, self.bottom**n)
-
-    def __rtruediv__(self, other: Any) -> Rational:
-        if self.top == 0:
-            raise ZeroDivisionError
-        return self._pair(other) * Rational(self.bottom, self.top)
-
-    def numerator(self) -> Any:
-        """In lowest terms."""
-        return self.top // self.top.gcd(self.bottom) if self.top != 0 else self.top
 
 
 def unit_of(ring: Ring, index: int) -> Unit:

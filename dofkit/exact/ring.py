@@ -19,6 +19,7 @@ from math import gcd
 from typing import Any, Protocol
 
 from dofkit import expr as ex
+from dofkit.exact.terms import content, linear_terms, sorted_sum
 from dofkit.expr import Expr
 
 #: A value of whatever the program runs over: an element of GF(p), a ball, a float, a truncated series.
@@ -26,8 +27,6 @@ Scalar = Any
 
 NUM, VAR, ADD, MUL, POW = range(5)
 
-#: Products of sums are multiplied out in arguments up to this many terms.
-EXPAND_TERMS = 64
 #: sin(n u) is a polynomial in sin u and cos u up to this n; beyond, it is a generator of its own.
 MAX_MULTIPLE = 64
 
@@ -54,48 +53,6 @@ class Point(Protocol):
 
     def number(self, value: Fraction) -> Scalar: ...
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar: ...
-
-
-def expand(e: Expr) -> Expr:
-    """``e`` with products of sums and small powers of sums multiplied out."""
-    if e.op == "add":
-        return ex.add(*(expand(term) for term in e.args))
-    if e.op == "mul":
-        total: list[Expr] = [ex.ONE]
-        for factor in (expand(f) for f in e.args):
-            terms = factor.args if factor.op == "add" else (factor,)
-            if len(total) * len(terms) > EXPAND_TERMS:
-                return e
-            total = [ex.mul(a, b) for a in total for b in terms]
-        return ex.add(*total)
-    if e.op == "pow" and e.args[1].op == "num" and e.args[0].op == "add":
-        exponent = e.args[1].args[0]
-        if exponent.denominator == 1 and 2 <= exponent <= 4:
-            return expand(Expr("mul", (e.args[0],) * int(exponent)))
-    return e
-
-
-def linear_terms(e: Expr) -> dict[Expr, Fraction]:
-    """``e`` as a combination of its terms with rational coefficients; the number's term is `ONE`."""
-    total = expand(e)
-    terms: dict[Expr, Fraction] = {}
-    for term in total.args if total.op == "add" else (total,):
-        factor, rest = (term.args[0], ex.ONE) if term.op == "num" else _number_and_rest(term)
-        if factor:
-            rest = _sorted_product(rest)
-            terms[rest] = terms.get(rest, Fraction(0)) + factor
-    return terms
-
-
-def _number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
-    if term.op == "mul" and term.args[0].op == "num":
-        rest = term.args[1:]
-        return term.args[0].args[0], rest[0] if len(rest) == 1 else Expr("mul", rest)
-    return Fraction(1), term
-
-
-def _sorted_product(e: Expr) -> Expr:
-    return Expr("mul", tuple(sorted(e.args, key=repr))) if e.op == "mul" else e
 
 
 def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
@@ -266,10 +223,10 @@ class Ring:
         if radicand.op == "num":
             return self._root_of_number(radicand.args[0], degree)
         if radicand.op == "add":
-            content, rest = _content(radicand)
-            if content != 1:
-                return self._mul(self._root_of_number(content, degree), self._root(rest, degree))
-        return self._new_root((_sorted_sum(radicand), degree), radicand, self.node(radicand))
+            number, rest = content(radicand)
+            if number != 1:
+                return self._mul(self._root_of_number(number, degree), self._root(rest, degree))
+        return self._new_root((sorted_sum(radicand), degree), radicand, self.node(radicand))
 
     def _known_signs(self, product: Expr) -> tuple[list[Expr], Expr]:
         """(factors that are never negative, the product of the others): only those have roots and logs of their own."""
@@ -331,7 +288,7 @@ class Ring:
             return self._mul(*(self._sign(part) for part in e.args))
         if e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1:
             return self._pow(self._sign(e.args[0]), abs(int(e.args[1].args[0])))
-        return self._var("sign", _sorted_sum(e), ex.fn("abs", e) / e if not e.is_zero else ex.ZERO, (self.node(e),))
+        return self._var("sign", sorted_sum(e), ex.fn("abs", e) / e if not e.is_zero else ex.ZERO, (self.node(e),))
 
     def _function(self, e: Expr) -> int:
         name, u = e.args[0], e.args[1]
@@ -360,10 +317,10 @@ class Ring:
             return self.node(half_pi - ex.fn("asin", u))
         if name == "asin":
             root = self.node(ex.sqrt(ex.ONE - u * u))
-            return self._var("asin", _sorted_sum(u), e, (self.node(u), root))
+            return self._var("asin", sorted_sum(u), e, (self.node(u), root))
         if name == "atan2":
             return self._var("atan2", (u, e.args[2]), e, (self.node(u), self.node(e.args[2])))
-        return self._var(name, _sorted_sum(u), e, (self.node(u),))
+        return self._var(name, sorted_sum(u), e, (self.node(u),))
 
     def _log(self, u: Expr) -> int:
         """log of a product as the sum of logs, of a power as a multiple, of an integer over its primes."""
@@ -380,7 +337,7 @@ class Ring:
             powers = _factors(value.numerator) + [(p, -k) for p, k in _factors(value.denominator)]
             logs = [self._mul(self._number(k), self._log_of_prime(p)) for p, k in powers]
             return self._add(*logs) if logs else self._number(0)
-        return self._var("log", _sorted_sum(u), Expr("fn", ("log", u)), (self.node(u),))
+        return self._var("log", sorted_sum(u), Expr("fn", ("log", u)), (self.node(u),))
 
     def _log_of_prime(self, prime: int) -> int:
         return self._var("log", prime, Expr("fn", ("log", ex.num(prime))), (self._number(prime),))
@@ -465,7 +422,7 @@ class Ring:
 
     def _call(self, e: Expr) -> int:
         name, orders, arguments = e.args
-        key = (name, orders, tuple(_sorted_sum(a) for a in arguments))
+        key = (name, orders, tuple(sorted_sum(a) for a in arguments))
         return self._var("call", key, e, tuple(self.node(a) for a in arguments))
 
 
@@ -491,22 +448,6 @@ def reachable(ring: Ring, roots: Iterable[int], through_generators: bool = True)
             if ring.vars[payload].partner >= 0:
                 stack.append(ring.var_node[ring.vars[payload].partner])
     return sorted(seen, reverse=True)
-
-
-def _sorted_sum(e: Expr) -> tuple[tuple[str, Fraction], ...]:
-    """A key that does not depend on the order of terms."""
-    return tuple(sorted((repr(rest), factor) for rest, factor in linear_terms(e).items()))
-
-
-def _content(e: Expr) -> tuple[Fraction, Expr]:
-    """A sum as positive rational content times the rest."""
-    factors = [_number_and_rest(t)[0] if t.op != "num" else t.args[0] for t in e.args]
-    top = gcd(*(abs(f.numerator) for f in factors))
-    bottom = 1
-    for f in factors:
-        bottom = bottom * f.denominator // gcd(bottom, f.denominator)
-    content = Fraction(top, bottom)
-    return content, ex.mul(ex.num(1 / content), e)
 
 
 def _factors(value: int) -> list[tuple[int, int]]:

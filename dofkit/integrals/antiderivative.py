@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from dofkit import expr as ex
-from dofkit.exact.ring import expand
+from dofkit.exact.terms import expand
 from dofkit.expr import Expr
 from dofkit.integrals.algebra import Algebra, replace
 from dofkit.integrals.rational import linear, rational, root_of_quadratic
