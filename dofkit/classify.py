@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from flint import ctx
+
 from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.blocks import uses_time
@@ -12,6 +14,7 @@ from dofkit.conflicts import conflict
 from dofkit.count import Facts, count
 from dofkit.deadline import DEFAULT_SECONDS, limited
 from dofkit.dependence import merged, redundancies
+from dofkit.exact.balls import PRECISION
 from dofkit.expr import Expr
 from dofkit.labelling import entries_of
 from dofkit.lowering import lower
@@ -43,7 +46,7 @@ def classify(scene: Scene | System, budget: float | None = None) -> Report:
         system.tolerance,
         system.size,
     )
-    with limited(DEFAULT_SECONDS if budget is None else budget):
+    with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
         outcome = solve(system, reduced, setting)
         return _report(system, reduced, setting, outcome)
 

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dofkit.errors import TextError
+from dofkit.exact.identity import is_zero
 from dofkit.expr import (
     DT,
     FUNCTIONS,
@@ -138,8 +139,8 @@ def test_what_is_printed_is_read_back(e: Expr) -> None:
     back = read(text)
     if isinstance(back, TextError):  # only what is beyond the bounds may be refused
         assert any(word in back.message for word in ("exponent", "powers", "large", "characters", "nested")), back
-    else:
-        assert unordered(fold_again(back)) == unordered(fold_again(e))
+    elif unordered(fold_again(back)) != unordered(fold_again(e)):  # numbers may be multiplied out on the way
+        assert is_zero(back - e, frozenset())
 
 
 def read(text: str) -> Expr | TextError:

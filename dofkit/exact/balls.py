@@ -25,9 +25,11 @@ from dofkit.expr import Expr
 PRECISION = 256
 #: Relative size below which a singular value of the scaled Jacobian is taken for 0, and above which it is not.
 NOISE, SIGNAL = 1e-9, 1e-6
-STARTS, ITERATIONS = 12, 80
+STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
 #: After this many singular points no regular one is looked for.
 SINGULAR_TRIES = 4
+#: Relative size of a Newton step that ends the refinement.
+TINY_STEP = 2.0 ** (16 - PRECISION)
 
 
 class OutsideDomainError(Exception):
@@ -197,30 +199,35 @@ class RealSearch:
         return singular
 
     def descend(self, symbols: dict[Expr, float], seed: int) -> np.ndarray | None:
-        """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end."""
+        """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end.
+
+        At a singular point each step only halves the distance: it goes on until the steps are fast, or to the last.
+        """
         if not self.nodes:
             return np.zeros((0, len(self.columns)))
-        previous = math.inf
+        previous, j = math.inf, np.zeros((0, 0))
         for _ in range(ITERATIONS):
             check()
             try:
                 f, j = self._float_system(symbols, seed)
             except (ValueError, ZeroDivisionError, OverflowError):
                 return None
+            reach = max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
             scale = np.abs(j).max(axis=1, initial=0) + 1e-300
-            residual = float(np.max(np.abs(f) / np.maximum(scale, 1e-3)))
+            residual = float(np.max(np.abs(f) / scale)) / reach
             if not math.isfinite(residual):
                 return None
-            if residual < 1e-13 or (residual < 1e-11 and residual >= previous / 2):
+            fast, stands = residual <= previous / 8, residual >= 0.9 * previous
+            if residual == 0 or (residual < 1e-13 and (fast or stands)) or (residual < 1e-11 and stands):
                 return j
             previous = residual
             step = np.linalg.lstsq(j, -f, rcond=1e-12)[0]
-            length, reach = float(np.linalg.norm(step)), max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
-            if length > reach:
-                step *= reach / length
+            length = float(np.linalg.norm(step))
+            if length > 4 * reach:
+                step *= 4 * reach / length
             for u, s in zip(self.unknowns, step, strict=True):
                 symbols[u] += float(s)
-        return None
+        return j if previous < 1e-13 else None
 
     def _float_system(self, symbols: Mapping[Expr, float], seed: int) -> tuple[np.ndarray, np.ndarray]:
         point = FloatPoint(symbols, seed)
@@ -266,11 +273,13 @@ class RealSearch:
         unknowns = [self.unknowns[c] for c in columns]
         indices = [self.columns[c] for c in columns]
         try:
-            for _ in range(8):
+            for _ in range(NEWTON_STEPS):
                 f, j = self._ball_system(exact, nodes, indices, seed)
                 step = j.solve(f)
                 for i, u in enumerate(unknowns):
                     exact[u] = (exact[u] - step[i, 0]).mid()
+                if all(abs(step[i, 0]) <= (1 + abs(exact[u])) * TINY_STEP for i, u in enumerate(unknowns)):
+                    break
             radius = arb(0, arb(2) ** -(PRECISION // 2))
             boxed = {**exact, **{u: exact[u] + radius for u in unknowns}}
             f, _ = self._ball_system(exact, nodes, indices, seed)

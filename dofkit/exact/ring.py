@@ -360,7 +360,8 @@ class Ring:
             denominator = self._denominators.get(("exp", rest), factor.denominator)
             if abs(factor * denominator) > MAX_MULTIPLE:
                 self.related = True
-                rest, factor, denominator = Expr("mul", (ex.num(factor), rest)), Fraction(1), 1
+                size = abs(factor)
+                rest, factor, denominator = Expr("mul", (ex.num(size), rest)), factor / size, 1
             basic = ex.num(Fraction(1, denominator)) * rest
             generator = self._var("exp", (rest, denominator), Expr("fn", ("exp", basic)), (self.node(basic),))
             parts.append(self._pow(generator, int(factor * denominator)))
@@ -380,7 +381,8 @@ class Ring:
         denominator = self._denominators.get(("cis", rest), factor.denominator)
         if abs(factor * denominator) > MAX_MULTIPLE:
             self.related = True
-            rest, factor, denominator = Expr("mul", (ex.num(factor), rest)), Fraction(1), 1
+            size = abs(factor)
+            rest, factor, denominator = Expr("mul", (ex.num(size), rest)), factor / size, 1
         if denominator == 1 and rest.op == "fn" and rest.args[0] in ("asin", "atan", "atan2"):
             return (*self._cis_of_inverse(rest), int(factor))
         basic = ex.num(Fraction(1, denominator)) * rest
