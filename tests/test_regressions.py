@@ -1,0 +1,135 @@
+"""Scenes that were once answered wrong, with the answers derived by hand; one row each, and why it is so."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import dofkit
+
+XYZ = ["x", "y", "z"]
+
+
+def scene(*constraints: Any, coordinates: list[str] | None = None, **more: Any) -> dict[str, Any]:
+    return {"coordinates": coordinates or XYZ, "constraints": list(constraints), **more}
+
+
+TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
+    ("a root of velocities is no crash", scene("sqrt(xdot^2+ydot^2)=zdot"), {"dof": 3, "velocity_dof": 2}),
+    ("without c3 the plane y=0 appears", scene("x*y=0", "y*z=0", "z*x=0"), {"dof": 1, "redundant": []}),
+    ("x*y=0 and x*z=0: neither can go", scene("x*y=0", "x*z=0"), {"dof": 2, "redundant": []}),
+    ("c1 = x c2", scene("x^3-x*y^2=0", "x^2=y^2", coordinates=["x", "y"]), {"dof": 1, "redundant": ["c1"]}),
+    ("ydot^2 = -3", scene("xdot^2+ydot^2=1", "xdot=2"), {"consistent": False, "conflicting": ["c1", "c2"]}),
+    ("ydot = 0 follows", scene("xdot^2+ydot^2=1", "xdot=1"), {"dof": 1, "velocity_dof": 1, "holonomic": True}),
+    ("everything at rest", scene("xdot^2+ydot^2=zdot^2", "zdot=0"), {"dof": 0, "holonomic": True}),
+    ("zdot = +-sqrt(5) xdot", scene("y=2*x", "xdot^2+ydot^2=zdot^2"), {"dof": 1, "holonomic": True}),
+    ("zdot = +-xdot", scene("x=y", "xdot*ydot=zdot^2"), {"dof": 1, "holonomic": True}),
+    ("the branch x=1 is the larger", scene("(xdot^2+ydot^2)*(x-1)=0"), {"dof": 2, "velocity_dof": 2}),
+    ("both squares vanish", scene("(xdot-y*zdot)^2+(x-1)^2=0"), {"consistent": True, "dof": 1}),
+    ("x=t follows from its rate", scene("(xdot-1)^2+(x-t)^2=0"), {"consistent": True, "dof": 2}),
+    ("one velocity, transcendental: not called curved", scene("exp(xdot)=1"), {"dof": None}),
+    ("holds wherever x <= 0", scene("x+abs(x)=0"), {"dof": 3}),
+    ("both cosines vanish", scene("cos(x)^2+cos(y)^2=0"), {"dof": 1}),
+    ("both cosines are 1", scene("cos(x)+cos(y)=2"), {"dof": 1}),
+    ("a circle of radius 1e-15", scene("x^2+y^2 = 1e-30"), {"dof": 2}),
+    ("far away", scene("x = 1e30"), {"dof": 2}),
+    ("the root of minus x", scene("sqrt(-x) = 1"), {"dof": 2}),
+    ("logs of two negative numbers", scene("log(x y) = 0", "x = -2"), {"dof": 1}),
+    ("the constant is 0: not known here", scene("z = 0", "z + atan(1)-pi/4 = 0"), {"consistent": None}),
+    ("the constant is not 0", scene("z = 0", "z + pi - 22/7 = 0"), {"consistent": False}),
+    ("nested root that is 0", scene("(sqrt(5+2*sqrt(6))-sqrt(2)-sqrt(3)) y dz + dy - dx = 0"), {"holonomic": None}),
+    ("Machin's formula", scene("(4*atan(1/5)-atan(1/239)-pi/4) y dz + dy - dx = 0"), {"holonomic": None}),
+    ("cos(pi/5) by radicals", scene("dx + (cos(pi/5) - (1+sqrt(5))/4) dt = 0"), {"scleronomic": True}),
+    ("a huge multiple of an angle", scene("z = 0", "z + sin(1e9*x) = 0"), {"dof": 1}),
+    ("no solution, however small exp is", scene("z = 0", "z + exp(-200 x) = 0"), {"dof": None}),
+    ("a factor of time alone", scene("t*(x-y)=0"), {"dof": 2, "scleronomic": True}),
+    ("x = a and x = -a", scene("x=a", "x=-a", parameters={"a": "nonzero"}), {"consistent": False}),
+    ("a ball that holds 0 has squares", scene("z=0", "x^2+y^2+z^2=1", "x^2+y^2=1"), {"dof": 1, "redundant": ["c3"]}),
+    ("without x=1 there is x=-1", scene("x^2+y^2=1", "x=1", "y=0"), {"dof": 1, "redundant": ["c3"]}),
+    ("cos x = 1 says more", scene("sin(x)=0", "cos(x)=1"), {"dof": 2, "redundant": ["c1"]}),
+    ("one written with exp, one with log", scene("exp(x)=y", "x=log(y)"), {"dof": 2, "redundant": ["c2"]}),
+    (
+        "the pivot is no hidden relation",
+        scene("w+sin(x)=0", "dx*cos(x)+dw-(y+sin(x))*dt=0", coordinates=["x", "y", "w"]),
+        {"dof": 1, "velocity_dof": 1},
+    ),
+    (
+        "only w = y^2 + z is hidden",
+        scene(
+            "x+y*z=0",
+            "cos(y)*dy+dz-y*dt=0",
+            "dx+y*dz+z*dy+(y^2+z-w)*dt+x*(cos(y)*dy+dz-y*dt)=0",
+            coordinates=["x", "y", "z", "w"],
+        ),
+        {"dof": 2, "velocity_dof": 1, "holonomic": False},
+    ),
+    (
+        "two lines cross at the reference",
+        scene("p^2=q^2", coordinates=["p", "q"], configuration={"p": 0, "q": 0}),
+        {"dof": 1, "instantaneous_dof": 2, "singular": True},
+    ),
+    (
+        "only the axis passes through the reference",
+        scene("z*(x^2+y^2)=0", configuration={"x": 0, "y": 0, "z": 1}),
+        {"dof": 1, "instantaneous_dof": 1, "singular": False},
+    ),
+    (
+        "the line x=y=1, not the plane",
+        scene("z*(x-1)=0", "z*(y-1)=0", configuration={"x": 1, "y": 1, "z": 1}),
+        {"dof": 1, "instantaneous_dof": 1, "redundant": []},
+    ),
+    (
+        "the same pin, both blocks",
+        {
+            "dimension": 2,
+            "bodies": ["a"],
+            "constraints": [
+                {"name": "p", "type": "revolute", "between": ["ground", "a"], "at": [0, 0]},
+                {"name": "q", "type": "revolute", "between": ["ground", "a"], "at": [0, 0]},
+            ],
+        },
+        {"dof": 1, "redundant": ["q"], "redundant_equations": 2},
+    ),
+    (
+        "a body welded to the ground has a reference",
+        {"dimension": 2, "bodies": ["a"], "constraints": [{"type": "weld", "between": ["ground", "a"]}]},
+        {"dof": 0, "instantaneous_dof": 0, "singular": False},
+    ),
+    (
+        "measured, nearly collinear: the bend is no motion",
+        {
+            "dimension": 2,
+            "particles": [{"name": n, "at": at} for n, at in (("A", [0, 0]), ("B", [1, 0]), ("C", [2, 1e-7]))],
+            "constraints": [{"type": "link", "between": pair} for pair in (["A", "B"], ["B", "C"], ["A", "C"])],
+            "tolerance": 1e-5,
+        },
+        {"dof": 3, "instantaneous_dof": 4, "singular": True, "redundant": []},
+    ),
+    (
+        "ten equations in twenty unknowns",
+        scene(
+            *(" + ".join(f"{pow(i + 2, k + 1, 101)} q{i}" for i in range(20)) + f" = {k}" for k in range(10)),
+            coordinates=[f"q{i}" for i in range(20)],
+        ),
+        {"consistent": True, "dof": 10},
+    ),
+]
+
+
+@pytest.mark.parametrize(("made", "expected"), [row[1:] for row in TABLE], ids=[row[0] for row in TABLE])
+def test_what_was_wrong_once_is_right(made: dict[str, Any], expected: dict[str, Any]) -> None:
+    report = dofkit.classify(dofkit.load(made)).model_dump(mode="json")
+    assert {key: report[key] for key in expected} == expected
+
+
+def test_the_time_for_a_scene_is_bounded() -> None:
+    long = scene(*(f"dx{i} = x{i + 1} dx{i + 2}" for i in range(60)), coordinates=[f"x{i}" for i in range(70)])
+    report = dofkit.classify(dofkit.load(long), budget=1.0)
+    assert report.verdict in ("undecided", "probable", "proved")
+
+
+def test_a_mixture_of_differentials_and_finite_terms_is_refused_with_its_line() -> None:
+    with pytest.raises(dofkit.SceneError) as caught:
+        dofkit.loads("coordinates: [x]\nconstraints:\n- dx + 1 = 0\n- xddot = 0\n")
+    assert [fault.line for fault in caught.value.faults] == [3, 4]
