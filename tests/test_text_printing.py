@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from dofkit.errors import TextError
 from dofkit.exact.identity import is_zero
+from dofkit.exact.terms import content
 from dofkit.expr import (
     DT,
     FUNCTIONS,
@@ -23,6 +24,7 @@ from dofkit.expr import (
     coordinate,
     differential,
     fn,
+    mul,
     num,
     parameter,
     power,
@@ -151,8 +153,14 @@ def read(text: str) -> Expr | TextError:
 
 
 def fold_again(e: Expr) -> Expr:
-    """``e`` built once more from its leaves: folding may find more the second time."""
+    """``e`` built once more from its leaves: folding may find more the second time.
+
+    A number in a power of a sum is taken out of it: 1/(2 x + 2 y) and 1/2 1/(x + y) are one.
+    """
     parts = tuple(fold_again(child) for child in children(e))
+    if e.op == "pow" and parts[0].op == "add" and parts[1].op == "num" and parts[1].args[0].denominator == 1:
+        number, rest = content(parts[0])
+        return mul(power(num(number), parts[1]), power(rest, parts[1]))
     return rebuild(e, parts) if parts else e
 
 
