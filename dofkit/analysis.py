@@ -83,7 +83,7 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
         spans = [(p, span_at(forms, p)) for p in found.samples]
         good = [(p, s) for p, s in spans if s is not None]
         if good:
-            field_labels(block, forms, found, good, result, setting.grows)
+            field_labels(block, forms, found, good, result, setting)
             bend(block, forms, setting, result)
             return result
     if found.real is not None and found.real.certified:

@@ -70,16 +70,29 @@ def why(system: System, facts: Facts, naive: int) -> str | None:
         )
         complete = complete_sets(system)
         reasons += complete
+    if facts.dof < naive:
+        reasons += _unseen(facts)
+    return "; ".join(reasons)
+
+
+def _unseen(facts: Facts) -> list[str]:
+    """What takes freedom away and is no finite equation as written."""
+    forms = [e for e in facts.entries if e.form in ("pfaffian", "nonlinear")]
+    integrable = [e.name for e in forms if e.holonomic]
+    found = []
+    if integrable:
+        verb = "integrates to a finite relation" if len(integrable) == 1 else "integrate to finite relations"
+        found.append(f"{', '.join(integrable)} {verb}, which the count of finite equations does not see")
     if facts.hidden:
-        reasons.append(
-            f"the differential constraints hide {facts.hidden} finite relation{'s' if facts.hidden > 1 else ''} "
-            "that the count of finite equations does not see"
-        )
-    elif facts.dof < naive:
-        reasons.append(
+        many = "relations" if facts.hidden > 1 else "relation"
+        found.append(f"the differential constraints hide {facts.hidden} finite {many} that nobody wrote")
+    if forms and not found:
+        found.append("a combination of the differential constraints integrates to a finite relation that nobody wrote")
+    if not found:
+        found.append(
             "one equation forces more than one condition over the reals, so it takes more than one freedom away"
         )
-    return "; ".join(reasons)
+    return found
 
 
 def complete_sets(system: System) -> list[str]:

@@ -28,6 +28,7 @@ from dofkit.finite import dependent_names
 from dofkit.forms import Frame, Rows, Span, field_frame, growth, lie_span, pairing
 from dofkit.hidden import hidden_relation
 from dofkit.normal import Finite, Nonlinear, Pfaffian
+from dofkit.proofs import proof
 from dofkit.rank import rank_of
 from dofkit.report import Verdict, weakest
 from dofkit.variety import Variety, on_variety, pose_point
@@ -140,8 +141,9 @@ def field_labels(
     found: Variety,
     good: list[tuple[FieldPoint, Sampled]],
     result: Answer,
-    grows: bool,
+    setting: Setting,
 ) -> None:
+    """Freedom and labels from points over GF(p), held against a ball where there is one."""
     point, sampled = max(good, key=lambda pair: pair[1].span.dimension)
     total, n = len(forms.chart.symbols), forms.n
     result.matrix, result.modulus = [[int(v) for v in row] for row in sampled.matrix], point.p
@@ -150,7 +152,7 @@ def field_labels(
     rank = len(sampled.frame.rows)
     result.velocity_dof = n - rank
     result.dof = n - integrable
-    result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if grows else None
+    result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if setting.grows else None
     rank_finite = rank_of(sampled.matrix[: forms.finite], point.p)
     if found.dimension is None or found.dimension != n - rank_finite:
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True
@@ -160,7 +162,7 @@ def field_labels(
     if total <= CERTIFIED_COLUMNS and found.real is not None and found.real.certified and found.real.consistent:
         ball = _ball_span(forms, rank, found.real.point)
     trusted = independent_generators(forms.chart.ring)
-    result.verdict = weakest(found.verdict, _rank_verdict(sampled, ball, rank))
+    result.verdict = weakest(found.verdict, _rank_verdict(block, setting, sampled, ball, rank))
     if any(s.span.dimension != sampled.span.dimension for _, s in good):
         result.verdict = weakest(result.verdict, "probable")
         result.reasons.append("the freedom differs between points: the generic one is given")
@@ -175,18 +177,23 @@ def field_labels(
     result.dependent = _integrable_names(forms, sampled, point)
 
 
-def _rank_verdict(sampled: Sampled, ball: tuple[Span, list[list[arb]]] | None, rank: int) -> Verdict:
-    """The Lie algebra's dimension is proved where it is everything and a ball certifies it, or where D is a line."""
-    if ball is None:
+def _rank_verdict(
+    block: Block, setting: Setting, sampled: Sampled, ball: tuple[Span, list[list[arb]]] | None, rank: int
+) -> Verdict:
+    """How sure the rank and the Lie algebra's dimension are.
+
+    Independent rows have their rank certified by the ball. The dimension is proved where it is everything and
+    a ball certifies it, where D is a line, and where every form is proved to integrate by itself (D is involutive).
+    """
+    if ball is None or len(sampled.matrix) > rank or ball[0].dimension != sampled.span.dimension:
         return "probable"
     n = sum(map(len, (sampled.frame.dependent, sampled.frame.free)))
-    if (
-        ball[0].dimension == sampled.span.dimension
-        and sampled.span.dimension in (n, n - rank)
-        and (sampled.span.dimension == n or n - rank <= 1)
-    ):
+    if sampled.span.dimension == n or n - rank <= 1:
         return "proved"
-    return "probable"
+    if sampled.span.dimension != n - rank:
+        return "probable"
+    forms = [r.piece for r in block.forms if isinstance(r.piece, Pfaffian)]
+    return "proved" if all(proof(f, setting.positive) for f in forms) else "probable"
 
 
 def _label(

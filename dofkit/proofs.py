@@ -28,7 +28,7 @@ def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None)
     """What can be proved of one form that is integrable alone as far as is known (``alone``)."""
     if alone is False:
         return Integrability(False)
-    reason = _proof(form, positive)
+    reason = proof(form, positive)
     plain = not odd_constants(_ring(form, positive))
     found = integrate(form, positive) if plain and (reason or alone) else None
     if found is not None:
@@ -43,7 +43,8 @@ def _ring(form: Pfaffian, positive: frozenset[Expr]) -> Ring:
     return ring
 
 
-def _proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
+def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
+    """Why the form integrates by itself, where that is proved; else None."""
     if exact(form, positive) == (True, "proved"):
         return "it is closed, so locally the differential of a function"
     items = list(form.items())
