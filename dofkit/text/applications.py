@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 from dofkit.expr import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, diff, mul
 from dofkit.text.arithmetic import UndefinedError, applied, inverse, product
@@ -15,15 +15,13 @@ from dofkit.text.derivatives import (
     total_differential,
 )
 from dofkit.text.limits import MAX_DIFFERENTIATED, MAX_ORDER
+from dofkit.text.reader import Reader
 from dofkit.text.tokens import Token
-
-if TYPE_CHECKING:
-    from dofkit.text.parser import Parser
 
 _BARE = frozenset({"number", "value", "motion", "call", "function", "root", "frac", "|"})
 
 
-def arguments(parser: Parser) -> list[Expr]:
+def arguments(parser: Reader) -> list[Expr]:
     """Values in parentheses with commas between."""
     opening = parser.take()
     bars, parser.bars = parser.bars, 0
@@ -36,7 +34,7 @@ def arguments(parser: Parser) -> list[Expr]:
     return found
 
 
-def checked(parser: Parser, token: Token, name: str, given: list[Expr]) -> Expr:
+def checked(parser: Reader, token: Token, name: str, given: list[Expr]) -> Expr:
     """The elementary function ``name`` at ``given``."""
     wanted = FUNCTIONS.get(name, 1)
     if len(given) != wanted:
@@ -51,7 +49,7 @@ def checked(parser: Parser, token: Token, name: str, given: list[Expr]) -> Expr:
 # Elementary functions
 
 
-def function(parser: Parser, token: Token) -> Expr:
+def function(parser: Reader, token: Token) -> Expr:
     """`sin(x)`, `sin x`, `sin^2(x)`."""
     name = token.name
     exponent = function_power(parser, name)
@@ -62,7 +60,7 @@ def function(parser: Parser, token: Token) -> Expr:
     return found if exponent is None else parser.raise_to(found, exponent, token)
 
 
-def function_power(parser: Parser, name: str) -> Expr | None:
+def function_power(parser: Reader, name: str) -> Expr | None:
     """The `2` of `sin^2(x)`; a negative one is a question."""
     token = parser.next
     if token.kind == "superscript":
@@ -91,7 +89,7 @@ def function_power(parser: Parser, name: str) -> Expr | None:
     return exponent
 
 
-def bare(parser: Parser, token: Token) -> Expr:
+def bare(parser: Reader, token: Token) -> Expr:
     """The argument of a function without parentheses: numbers, then one name or letters written together."""
     first = parser.next
     name = token.name
@@ -118,7 +116,7 @@ def bare(parser: Parser, token: Token) -> Expr:
     return product(parts)
 
 
-def ask_extent(parser: Parser, token: Token, first: Token) -> NoReturn:
+def ask_extent(parser: Reader, token: Token, first: Token) -> NoReturn:
     """`sin theta/2`: how far does the argument reach?"""
     after, end = parser.next, parser.last.end
     beyond = parser.tokens[parser.at + 1] if after.kind in ("*", "/", "^") else after
@@ -130,7 +128,7 @@ def ask_extent(parser: Parser, token: Token, first: Token) -> NoReturn:
     parser.fail(f"it is not clear what `{name}` is taken of", after, hint)
 
 
-def root(parser: Parser, token: Token) -> Expr:
+def root(parser: Reader, token: Token) -> Expr:
     """`√x`, `√(x + y)`."""
     first = parser.next
     if first.kind == "(":
@@ -147,7 +145,7 @@ def root(parser: Parser, token: Token) -> Expr:
     return checked(parser, token, "sqrt", [first.expr])
 
 
-def fraction(parser: Parser, token: Token) -> Expr:
+def fraction(parser: Reader, token: Token) -> Expr:
     """LaTeX's fraction of two groups in braces."""
     parts = []
     for _ in range(2):
@@ -168,7 +166,7 @@ def fraction(parser: Parser, token: Token) -> Expr:
 # Unknown functions
 
 
-def unknown(parser: Parser, token: Token) -> Expr:
+def unknown(parser: Reader, token: Token) -> Expr:
     """`h(s)`, `h'(s)`, `h` alone, and its derivatives by time `hdot`, `dh`."""
     name = token.name
     primes = parser.take() if parser.next.kind == "prime" and parser.next.start == token.end else None
@@ -195,7 +193,7 @@ def unknown(parser: Parser, token: Token) -> Expr:
     return moved(parser, token, found, token.amount)
 
 
-def own_arguments(parser: Parser, token: Token) -> list[Expr]:
+def own_arguments(parser: Reader, token: Token) -> list[Expr]:
     """What `h` alone is a function of, by its declaration."""
     name = token.name
     declared = parser.names.arguments.get(name, ())
@@ -218,7 +216,7 @@ def own_arguments(parser: Parser, token: Token) -> list[Expr]:
     return given
 
 
-def moved(parser: Parser, token: Token, found: Expr, order: int) -> Expr:
+def moved(parser: Reader, token: Token, found: Expr, order: int) -> Expr:
     """``found`` differentiated ``order`` times by time; its differential for -1."""
     if order == -1:
         return kept(parser, token, total_differential(found))
@@ -227,7 +225,7 @@ def moved(parser: Parser, token: Token, found: Expr, order: int) -> Expr:
     return found
 
 
-def kept(parser: Parser, token: Token, found: Expr | None) -> Expr:
+def kept(parser: Reader, token: Token, found: Expr | None) -> Expr:
     """A derivative that exists and holds only what is allowed."""
     if found is None:
         hint = "write the derivative of an expression in coordinates, velocities and t"
@@ -240,7 +238,7 @@ def kept(parser: Parser, token: Token, found: Expr | None) -> Expr:
 # Derivatives
 
 
-def derived(parser: Parser, token: Token) -> Expr:
+def derived(parser: Reader, token: Token) -> Expr:
     """`diff(x, t)`, `diff(h(s), s)`, `diff(h(a, b), a, 2, b)`, `partial(h(x, t), t)`, `partial(h(x, x), 1)`."""
     name = token.name
     if parser.next.kind != "(":
@@ -268,7 +266,7 @@ def derived(parser: Parser, token: Token) -> Expr:
     return found
 
 
-def once(parser: Parser, token: Token, found: Expr, symbol: Expr) -> Expr:
+def once(parser: Reader, token: Token, found: Expr, symbol: Expr) -> Expr:
     """One derivative; by time it is the total one for `diff`."""
     if size(found, MAX_DIFFERENTIATED) >= MAX_DIFFERENTIATED:
         parser.fail("this is too long to be differentiated here", token, "write the derivative out")
@@ -277,7 +275,7 @@ def once(parser: Parser, token: Token, found: Expr, symbol: Expr) -> Expr:
     return diff(found, symbol)
 
 
-def whole(parser: Parser, token: Token, e: Expr) -> int:
+def whole(parser: Reader, token: Token, e: Expr) -> int:
     """A small counting number."""
     value = e.args[0]
     if value.denominator != 1 or not 1 <= value <= MAX_ORDER:
@@ -285,7 +283,7 @@ def whole(parser: Parser, token: Token, e: Expr) -> int:
     return int(value)
 
 
-def by_place(parser: Parser, token: Token, found: Expr, steps: list[Expr]) -> Expr:
+def by_place(parser: Reader, token: Token, found: Expr, steps: list[Expr]) -> Expr:
     """Derivatives of an unknown function by its first, second, ... argument."""
     if found.op != "call" or len(steps) > MAX_ORDER:
         parser.fail("only an unknown function has a first argument", token, "write `partial(h(x, y), 1)`")
@@ -301,7 +299,7 @@ def by_place(parser: Parser, token: Token, found: Expr, steps: list[Expr]) -> Ex
     return found
 
 
-READERS: dict[str, Callable[[Parser, Token], Expr]] = {
+READERS: dict[str, Callable[[Reader, Token], Expr]] = {
     "function": function,
     "call": unknown,
     "operator": derived,
