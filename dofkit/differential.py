@@ -81,14 +81,23 @@ def first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) 
 
 def confined(forms: Codistribution, found: Variety) -> Expr | None:
     """The relation to which motion is confined where dt lies in the span of the rows; else None."""
-    if len(forms.chart.symbols) == forms.n or not found.samples:
+    if len(forms.chart.symbols) == forms.n:
         return None
-    point = found.samples[0]
-    matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
     n = forms.n
-    if rank_of([row[:n] for row in matrix], point.p) == rank_of(matrix, point.p):
+    if found.samples:
+        point = found.samples[0]
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
+        free = rank_of([row[:n] for row in matrix], point.p) == rank_of(matrix, point.p)
+        return None if free else hidden_relation(forms.rows, n, point)
+    if found.real is None:
         return None
-    return hidden_relation(forms.rows, n, point)
+    try:
+        balls = forms.rows.matrix(values(forms.chart.ring, found.real.point), arb(0))
+    except (OutsideDomainError, ZeroDivisionError):
+        return None
+    j = np.array([[float(v.mid()) for v in row] for row in balls])
+    free = independent_part(j[:, :n])[0] == independent_part(j)[0]
+    return None if free else hidden_relation(forms.rows, n, found.real.point)
 
 
 def prolong(relation: Expr, setting: Setting) -> tuple[tuple[Expr, ...], ...]:

@@ -16,6 +16,7 @@ from dofkit.exact.balls import (
     RealPoint,
     dependency_pattern,
     greedy_pivots,
+    independent_part,
 )
 from dofkit.expr import Expr
 from dofkit.forms import field_frame
@@ -56,6 +57,10 @@ def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     result.matrix = dependency_pattern(real.matrix, real.rows)
     shown = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
     columns = [i for i, s in enumerate(shown) if s != ex.TIME]
+    if independent_part(real.matrix[:, columns])[0] < real.rank:
+        result.consistent, result.dof, result.velocity_dof = False, None, None
+        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
+        return
     pivots = greedy_pivots(real.matrix[list(real.rows)][:, columns].T, len(real.rows))
     result.dependent = tuple(str(shown[columns[i]].args[1]) for i in pivots)
 

@@ -7,18 +7,18 @@ If lambda A = 0 for the coordinates' columns A and lambda b is not 0 for the tim
 
 from __future__ import annotations
 
+from flint import arb
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
 from dofkit.exact.canon import Canon, TooLargeError
-from dofkit.exact.field import FieldPoint
 from dofkit.exact.program import values
-from dofkit.exact.ring import ADD, MUL, NUM, Ring, reachable
+from dofkit.exact.ring import ADD, MUL, NUM, Point, Ring, Scalar, reachable
 from dofkit.expr import Expr
 from dofkit.forms import Rows
 
 
-def hidden_relation(rows: Rows, n: int, point: FieldPoint) -> Expr:
+def hidden_relation(rows: Rows, n: int, point: Point) -> Expr:
     """lambda b as an expression, by elimination, in lowest terms (a pivot is no factor of it); zero is decided
     at a generic point of the variety.
 
@@ -30,7 +30,7 @@ def hidden_relation(rows: Rows, n: int, point: FieldPoint) -> Expr:
     left = list(range(len(work)))
     for c in range(n):
         at = values(ring, point)
-        candidates = [r for r in left if at[work[r][c]] != 0]
+        candidates = [r for r in left if _nonzero(at[work[r][c]])]
         if not candidates:
             continue
         pivot = min(candidates, key=lambda r: _size(ring, work[r][c]))
@@ -39,7 +39,7 @@ def hidden_relation(rows: Rows, n: int, point: FieldPoint) -> Expr:
             if r in candidates:
                 work[r] = [_reduced(ring, work[r][k], work[r][c], work[pivot][k], work[pivot][c]) for k in range(n + 1)]
     at = values(ring, point)
-    found = [work[r][n] for r in left if at[work[r][n]] != 0]
+    found = [work[r][n] for r in left if _nonzero(at[work[r][n]])]
     if not found:
         return ex.ZERO
     node = min(found, key=lambda i: _size(ring, i))
@@ -49,6 +49,11 @@ def hidden_relation(rows: Rows, n: int, point: FieldPoint) -> Expr:
         return canon.to_expr(top / top.gcd(bottom))
     except (TooLargeError, ZeroDivisionError, DomainError):
         return ex.ZERO
+
+
+def _nonzero(value: Scalar) -> bool:
+    """Not 0 in GF(p); or a ball that excludes 0."""
+    return not value.contains(0) if isinstance(value, arb) else bool(value != 0)
 
 
 def _reduced(ring: Ring, b: int, factor: int, d: int, pivot: int) -> int:

@@ -133,3 +133,16 @@ def test_a_mixture_of_differentials_and_finite_terms_is_refused_with_its_line() 
     with pytest.raises(dofkit.SceneError) as caught:
         dofkit.loads("coordinates: [x]\nconstraints:\n- dx + 1 = 0\n- xddot = 0\n")
     assert [fault.line for fault in caught.value.faults] == [3, 4]
+
+
+def test_hidden_relations_are_found_at_real_points_too() -> None:
+    """Finite relations that no elimination solves, so that only real points are left: x + y = t still forces z = 1."""
+    made = scene(
+        "p^2 + q^2 + p q^3 = 2",
+        "p^3 - q^3 + p q = 1",
+        "x + y = t",
+        "xdot + ydot = z + p - p",
+        coordinates=["p", "q", "x", "y", "z"],
+    )
+    report = dofkit.classify(dofkit.load(made))
+    assert (report.dof, report.velocity_dof) == (1, 1)
