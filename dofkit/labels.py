@@ -97,7 +97,12 @@ def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[E
         shown = [canon.to_expr(f) for f, _ in canon.factors(common)]
     except (TooLargeError, ZeroDivisionError, DomainError):
         return False
-    return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
+    return all(ex.TIME not in f.symbols or _of_time_alone(f) or never_vanishes(f, positive) for f in shown)
+
+
+def _of_time_alone(e: Expr) -> bool:
+    """A known function of time: it vanishes at single instants only, and between them the constraint is the same."""
+    return all(s.args[0] in ("time", "parameter") for s in e.symbols) and all(n.op != "call" for n in ex.nodes(e))
 
 
 def _homogeneous(e: Expr) -> bool:
