@@ -26,7 +26,7 @@ from dofkit.variety import Variety, find
 #: Rounds of prolongation: each finds one hidden finite relation.
 MAX_ROUNDS = 12
 #: Branches of one hidden relation that are followed.
-MAX_HIDDEN_BRANCHES = 3
+MAX_HIDDEN_BRANCHES = 6
 
 
 def answer(block: Block, setting: Setting) -> Answer:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
+from itertools import product as cartesian
 from typing import Any
 
 import numpy as np
@@ -36,6 +38,8 @@ from dofkit.zeros import never_vanishes, zero_set
 
 #: Lie algebras are certified with balls up to this many columns.
 CERTIFIED_COLUMNS = 16
+#: Ways in which several hidden relations hold together that are looked at.
+MAX_TOGETHER = 12
 
 
 @dataclass
@@ -79,8 +83,8 @@ def first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) 
     return forms.n - rank_of([row[: forms.n] for row in matrix], point.p)
 
 
-def confined(forms: Codistribution, found: Variety) -> Expr | None:
-    """The relation to which motion is confined where dt lies in the span of the rows; else None."""
+def confined(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], ...] | None:
+    """Ways in which motion is confined where dt lies in the span of the rows; None where it does not."""
     if len(forms.chart.symbols) == forms.n:
         return None
     n = forms.n
@@ -100,15 +104,25 @@ def confined(forms: Codistribution, found: Variety) -> Expr | None:
     return None if free else hidden_relation(forms.rows, n, found.real.point)
 
 
-def prolong(relation: Expr, setting: Setting) -> tuple[tuple[Expr, ...], ...]:
-    """The branches of a hidden relation; none where it cannot hold."""
-    if relation.is_zero or never_vanishes(relation, setting.positive):
-        return () if not relation.is_zero else ((),)
-    if not any(s.args[0] == "coordinate" for s in relation.symbols):
-        return ()
-    variables = frozenset(s for s in relation.symbols if s.args[0] in ("coordinate", "time"))
-    branches, _ = zero_set(relation, setting.positive, variables)
-    return branches
+def prolong(ways: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...]:
+    """The branches of hidden relations; none where they cannot hold."""
+    if not ways:
+        return ((),)
+    return tuple(dict.fromkeys(branch for way in ways for branch in _together(way, setting)))
+
+
+def _together(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, ...]]:
+    """The branches on which all of some relations hold."""
+    options = []
+    for relation in relations:
+        if never_vanishes(relation, setting.positive):
+            return []
+        if not any(s.args[0] == "coordinate" for s in relation.symbols):
+            return []
+        variables = frozenset(s for s in relation.symbols if s.args[0] in ("coordinate", "time"))
+        options.append(zero_set(relation, setting.positive, variables)[0])
+    together = islice(cartesian(*options), MAX_TOGETHER)
+    return [tuple(dict.fromkeys(g for branch in choice for g in branch)) for choice in together]
 
 
 @dataclass(frozen=True)

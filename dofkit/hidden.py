@@ -1,54 +1,83 @@
 """Hidden finite relations: where dt lies in the span of the rows, motion is confined to a locus.
 
 If lambda A = 0 for the coordinates' columns A and lambda b is not 0 for the time column b, the rows imply
-(lambda b) dt = 0, so motion through an interval of time needs lambda b = 0: a finite relation that nobody wrote
-(x + y = t with xdot + ydot = z forces z = 1). Prolongation in the sense of Cartan.
+(lambda b) dt = 0, so motion through an interval of time needs a finite relation that nobody wrote
+(x + y = t with xdot + ydot = z forces z = 1). Prolongation in the sense of Cartan. The locus is where the largest
+minors of [A b] vanish; their common factor is the relation (single minors carry factors of A of their own).
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import combinations, islice
+from typing import Any
+
 from flint import arb
 from flint.utils.flint_exceptions import DomainError
 
-from dofkit import expr as ex
+from dofkit.deadline import check
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.program import values
-from dofkit.exact.ring import ADD, MUL, NUM, Point, Ring, Scalar, reachable
+from dofkit.exact.ring import Point, Scalar
 from dofkit.expr import Expr
 from dofkit.forms import Rows
 
+#: Choices of columns that are looked at, and minors that are divided out of each other.
+MAX_CHOICES, MAX_MINORS, MAX_SIZE = 400, 12, 8
 
-def hidden_relation(rows: Rows, n: int, point: Point) -> Expr:
-    """lambda b as an expression, by elimination, in lowest terms (a pivot is no factor of it); zero is decided
-    at a generic point of the variety.
 
-    ``n`` is the number of coordinate columns; time is column n. Returns 0 where the relation grows too large.
+def hidden_relation(rows: Rows, n: int, point: Point) -> tuple[tuple[Expr, ...], ...]:
+    """Ways in which the largest minors with the time column vanish: their common factor does, or all that is left.
+
+    No way where they grow too large.
+
+    ``n`` is the number of coordinate columns; time is column n. Which minors are not 0 is decided at a generic
+    point of the variety.
     """
-    ring = rows.ring
-    zero = ring.emit(NUM, ex.ZERO.args[0])
-    work = [[row.get(c, zero) for c in range(n + 1)] for row in rows.entries]
-    left = list(range(len(work)))
-    for c in range(n):
-        at = values(ring, point)
-        candidates = [r for r in left if _nonzero(at[work[r][c]])]
-        if not candidates:
-            continue
-        pivot = min(candidates, key=lambda r: _size(ring, work[r][c]))
-        left.remove(pivot)
-        for r in left:
-            if r in candidates:
-                work[r] = [_reduced(ring, work[r][k], work[r][c], work[pivot][k], work[pivot][c]) for k in range(n + 1)]
-    at = values(ring, point)
-    found = [work[r][n] for r in left if _nonzero(at[work[r][n]])]
-    if not found:
-        return ex.ZERO
-    node = min(found, key=lambda i: _size(ring, i))
+    at = values(rows.ring, point)
+    zero = at[0] * 0
+    numbers = rows.matrix(at, zero)
+    chosen = _independent(numbers, range(n + 1))
+    size = len(chosen)
+    if size > MAX_SIZE:
+        return ()
+    canon = Canon(rows.ring)
+    common: Any = None
+    minors: list[Any] = []
     try:
-        canon = Canon(ring)
-        top, bottom = canon.quotient(node)
-        return canon.to_expr(top / top.gcd(bottom))
+        table = [_cleared(canon, rows.entries[r], n + 1) for r in chosen]
+        for columns in islice(combinations(range(n), size - 1), MAX_CHOICES):
+            check()
+            picked = (*columns, n)
+            if len(_independent([[numbers[r][c] for c in picked] for r in chosen], range(size))) < size:
+                continue
+            minor = _determinant(canon, [[row[c] for c in picked] for row in table])
+            common = minor if common is None else common.gcd(minor)
+            minors.append(minor)
+            if len(minors) == MAX_MINORS or minor.is_constant():
+                break
+        if common is None:
+            return ()
+        left = tuple(dict.fromkeys(canon.to_expr(m / common) for m in minors))
+        return ((canon.to_expr(common),), left)
     except (TooLargeError, ZeroDivisionError, DomainError):
-        return ex.ZERO
+        return ()
+
+
+def _independent(matrix: Sequence[Sequence[Scalar]], columns: Sequence[int] | range) -> list[int]:
+    """The first rows, in order, that are independent on some columns; balls that hold 0 count as 0."""
+    kept: list[tuple[list[Scalar], int]] = []
+    found = []
+    for r, row in enumerate(matrix):
+        rest = [row[c] for c in columns]
+        for pivot_row, pivot in kept:
+            factor = rest[pivot] / pivot_row[pivot]
+            rest = [a - factor * b for a, b in zip(rest, pivot_row, strict=True)]
+        place = next((c for c, v in enumerate(rest) if _nonzero(v)), None)
+        if place is not None:
+            kept.append((rest, place))
+            found.append(r)
+    return found
 
 
 def _nonzero(value: Scalar) -> bool:
@@ -56,17 +85,23 @@ def _nonzero(value: Scalar) -> bool:
     return not value.contains(0) if isinstance(value, arb) else bool(value != 0)
 
 
-def _reduced(ring: Ring, b: int, factor: int, d: int, pivot: int) -> int:
-    """b - factor d / pivot, with the plain cases kept plain."""
-    zero, one = ring.emit(NUM, ex.ZERO.args[0]), ring.emit(NUM, ex.ONE.args[0])
-    if zero in (factor, d):
-        return b
-    parts = [part for part in (factor, d) if part != one]
-    if pivot != one:
-        parts.append(ring.power_node(pivot, -1))
-    taken = ring.emit(MUL, (ring.emit(NUM, ex.MINUS_ONE.args[0]), *parts))
-    return taken if b == zero else ring.emit(ADD, (b, taken))
+def _cleared(canon: Canon, row: dict[int, int], n: int) -> list[Any]:
+    """A row's entries as polynomials, times their common denominator."""
+    quotients = [canon.quotient(row[c]) if c in row else (canon.one * 0, canon.one) for c in range(n)]
+    whole = canon.one
+    for _, bottom in quotients:
+        whole = whole * (bottom / bottom.gcd(whole))
+    return [canon.reduce(top * (whole / bottom)) for top, bottom in quotients]
 
 
-def _size(ring: Ring, node: int) -> int:
-    return len(reachable(ring, [node], through_generators=False))
+def _determinant(canon: Canon, matrix: list[list[Any]]) -> Any:
+    """Expanded along the first row, in the canonical ring."""
+    if len(matrix) == 1:
+        return matrix[0][0]
+    total = canon.one * 0
+    for c, entry in enumerate(matrix[0]):
+        if entry != 0:
+            below = _determinant(canon, [[*row[:c], *row[c + 1 :]] for row in matrix[1:]])
+            term = canon.reduce(entry * below)
+            total = total + term if c % 2 == 0 else total - term
+    return canon.reduce(total)

@@ -68,6 +68,26 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
         {"dof": 2, "velocity_dof": 1, "holonomic": False},
     ),
     (
+        "c3 - dg = (q2-1)(dq1 - cos t dt) + (1-q2) dt with dq1 = cos t dt: q2 = 1, where the pivot vanishes",
+        scene(
+            "dq1 - dt*cos(t) + q1*(-2*dq1 + 2*dq2*q2 + dq3 - dt)=0",
+            "(q1^2 + 1)*(q2^2 + q3 - t - 2*q1)=0",
+            "dq1*q2 - 3*dq1 + 2*dq2*q2 + dq3 - dt*q2*cos(t) - dt*q2 + dt*cos(t)=0",
+            coordinates=["q1", "q2", "q3"],
+        ),
+        {"consistent": True, "dof": 0, "velocity_dof": 0, "holonomic": True},
+    ),
+    (
+        "minors that differ by what vanishes on the variety: q1 = 0 is hidden",
+        scene(
+            "q3 + q4^2 - q4 = 0",
+            "(dq2 + dq3*q4^2*(q3 + q4^2 - q4) + dq4 - dt*q4 + q4^2*(dq3 + dq4*(2*q4 - 1) - dt*q1))*exp(q2) = 0",
+            "(q1^2 + 1)*(dq2 + dq3 + dq4*(2*q4 - 1) + dq4 - dt*q1 - dt*q4 + q4^2*(dq3 + dq4*(2*q4 - 1) - dt*q1)) = 0",
+            coordinates=["q1", "q2", "q3", "q4"],
+        ),
+        {"consistent": True, "dof": 2, "velocity_dof": 1, "holonomic": False},
+    ),
+    (
         "two lines cross at the reference",
         scene("p^2=q^2", coordinates=["p", "q"], configuration={"p": 0, "q": 0}),
         {"dof": 1, "instantaneous_dof": 2, "singular": True},
