@@ -7,7 +7,7 @@ from itertools import combinations
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
-from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
+from dofkit.exact.balls import RealSearch
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import NoPointError
 from dofkit.exact.identity import is_zero, told_zero
@@ -129,18 +129,3 @@ def exact(form: Pfaffian, positive: frozenset[Expr]) -> Told:
             return False, verdict
         sure = weakest(sure, verdict)
     return True, sure
-
-
-def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:
-    """A ball at a random real point excludes 0."""
-    ring = Ring([e], positive)
-    node = ring.node(e)
-    search = RealSearch(ring, [], [], positive)
-    for seed in range(6):
-        point = BallPoint(search.start(seed, {}), seed)
-        try:
-            if not values(ring, point)[node].contains(0):
-                return True
-        except (OutsideDomainError, ZeroDivisionError):
-            continue
-    return False

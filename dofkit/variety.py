@@ -18,6 +18,7 @@ from dofkit.chart import Chart
 from dofkit.deadline import check
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.identity import excludes_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import VAR, Ring, reachable
@@ -144,7 +145,7 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     if solver.plan.special:
         why = "the relations hold only for special values of the parameters"
         return Variety(False, None, "probable", reasons=[why])
-    if solver.plan.contradictory and not excludes_zero(chart, solver.plan.witness):
+    if solver.plan.contradictory and not excludes_zero(chart.ring, solver.plan.witness, chart.positive):
         why = "eliminating the unknowns leaves a number of which it is not known whether it is 0"
         return Variety(None, None, "undecided", reasons=[why])
     if solver.plan.contradictory:
@@ -156,19 +157,6 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
         return _from_samples(chart, drawn, solver, seed, core)
     samples = _pose_samples(chart, pose, seed)
     return _from_samples(chart, samples, None, seed, core) if samples else _numerical(chart, seed, core)
-
-
-def excludes_zero(chart: Chart, node: int) -> bool:
-    """Does a ball at some real point exclude 0 as the value of a node?"""
-    search = RealSearch(chart.ring, (), (), chart.positive)
-    for seed in range(8):
-        point = BallPoint(search.start(seed, {}), seed)
-        try:
-            if not values(chart.ring, point)[node].contains(0):
-                return True
-        except (OutsideDomainError, ZeroDivisionError):
-            continue
-    return False
 
 
 def _pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[FieldPoint]:

@@ -40,13 +40,19 @@ def told_zero(e: Expr, positive: frozenset[Expr]) -> tuple[bool, Verdict]:
             return False, "proved"
     except (TooLargeError, ZeroDivisionError, DomainError):
         pass
-    if _excluded(ring, node, positive):
+    if excludes_zero(ring, node, positive):
         return False, "proved"
     return True, "probable" if _zero_at_points(ring, node) else "numeric"
 
 
-def _excluded(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
-    """A ball at some real point excludes 0."""
+def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:
+    """A ball at some real point excludes 0 as the value of an expression."""
+    ring = Ring([e], positive)
+    return excludes_zero(ring, ring.node(e), positive)
+
+
+def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
+    """A ball at some real point excludes 0 as the value of a node."""
     search = RealSearch(ring, (), (), positive)
     for precision in PRECISIONS:
         with ctx.workprec(precision):

@@ -15,12 +15,12 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
 from dofkit.exact.canon import TooLargeError
+from dofkit.exact.identity import certainly_nonzero
 from dofkit.expr import Expr
 from dofkit.integrals.algebra import Algebra, GivenUpError, size
 from dofkit.integrals.factors import FAMILIES, MAX_VARIABLES
 from dofkit.integrals.potential import Form, potential
 from dofkit.integrals.shapes import Pair, arranged, cost, shapes, upright
-from dofkit.labels import certainly_nonzero
 from dofkit.normal import Pfaffian
 from dofkit.text import to_text
 
