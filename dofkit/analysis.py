@@ -10,6 +10,7 @@ from dofkit.bending import bend
 from dofkit.blocks import Block, Row, split
 from dofkit.differential import (
     Codistribution,
+    Sampled,
     ball_labels,
     codistribution,
     confined,
@@ -18,6 +19,8 @@ from dofkit.differential import (
     prolong,
     span_at,
 )
+from dofkit.exact.field import FieldPoint
+from dofkit.exact.ring import independent_generators
 from dofkit.expr import Expr
 from dofkit.finite import finite_answer
 from dofkit.report import weakest
@@ -80,8 +83,7 @@ def _largest(a: Answer) -> tuple[int, int, int]:
 def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list[Expr], setting: Setting) -> Answer:
     result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict)
     if found.samples:
-        spans = [(p, span_at(forms, p)) for p in found.samples]
-        good = [(p, s) for p, s in spans if s is not None]
+        good = _spans(forms, found)
         if good:
             field_labels(block, forms, found, good, result, setting)
             bend(block, forms, setting, result)
@@ -93,6 +95,20 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
     result.verdict, result.consistent = "undecided", None
     result.reasons.append("no regular point was found to look at the differential constraints")
     return result
+
+
+def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Sampled]]:
+    """The Lie algebra at every sample; at one, where it is all of the tangent space and nothing could raise it."""
+    good = []
+    for point in found.samples:
+        sampled = span_at(forms, point)
+        if sampled is None:
+            continue
+        good.append((point, sampled))
+        whole = sampled.span.dimension == len(forms.chart.symbols)
+        if whole and not forms.finite and independent_generators(forms.chart.ring):
+            break
+    return good
 
 
 def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:

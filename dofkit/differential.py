@@ -24,10 +24,12 @@ from dofkit.exact.balls import (
 )
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.program import values
-from dofkit.exact.ring import independent_generators
+from dofkit.exact.ring import Scalar, independent_generators
 from dofkit.expr import Expr
 from dofkit.finite import dependent_names
-from dofkit.forms import Frame, Rows, Span, field_frame, growth, lie_span, pairing
+from dofkit.flag import growth
+from dofkit.flow import Span, lie_span
+from dofkit.forms import Frame, Rows, field_frame, pairing
 from dofkit.hidden import hidden_relation
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.proofs import proof
@@ -181,10 +183,8 @@ def field_labels(
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True
         result.reasons.append("the finite relations are singular where they hold; the rest was not decided there")
         return
-    ball = None
-    if total <= CERTIFIED_COLUMNS and found.real is not None and found.real.certified and found.real.consistent:
-        ball = _ball_span(forms, rank, found.real.point)
     trusted = independent_generators(forms.chart.ring)
+    ball = certificate(forms, found, sampled, trusted)
     result.verdict = weakest(found.verdict, _rank_verdict(block, setting, sampled, ball, rank))
     if any(s.span.dimension != sampled.span.dimension for _, s in good):
         result.verdict = weakest(result.verdict, "probable")
@@ -200,8 +200,31 @@ def field_labels(
     result.dependent = _integrable_names(forms, sampled, point)
 
 
+def certificate(
+    forms: Codistribution, found: Variety, sampled: Sampled, trusted: bool
+) -> tuple[Span, Sequence[Sequence[Scalar]]] | None:
+    """A span and a matrix whose non-zero values are proved not to be 0.
+
+    Where the generators are known to be independent and no finite relation holds among them, what is not 0 at a
+    point over GF(p) is not 0 as a function; else balls at a real point, up to `CERTIFIED_COLUMNS`.
+    """
+    real = found.real
+    if real is None or not real.certified or not real.consistent:
+        return None
+    if trusted and not forms.finite:
+        return sampled.span, sampled.matrix
+    if len(forms.chart.symbols) > CERTIFIED_COLUMNS:
+        return None
+    return _ball_span(forms, len(sampled.frame.rows), real.point)
+
+
+def _nonzero(value: Scalar) -> bool:
+    """Is a value proved not to be 0: over GF(p) or as a ball?"""
+    return not value.contains(0) if isinstance(value, arb) else value != 0
+
+
 def _rank_verdict(
-    block: Block, setting: Setting, sampled: Sampled, ball: tuple[Span, list[list[arb]]] | None, rank: int
+    block: Block, setting: Setting, sampled: Sampled, ball: tuple[Span, Sequence[Sequence[Scalar]]] | None, rank: int
 ) -> Verdict:
     """How sure the rank and the Lie algebra's dimension are.
 
@@ -222,7 +245,7 @@ def _rank_verdict(
 def _label(
     place: int,
     good: list[tuple[FieldPoint, Sampled]],
-    ball: tuple[Span, list[list[arb]]] | None,
+    ball: tuple[Span, Sequence[Sequence[Scalar]]] | None,
     sampled: Sampled,
     rank: int,
     total: int,
@@ -236,7 +259,7 @@ def _label(
     disagree = "exact arithmetic and balls disagree: an identity between functions was not seen"
     if ball is None:
         return Label(False, "probable") if trusted else Label(None, "undecided", disagree)
-    nonzero = any(not v.contains(0) for v in pairing(ball[1][place], ball[0].vectors))
+    nonzero = any(_nonzero(v) for v in pairing(ball[1][place], ball[0].vectors))
     if nonzero:
         return Label(False, "proved")
     return Label(None, "undecided", disagree)

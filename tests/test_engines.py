@@ -26,7 +26,9 @@ from dofkit.exact.ring import Ring
 from dofkit.exact.series import Series, SeriesPoint, series_values
 from dofkit.exact.terms import expand, linear_terms
 from dofkit.expr import Expr
-from dofkit.forms import Frame, Rows, certified_rank, field_frame, field_rank, growth, lie_span
+from dofkit.flag import growth
+from dofkit.flow import lie_span
+from dofkit.forms import Frame, Rows, certified_rank, field_frame, field_rank
 from dofkit.motion import Manifold, local_dimension, signature_of
 from dofkit.normal import Finite, Nonlinear, Normal, Pfaffian, normalise
 from dofkit.redundancy import Rows as Equations

@@ -479,12 +479,18 @@ def odd_constants(ring: Ring) -> bool:
     )
 
 
+def _linear_somewhere(e: Expr) -> bool:
+    """Is ``e`` of degree 1 in one of its symbols?"""
+    slopes = ((s, ex.diff(e, s)) for s in e.symbols)
+    return any(not slope.is_zero and s not in slope.symbols for s, slope in slopes)
+
+
 def independent_generators(ring: Ring) -> bool:
     """True where the generators are algebraically independent up to the relations that the ring knows.
 
     Symbols, sines, cosines and exponentials of different terms are (Ax 1971), and so are unknown functions, square
-    roots of different primes and one root of symbols. False says that a relation may have been missed: two roots of
-    sums, inverse functions, logarithms, transcendental constants.
+    roots of different primes and one root of what is linear in a symbol, so no power itself. False says that a
+    relation may have been missed: other roots, inverse functions, logarithms, transcendental constants.
     """
     roots = 0
     for var in ring.vars:
@@ -493,7 +499,7 @@ def independent_generators(ring: Ring) -> bool:
         constant = not ring.var_expr[var.index].symbols
         if var.kind == "root" and not isinstance(var.key[0], Expr):
             roots += 1
-            if constant:
+            if not _linear_somewhere(ring.var_expr[var.index].args[0]):
                 return False
         elif constant and var.kind in ("cos", "sin", "exp") and var.key[0] != ex.PI:
             return False

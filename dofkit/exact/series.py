@@ -116,6 +116,7 @@ class SeriesPoint:
         self.symbols = symbols
         self.order = order
         self.like = like
+        self._circles: dict[tuple[str, object], Series] = {}
 
     def constant(self, value: Scalar) -> Series:
         return Series(self.like * 0 + value, self.order)
@@ -162,16 +163,22 @@ class SeriesPoint:
         return self._series(found)
 
     def _circle(self, var: Var, u: Series, head: Scalar) -> Series:
-        """c' = -u' s and s' = u' c."""
+        """c' = -u' s and s' = u' c; both are found at once."""
+        known = self._circles.get((var.kind, var.key))
+        if known is not None:
+            return known
         kind = "sin" if var.kind == "cos" else "cos"
         partner = self.base.generator(Var(var.partner, kind, var.key, var.args, var.index), [u.coefficient(0)])
-        slope, own, other = u.derivative().poly, [head], [partner]
+        slope, own, other = u.derivative().poly.coeffs(), [head], [partner]
         sign = -1 if var.kind == "cos" else 1
         for k in range(1, self.order):
-            a = sum((slope[j] * other[k - 1 - j] for j in range(k)), head * 0)
-            b = sum((slope[j] * own[k - 1 - j] for j in range(k)), head * 0)
+            a = b = head * 0
+            for j in range(min(k, len(slope))):
+                a = a + slope[j] * other[k - 1 - j]
+                b = b + slope[j] * own[k - 1 - j]
             own.append(a * sign / k)
             other.append(-b * sign / k)
+        self._circles[kind, var.key] = self._series(other)
         return self._series(own)
 
     def _root(self, u: Series, head: Scalar, degree: int) -> Series:

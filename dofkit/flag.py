@@ -1,0 +1,233 @@
+"""The growth vector of D = ker I: dimensions of D_1 = D and D_k+1 = D_k + [D, D_k] at a generic point.
+
+Along a curve of X the brackets ad_X^j B, j < k, span a subspace S_k of D_k. It is all of D_k where one more derivative,
+across the curve, finds nothing new: if D_j = S_j for j <= k near the point, then D_k+1 = S_k + [D, ad_X^(k-1) B], for
+the brackets with ad_X^j B, j < k - 1, lie in D_k already; so S_k+1 = D_k+1 if and only if [b, ad_X^(k-1) B] lies in
+S_k+1 for a random b in D. The derivative across is the curve's variation, to first order in a dual number.
+Where one curve is not enough, S_k is what several span together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from dofkit.exact.program import gradient, partials, values
+from dofkit.exact.ring import Scalar, Var
+from dofkit.exact.series import Series, SeriesPoint
+from dofkit.flow import Flow, Matrix, MatrixSeries, Span, columns_of, convolved, picked, scaled
+from dofkit.forms import Frame, Rows, rank_over
+
+#: Curves tried before the flag is left open.
+MAX_CURVES = 24
+
+
+class Dual:
+    """f + e g with e^2 = 0, f and g series along the curve; ``du`` None stands for 0."""
+
+    __slots__ = ("du", "re")
+
+    def __init__(self, re: Series, du: Series | None) -> None:
+        self.re = re
+        self.du = du
+
+    def __add__(self, other: Any) -> Dual:
+        if not isinstance(other, Dual):
+            return Dual(self.re + other, self.du)
+        if self.du is None or other.du is None:
+            return Dual(self.re + other.re, self.du or other.du)
+        return Dual(self.re + other.re, self.du + other.du)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Dual:
+        return Dual(-self.re, None if self.du is None else -self.du)
+
+    def __sub__(self, other: Any) -> Dual:
+        return self.__add__(-other)
+
+    def __mul__(self, other: Any) -> Dual:
+        if not isinstance(other, Dual):
+            return Dual(self.re * other, None if self.du is None else self.du * other)
+        left = None if self.du is None else self.du * other.re
+        right = None if other.du is None else self.re * other.du
+        return Dual(self.re * other.re, left if right is None else right if left is None else left + right)
+
+    __rmul__ = __mul__
+
+    def __pow__(self, n: int) -> Dual:
+        total: Dual = self
+        for _ in range(n - 1):
+            total = total * self
+        return total
+
+    def inverse(self) -> Dual:
+        """1/(f + e g) = 1/f - e g/f^2."""
+        below = self.re.inverse()
+        return Dual(below, None if self.du is None else -(self.du * below * below))
+
+    def __truediv__(self, other: Any) -> Dual:
+        return self * other.inverse() if isinstance(other, Dual) else Dual(self.re / other, self.du and self.du / other)
+
+    def __rtruediv__(self, other: Any) -> Dual:
+        below: Dual = self.inverse()
+        return below.__mul__(other)
+
+
+@dataclass(frozen=True)
+class DualPoint:
+    """Symbols with their variation; every other generator's variation follows by the chain rule."""
+
+    point: SeriesPoint
+    flow: Flow
+    symbols: Mapping[int, Series]
+
+    def number(self, value: Any) -> Dual:
+        return Dual(self.point.number(value), None)
+
+    def generator(self, var: Var, args: Sequence[Dual]) -> Dual:
+        if var.kind == "symbol":
+            return Dual(self.point.generator(var, ()), self.symbols.get(var.index))
+        plain = [a.re for a in args]
+        at = self.flow.at
+        known = at[self.flow.rows.ring.var_node[var.index]] if var.index >= 0 else self.point.generator(var, plain)
+        total: Series | None = None
+        for (_, slope), argument in zip(self._slopes(var, plain), args, strict=False):
+            if argument.du is not None:
+                term = argument.du * slope
+                total = term if total is None else total + term
+        return Dual(known, total)
+
+    def _slopes(self, var: Var, plain: Sequence[Series]) -> list[tuple[int, Series]]:
+        if var.index >= 0:
+            return partials(self.flow.rows.ring, var, self.flow.at, self.point)
+        name, orders, key = var.key
+        found = []
+        for i in range(len(plain)):
+            raised = tuple(o + (i == j) for j, o in enumerate(orders))
+            found.append((i, self.point.generator(Var(-1, "call", (name, raised, key), var.args), plain)))
+        return found
+
+
+@dataclass(frozen=True)
+class Variation:
+    """The pulled-back frame's derivative across the curve, in the direction ``b`` of the frame at the point.
+
+    ``coefficients[k]`` is (b . grad) V_k, a matrix (columns, fields); ``slope`` is the gradient of the field b = sum
+    beta_l B_l with constant beta at the point.
+    """
+
+    coefficients: MatrixSeries
+    slope: Matrix
+
+    def bracket(self, flow: Flow, k: int) -> Matrix:
+        """[b, V_k] at the point: (b . grad) V_k - (grad b) V_k."""
+        return self.coefficients[k] - self.slope * flow.pulled[k]
+
+
+def vary(flow: Flow) -> Variation:
+    """Move the curve's start in a random direction of D, the controls kept, to first order."""
+    numbers, order = flow.numbers, flow.order
+    beta = numbers.matrix(len(flow.frame.free), 1, [flow.base.number(flow.base.rng.randrange(1, 1 << 12))
+                                                    for _ in flow.frame.free])  # fmt: skip
+    start = flow.full_frame[0] * beta
+    moved = _moved(flow, start)
+    series = [Series(numbers.polynomial([m[i, 0] for m in moved]), order) for i in range(len(flow.path))]
+    point = DualPoint(flow.point, flow, {c: series[i] for i, c in enumerate(flow.rows.columns) if c >= 0})
+    at = values(flow.rows.ring, point)
+    return Variation(_varied(flow, at, point, series), _slope(flow, start))
+
+
+def _moved(flow: Flow, start: Matrix) -> MatrixSeries:
+    """The variation of the path: eta' = S eta."""
+    moved = [start]
+    for k in range(flow.order):
+        moved.append(scaled(convolved(flow.full_slope, moved, k), 1 / flow.base.number(k + 1)))
+    return moved
+
+
+def _varied(flow: Flow, at: list[Any], point: DualPoint, moved: list[Series]) -> MatrixSeries:
+    n, order, frame = len(flow.path), flow.order, flow.frame
+    ring = flow.rows.ring
+    velocity = [Dual(v, m.derivative()) for v, m in zip(flow.velocities(), moved, strict=True)]
+    slopes = [gradient(ring, at, point, [(node, velocity[c]) for c, node in row.items()]) for row in flow.kept]
+    first = flow.by_coefficient(
+        [[g[c].du if c >= 0 and c in g else None for c in flow.rows.columns] for g in slopes], n
+    )
+    rows = flow.by_coefficient([[at[row[c]].du if c in row else None for c in range(n)] for row in flow.kept], n)
+    bent = flow.lifted(lambda k: -(first[k] + convolved(_columns(flow, rows, frame.dependent), flow.slope, k)), order)
+    turned = flow.lifted(lambda k: -convolved(rows, flow.full_frame, k), order)
+    full_bent, full_turned = [flow.full(m, None) for m in bent], [flow.full(m, None) for m in turned]
+    back = [scaled(flow.back[0], flow.sample * 0)]
+    for k in range(order - 1):
+        total = convolved(back, flow.full_slope, k) + convolved(flow.back, full_bent, k)
+        back.append(scaled(total, -1 / flow.base.number(k + 1)))
+    return [convolved(back, flow.full_frame, k) + convolved(flow.back, full_turned, k) for k in range(order)]
+
+
+def _columns(flow: Flow, series: MatrixSeries, columns: Sequence[int]) -> MatrixSeries:
+    return [picked(m, columns, flow.numbers) for m in series]
+
+
+def _slope(flow: Flow, direction: Matrix) -> Matrix:
+    """grad b at the point, for the field b = sum beta_l B_l with constant beta: A_d grad b_d = -grad(A b)."""
+    rows, base = flow.rows, flow.base
+    at = values(rows.ring, base)
+    found = [gradient(rows.ring, at, base, [(node, direction[c, 0]) for c, node in row.items()]) for row in flow.kept]
+    zero, n = flow.sample * 0, len(flow.path)
+    right = flow.numbers.matrix(
+        len(found), n, [g.get(c, zero) if c >= 0 else zero for g in found for c in rows.columns]
+    )
+    return flow.full(-(flow.inverse * right), None)
+
+
+def growth(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[int, ...] | None:
+    """dim D, dim D + [D, D], ... with D_k+1 = D_k + [D, D_k], at ``base`` over GF(p); None where it is not certain."""
+    free, terminal = len(frame.free), span.dimension
+    if not frame.rows or free == terminal or span.flow is None:
+        return (free,)
+    seen = span.dimensions[: span.dimensions.index(terminal) + 1]
+    largest_second = min(terminal, free + free * (free - 1) // 2)
+    if len(seen) <= 2 or (len(seen) == 3 and seen[1] == largest_second):
+        return seen
+    curves: list[tuple[Flow, Variation]] = []
+    quiet = 0
+    dimensions: tuple[int, ...] = ()
+    for number in range(MAX_CURVES):
+        flow = span.flow if number == 0 else Flow(rows, frame, base)
+        flow.follow(len(seen) + 1)
+        curves.append((flow, vary(flow)))
+        before, dimensions = dimensions, _dimensions([f for f, _ in curves], terminal)
+        if _complete(curves, dimensions, terminal):
+            return dimensions
+        quiet = quiet + 1 if dimensions == before else 0
+        if quiet == 2:
+            break
+    return None
+
+
+def _dimensions(flows: Sequence[Flow], terminal: int) -> tuple[int, ...]:
+    """The dimensions of S_1, S_2, ... up to the Lie algebra's own."""
+    vectors: list[tuple[Scalar, ...]] = []
+    found: list[int] = []
+    for k in range(min(f.order for f in flows)):
+        vectors += [v for f in flows for v in columns_of(f.pulled[k])]
+        found.append(rank_over(vectors, flows[0].sample))
+        if found[-1] == terminal:
+            break
+    return tuple(found)
+
+
+def _complete(curves: Sequence[tuple[Flow, Variation]], dimensions: Sequence[int], terminal: int) -> bool:
+    """Does no bracket across the curves leave S_k+1, for every k before the Lie algebra is reached?"""
+    flows = [f for f, _ in curves]
+    vectors = [v for f in flows for v in columns_of(f.pulled[0])]
+    for k in range(1, len(dimensions)):
+        vectors += [v for f in flows for v in columns_of(f.pulled[k])]
+        if dimensions[k] == terminal:
+            return True
+        across = [v for f, w in curves for v in columns_of(w.bracket(f, k - 1))]
+        if rank_over([*vectors, *across], flows[0].sample) > dimensions[k]:
+            return False
+    return dimensions[-1] == terminal
