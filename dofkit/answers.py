@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from dofkit.exact.engines import BOTH, Engines
 from dofkit.expr import Expr
 from dofkit.report import Verdict
 from dofkit.system import Coordinate
@@ -47,7 +48,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Setting:
-    """What the engines may assume of the symbols."""
+    """What the engines may assume of the symbols, and which of them may be asked."""
 
     positive: frozenset[Expr]
     generic: tuple[Expr, ...] = ()
@@ -57,3 +58,4 @@ class Setting:
     tolerance: Fraction | None = None
     size: float = 1.0
     grows: bool = True
+    engines: Engines = BOTH

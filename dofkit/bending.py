@@ -22,7 +22,7 @@ from dofkit.exact.balls import (
 from dofkit.exact.field import FieldPoint
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
-from dofkit.exact.ring import Ring
+from dofkit.exact.ring import Ring, independent_generators
 from dofkit.forms import Frame, certified_rank, kernel
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.rank import rank_of
@@ -49,7 +49,10 @@ def bend(block: Block, forms: Codistribution, setting: Setting, result: Answer) 
     curvature = [[[ring.node(e) for e in row] for row in h] for h in hessians]
     columns = [ring.var_index(v) for v in rates]
     solver = Solver(ring, [n for n in nodes if ring.code[n] != (0, 0)], seed=5)
-    point = solver.draw(7)
+    point = solver.draw(7) if "field" in setting.engines else None
+    if "balls" not in setting.engines:
+        _by_field_alone(ring, nodes[len(finite) :], columns, point, result, len(linear))
+        return
     real = RealSearch(ring, nodes, [*symbols, *rates, *setting.generic], setting.positive).search(3)
     sample: Any = point if point is not None else (real.point if real is not None and real.certified else None)
     if real is None or sample is None:
@@ -70,6 +73,22 @@ def bend(block: Block, forms: Codistribution, setting: Setting, result: Answer) 
     result.curved = True
     if len(nonlinear) > 1:
         result.verdict = weakest(result.verdict, "probable")
+
+
+def _by_field_alone(
+    ring: Ring,
+    nodes: Sequence[int],
+    columns: Sequence[int | None],
+    point: FieldPoint | None,
+    result: Answer,
+    linear: int,
+) -> None:
+    """The velocity freedom over the complex numbers; whether the allowed velocities bend is left open."""
+    result.dof = None
+    if point is None or not independent_generators(ring):
+        result.velocity_dof, result.verdict = None, "undecided"
+        return
+    _nonlinear_rank(ring, nodes, columns, point, result, linear)
 
 
 def _nonlinear_rank(

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product as cartesian
+
+from flint import arb
 
 from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.blocks import Block, Row, coordinates_of
 from dofkit.charting import make_chart
-from dofkit.exact.field import NoPointError
+from dofkit.exact.balls import BallPoint, OutsideDomainError
+from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.program import values
+from dofkit.exact.ring import Scalar
 from dofkit.expr import Expr
+from dofkit.local import ball_matrix, ball_point
 from dofkit.normal import Finite, Normal, Piece
-from dofkit.variety import find, on_variety, pose_point
+from dofkit.variety import Variety, find, on_variety, pose_point
 
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16
@@ -34,6 +40,9 @@ def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
     finite = [p for p in branch if isinstance(p, Finite)]
     known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
     chart = make_chart(_block(finite), setting)
+    if "field" not in setting.engines:
+        ball = ball_point(chart, known, random.Random("dofkit branch"))
+        return ball is not None and ball_matrix(chart, ball, True) is not None
     point = pose_point(chart, known, 5)
     return point is not None and on_variety(chart, point)
 
@@ -46,7 +55,7 @@ def _block(pieces: Sequence[Finite]) -> Block:
 def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool:
     """Does a finite relation hold on every branch of the others?
 
-    It is evaluated at generic points of each branch over GF(p). False also where no such points were found.
+    It is evaluated at generic points of each branch. False also where no such points were found.
     """
     if not _finite(normal) or not all(_finite(o) for o in others):
         return False
@@ -80,11 +89,24 @@ def _vanishes(normal: Normal, pieces: Sequence[Finite], setting: Setting) -> boo
         if found.consistent is False:
             return True
         try:
-            for point in found.samples:
+            for point in _points(found, setting):
                 at = values(chart.ring, point)
-                if not any(all(at[nodes[p.expr]] == 0 for p in b if isinstance(p, Finite)) for b in normal.branches):
+                if not any(all(_zero(at[nodes[p.expr]]) for p in b if isinstance(p, Finite)) for b in normal.branches):
                     return False
                 seen += 1
-        except (ZeroDivisionError, NoPointError):
+        except (ZeroDivisionError, NoPointError, OutsideDomainError):
             return False
     return seen > 0
+
+
+def _points(found: Variety, setting: Setting) -> Sequence[FieldPoint | BallPoint]:
+    """Points over GF(p); where those may not be asked for, the real one."""
+    if "field" in setting.engines:
+        return found.samples
+    real = found.real
+    return [real.point] if real is not None and real.certified and real.consistent else []
+
+
+def _zero(value: Scalar) -> bool:
+    """0 over GF(p), or what no ball tells from 0."""
+    return bool(value.contains(0)) if isinstance(value, arb) else bool(value == 0)

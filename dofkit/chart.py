@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from dofkit import expr as ex
+from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
 from dofkit.system import Coordinate
@@ -16,7 +17,8 @@ class Chart:
     """A block's ring, its finite relations and its columns: coordinates, then time where it occurs.
 
     ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
-    real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute.
+    real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute; ``engines`` those
+    that may look at it.
     """
 
     ring: Ring
@@ -27,6 +29,7 @@ class Chart:
     positive: frozenset[Expr]
     roles: tuple[Coordinate, ...] = ()
     relations: tuple[Expr, ...] = ()
+    engines: Engines = BOTH
 
     @property
     def coordinates(self) -> int:

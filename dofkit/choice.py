@@ -14,6 +14,7 @@ from dofkit.chart import Chart
 from dofkit.charting import make_chart
 from dofkit.deadline import expired
 from dofkit.exact.balls import FloatPoint, RealSearch, jacobian
+from dofkit.exact.engines import BOTH
 from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.local import ball_point
@@ -39,8 +40,8 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     direct = [c for c in block.coordinates if c not in set(a.dependent)]
     if not turning and len(direct) == a.dof:
         return direct
-    if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear:
-        return direct if len(direct) == a.dof else None
+    if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear or setting.engines != BOTH:
+        return direct if len(direct) == a.dof and not turning else None
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
     return found if found is not None else (direct if len(direct) == a.dof and not turning else None)
 
@@ -67,7 +68,7 @@ def _start(chart: Chart, setting: Setting) -> dict[Expr, float]:
         return {}
     known = {**setting.reference, ex.TIME: ex.ZERO}
     point = pose_point(chart, known, 3)
-    ball = None if point is None else ball_point(chart, known, point)
+    ball = None if point is None else ball_point(chart, known, point.rng)
     return {} if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from flint import ctx
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
-from dofkit.blocks import uses_time
+from dofkit.answers import Answer, Setting
+from dofkit.blocks import Block, uses_time
 from dofkit.choice import generalized
 from dofkit.conflicts import conflict
 from dofkit.count import Facts, count
@@ -18,6 +19,7 @@ from dofkit.exact.balls import PRECISION
 from dofkit.expr import Expr
 from dofkit.labelling import entries_of
 from dofkit.lowering import lower
+from dofkit.methods import METHODS, MethodName
 from dofkit.normal import Finite
 from dofkit.report import ConstraintEntry, ForceEntry, Redundancy, Report, weakest
 from dofkit.scene import Scene
@@ -27,10 +29,11 @@ from dofkit.system import System
 _BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
 
 
-def classify(scene: Scene | System, budget: float | None = None) -> Report:
+def classify(scene: Scene | System, budget: float | None = None, method: MethodName = "auto") -> Report:
     """How the system of ``scene`` can move.
 
     ``budget``: seconds for the scene (60 where none is given); what is not finished then is undecided.
+    ``method``: a name of `METHODS`; one engine alone leaves open what it cannot answer.
     Raises `SceneError` with every fault where the scene cannot be read as mathematics.
     """
     system = scene if isinstance(scene, System) else lower(scene)
@@ -45,10 +48,35 @@ def classify(scene: Scene | System, budget: float | None = None) -> Report:
         system.coordinates,
         system.tolerance,
         system.size,
+        engines=METHODS[method].engines,
     )
     with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
         outcome = solve(system, reduced, setting)
-        return _report(system, reduced, setting, outcome)
+        report = _report(system, reduced, setting, outcome)
+    return report if method == "auto" else _by_one_engine(report, outcome, method)
+
+
+def _by_one_engine(report: Report, outcome: Outcome, method: MethodName) -> Report:
+    """The report of one engine alone: no surer than the engine is, and what it cannot answer left open."""
+    used = METHODS[method]
+    entries = [e.model_copy(update={"verdict": weakest(e.verdict, used.best)}) for e in report.constraints]
+    changes: dict[str, Any] = {
+        "constraints": entries,
+        "verdict": weakest(report.verdict, used.best),
+        "method": f"{method} alone ({report.method}): {used.cannot}",
+    }
+    if (
+        method == "field"
+        and report.consistent
+        and not all(_surely_real(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True))
+    ):
+        changes["consistent"] = None
+    return report.model_copy(update=changes)
+
+
+def _surely_real(block: Block, a: Answer) -> bool:
+    """Is there a real configuration for certain: no relation to satisfy, or one that was given?"""
+    return a.instantaneous is not None or not (block.finite or block.nonlinear or a.hidden)
 
 
 def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Report:

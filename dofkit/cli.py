@@ -6,12 +6,13 @@ import json
 import os
 import sys
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
 from dofkit import __version__
 from dofkit.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.methods import METHODS, MethodName
 
 if TYPE_CHECKING:
     from dofkit.documents import Document
@@ -41,6 +42,20 @@ Budget = Annotated[
 ]
 
 
+def _known_method(name: str) -> str:
+    if name not in METHODS:
+        raise typer.BadParameter(f"'{name}' is none of {', '.join(METHODS)}")
+    return name
+
+
+Method = Annotated[
+    str,
+    typer.Option(
+        "--method", metavar="NAME", callback=_known_method, help=f"One way to answer alone: {', '.join(METHODS)}."
+    ),
+]
+
+
 def _version(asked: bool) -> None:
     if asked:
         typer.echo(__version__)
@@ -57,12 +72,12 @@ def dofkit(
 
 
 @app.command()
-def classify(files: Files, as_json: AsJson = False, budget: Budget = None) -> None:
+def classify(files: Files, as_json: AsJson = False, budget: Budget = None, method: Method = "auto") -> None:
     """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
     failed = False
     for file in files:
         told = _Told(file)
-        report = told.classified(budget)
+        report = told.classified(budget, cast(MethodName, method))
         if report is None:
             failed = True
             _print_errors(told, as_json)
@@ -125,10 +140,10 @@ class _Told:
         self.document: Document | None = None
         self.faults: tuple[Fault, ...] = ()
 
-    def classified(self, budget: float | None) -> Report | None:
+    def classified(self, budget: float | None, method: MethodName) -> Report | None:
         """The report, or None with ``faults``."""
         try:
-            return self._classified(budget)
+            return self._classified(budget, method)
         except SceneError as error:
             self.faults = error.faults
         except TextError as error:
@@ -139,7 +154,7 @@ class _Told:
             self.faults = (internal(error),)
         return None
 
-    def _classified(self, budget: float | None) -> Report:
+    def _classified(self, budget: float | None, method: MethodName) -> Report:
         from dofkit.classify import classify
         from dofkit.reading import SceneFile, find
 
@@ -152,7 +167,7 @@ class _Told:
         scene = file.scene(checked=False)
         self.title = scene.title
         try:
-            return classify(scene, budget=budget)
+            return classify(scene, budget=budget, method=method)
         except SceneError as error:
             raise file.located(error) from None
 

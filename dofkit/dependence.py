@@ -34,7 +34,7 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
         if not block.rows or a.velocity_dof is None:
             continue
         nullity = len(block.rows) - (len(block.coordinates) - a.velocity_dof)
-        owners = [r.constraint for r in block.rows]
+        owners = owners_of(block)
         finite = [isinstance(r.piece, Finite) for r in block.rows]
         matrix = _without_hidden(block, a)
         if nullity <= 0 and (a.degenerate or a.hidden):
@@ -157,7 +157,7 @@ def _void(reduced: Sequence[Reduced]) -> Redundancies:
 
 def _by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int) -> Redundancies:
     """What can go, the last in the order first, without changing the freedom of the block."""
-    owners = list(dict.fromkeys(r.constraint for r in block.rows))
+    owners = list(dict.fromkeys(owners_of(block)))
     differential = {r.constraint for r in block.rows if not isinstance(r.piece, Finite)}
     order = [o for o in owners if o not in differential] + [o for o in owners if o in differential]
     kept = list(order)
@@ -171,8 +171,15 @@ def _by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int) -> 
     redundant = sorted(set(order) - set(kept))
     members = sorted(order) if redundant else []
     groups = [(nullity, members)] if redundant else []
-    independent = {o: 0 if o in redundant else sum(r.constraint == o for r in block.rows) for o in order}
+    independent = {o: 0 if o in redundant else owners_of(block).count(o) for o in order}
+    if sum(independent.values()) != len(block.rows) - nullity:
+        independent = {o: k for o, k in independent.items() if k < 2}
     return Redundancies(independent, redundant, groups, {o: sorted(kept) for o in redundant})
+
+
+def owners_of(block: Block) -> list[int]:
+    """The constraint that wrote each row."""
+    return [r.constraint for r in block.rows]
 
 
 def _same_freedom(block: Block, rows: Sequence[Row], setting: Setting, a: Answer) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
@@ -20,6 +21,7 @@ from dofkit.exact.balls import (
     BallPoint,
     OutsideDomainError,
     RealPoint,
+    dependency_pattern,
     independent_part,
 )
 from dofkit.exact.field import FieldPoint, NoPointError
@@ -29,8 +31,9 @@ from dofkit.expr import Expr
 from dofkit.finite import dependent_names
 from dofkit.flag import growth
 from dofkit.flow import Span, lie_span
-from dofkit.forms import Frame, Rows, field_frame, pairing
+from dofkit.forms import Frame, Rows, certified_rank, field_frame, pairing
 from dofkit.hidden import hidden_relation
+from dofkit.local import CLEAR, ball_matrix, ball_point
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.proofs import proof
 from dofkit.rank import rank_of
@@ -75,6 +78,8 @@ def first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) 
     if block.nonlinear:
         return None
     forms = codistribution(block, setting, ())
+    if "field" not in setting.engines:
+        return _first_order_by_balls(forms, reference)
     point = pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 3)
     if point is None or not on_variety(forms.chart, point):
         return None
@@ -83,6 +88,22 @@ def first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) 
     except (ZeroDivisionError, NoPointError):
         return None
     return forms.n - rank_of([row[: forms.n] for row in matrix], point.p)
+
+
+def _first_order_by_balls(forms: Codistribution, reference: Mapping[Expr, Expr]) -> int | None:
+    ball = ball_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, random.Random("dofkit reference"))
+    if ball is None or ball_matrix(forms.chart, ball, True) is None:
+        return None
+    try:
+        matrix = forms.rows.matrix(values(forms.chart.ring, ball), arb(0))
+    except (ZeroDivisionError, OutsideDomainError):
+        return None
+    rank, gap, _, _ = independent_part(_middles(matrix)[:, : forms.n])
+    return forms.n - rank if gap > CLEAR else None
+
+
+def _middles(matrix: Sequence[Sequence[arb]]) -> np.ndarray:
+    return np.array([[float(v.mid()) for v in row] for row in matrix])
 
 
 def confined(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], ...] | None:
@@ -101,7 +122,7 @@ def confined(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], .
         balls = forms.rows.matrix(values(forms.chart.ring, found.real.point), arb(0))
     except (OutsideDomainError, ZeroDivisionError):
         return None
-    j = np.array([[float(v.mid()) for v in row] for row in balls])
+    j = _middles(balls)
     free = independent_part(j[:, :n])[0] == independent_part(j)[0]
     return None if free else hidden_relation(forms.rows, n, found.real.point)
 
@@ -150,7 +171,7 @@ def _ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span
     """The Lie algebra with balls; None where the point is no regular one, or has another rank than over GF(p)."""
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
-        found, _, rows, columns = independent_part(np.array([[float(v.mid()) for v in row] for row in matrix]))
+        found, _, rows, columns = independent_part(_middles(matrix))
         if found != rank:
             return None
         free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(columns))
@@ -169,6 +190,11 @@ def field_labels(
     setting: Setting,
 ) -> None:
     """Freedom and labels from points over GF(p), held against a ball where there is one."""
+    trusted = independent_generators(forms.chart.ring)
+    if not trusted and "balls" not in setting.engines:
+        result.verdict = "undecided"
+        result.reasons.append("the functions that occur may be related in a way that points over GF(p) do not show")
+        return
     point, sampled = max(good, key=lambda pair: pair[1].span.dimension)
     total, n = len(forms.chart.symbols), forms.n
     result.matrix, result.modulus = [[int(v) for v in row] for row in sampled.matrix], point.p
@@ -183,7 +209,6 @@ def field_labels(
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True
         result.reasons.append("the finite relations are singular where they hold; the rest was not decided there")
         return
-    trusted = independent_generators(forms.chart.ring)
     ball = certificate(forms, found, sampled, trusted)
     result.verdict = weakest(found.verdict, _rank_verdict(block, setting, sampled, ball, rank))
     if any(s.span.dimension != sampled.span.dimension for _, s in good):
@@ -279,16 +304,20 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
     """With real points only: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
-    rank, gap, _, _ = independent_part(np.array([[float(v.mid()) for v in row] for row in matrix]))
+    rank, gap, rows, _ = independent_part(_middles(matrix))
     total, n = len(forms.chart.symbols), forms.n
     found = _ball_span(forms, rank, real.point)
-    if found is None or gap < 1e3:
+    if found is None or gap < CLEAR:
         result.verdict, result.consistent = "undecided", None
         result.reasons.append("the only points found are singular")
         return
     span, _ = found
     result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
     result.velocity_dof, result.dof = n - rank, n - (total - span.dimension)
+    if "field" not in forms.chart.engines:
+        result.matrix = dependency_pattern(_middles(matrix), rows)
+        if real.consistent and len(real.rows) == forms.finite and certified_rank(matrix) == len(matrix):
+            result.verdict = "proved" if span.dimension == total or total - rank <= 1 else "numeric"
     result.reasons.append(f"decided at real points of high precision, with a gap of {gap:.1e} between singular values")
     for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear)):
         place = i if i < len(block.finite) else i + forms.finite - len(block.finite)

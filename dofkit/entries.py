@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from dofkit.answers import Answer, Label
+from dofkit.answers import Answer, Label, Setting
 from dofkit.blocks import Row
-from dofkit.expr import Expr
+from dofkit.exact.engines import BOTH
 from dofkit.labels import catastatic, exact, scleronomic
 from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
 from dofkit.proofs import Integrability, integrability
@@ -39,7 +39,7 @@ def entry(
     inequalities: Sequence[Inequality],
     told: Sequence[Told],
     by_itself: Answer | None,
-    positive: frozenset[Expr],
+    setting: Setting,
     independent: int | None,
     circuit: list[str] | None,
     consistent: bool | None,
@@ -48,14 +48,15 @@ def entry(
     pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = [p for p in pieces if isinstance(p, Pfaffian)]
-    proofs = _proofs(form, forms, by_itself, positive)
-    times = [scleronomic(p, positive) for p in pieces]
+    positive, engines = setting.positive, setting.engines
+    proofs = _proofs(form, forms, by_itself, setting)
+    times = [scleronomic(p, positive, engines) for p in pieces]
     in_system, sure = _in_system(told, inequalities, proofs, forms)
     own, sure_own = _alone(form, by_itself, proofs, forms, inequalities)
     if consistent is False and in_system is None:
         in_system, sure = own, sure_own
-    still = [catastatic(f, positive) for f in forms] if form == "pfaffian" else []
-    closed = [exact(f, positive) for f in forms] if form == "pfaffian" else []
+    still = [catastatic(f, positive, engines) for f in forms] if form == "pfaffian" else []
+    closed = [exact(f, positive, engines) for f in forms] if form == "pfaffian" else []
     equations = len(normals)
     verdict = weakest(sure, sure_own, *(v for _, v in (*times, *still, *closed)), *(t.answer.verdict for t in told))
     return ConstraintEntry(
@@ -66,9 +67,9 @@ def entry(
         holonomic=in_system,
         holonomic_alone=own,
         scleronomic=_together([t for t, _ in times]),
-        catastatic=all(c for c, _ in still) if form == "pfaffian" else None,
+        catastatic=_together([c for c, _ in still]) if form == "pfaffian" else None,
         bilateral=not inequalities,
-        exact=all(c for c, _ in closed) if form == "pfaffian" else None,
+        exact=_together([c for c, _ in closed]) if form == "pfaffian" else None,
         integrating_factor=_joined([p.factor for p in proofs]),
         integral=_joined([p.integral for p in proofs]) if own else None,
         circuit=circuit,
@@ -105,14 +106,14 @@ def unfinished(
     )
 
 
-def _proofs(
-    form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, positive: frozenset[Expr]
-) -> list[Integrability]:
+def _proofs(form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, setting: Setting) -> list[Integrability]:
     if form != "pfaffian" or by_itself is None:
         return []
+    if setting.engines != BOTH:
+        return [Integrability(False) for _ in forms]
     labels = [label.holonomic for label in by_itself.labels.values()]
     single = labels[0] if len(labels) == 1 else None
-    return [integrability(f, positive, single) for f in forms]
+    return [integrability(f, setting.positive, single) for f in forms]
 
 
 def _together(labels: Sequence[bool | None]) -> bool | None:

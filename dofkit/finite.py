@@ -76,8 +76,12 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
     result.method = "rank over GF(p) at the given configuration"
     result.instantaneous = found.instantaneous
     result.matrix, result.modulus = found.matrix, found.modulus
-    rows = [[nmod(v, found.modulus) for v in row] for row in found.matrix]
-    result.dependent = dependent_names(rows, chart, found.modulus)
+    if found.dependent is None:
+        rows = [[nmod(v, found.modulus) for v in row] for row in found.matrix]
+        result.dependent = dependent_names(rows, chart, found.modulus)
+    else:
+        result.method = "balls at the given configuration"
+        result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
     n = chart.coordinates
     if found.confined:
         result.consistent, result.dof, result.velocity_dof, result.verdict = False, None, None, "probable"
@@ -90,6 +94,8 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
 
 def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answer:
     """Measured geometry: the rank within the tolerance."""
+    if "balls" not in setting.engines:
+        return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
     at = {s: float(v.mid()) for s, v in found.ball.symbols.items()} if found.ball is not None else {}
     told = measure(chart, at, setting.roles, float(setting.tolerance or 0), setting.size, found.rigid)
     result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")

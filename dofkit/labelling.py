@@ -67,7 +67,7 @@ def _one(
         r.inequalities,
         told,
         by_itself,
-        setting.positive,
+        setting,
         independent,
         circuit,
         outcome.consistent,

@@ -9,50 +9,56 @@ from flint.utils.flint_exceptions import DomainError
 from dofkit import expr as ex
 from dofkit.exact.balls import RealSearch
 from dofkit.exact.canon import Canon, TooLargeError
+from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.field import NoPointError
 from dofkit.exact.identity import is_zero, told_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import values
-from dofkit.exact.ring import Ring
+from dofkit.exact.ring import Ring, independent_generators
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Inequality, Pfaffian, Piece, velocities_of
-from dofkit.report import Verdict, weakest
+from dofkit.report import VERDICTS, Verdict, weakest
 from dofkit.zeros import never_vanishes
 
 Told = tuple[bool | None, Verdict]
 
 
-def scleronomic(piece: Piece, positive: frozenset[Expr]) -> Told:
+def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
     """Time enters neither as t nor as dt, once factors that never vanish are taken out."""
     if isinstance(piece, Pfaffian):
-        return _pfaffian_without_time(piece, positive)
+        return _pfaffian_without_time(piece, positive, engines)
     if isinstance(piece, Inequality):
         return _factors_without_time(piece.expr, positive), "proved"
     if isinstance(piece, Finite):
-        return _finite_without_time(piece.expr, positive)
+        return _finite_without_time(piece.expr, positive, engines)
     return ex.TIME not in piece.expr.symbols and _homogeneous(piece.expr), "proved"
 
 
-def _finite_without_time(g: Expr, positive: frozenset[Expr]) -> Told:
+def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
     """dg/dt = 0 on g = 0."""
     if ex.TIME not in g.symbols or _factors_without_time(g, positive):
         return True, "proved"
     slope = ex.diff(g, ex.TIME)
-    still, sure = told_zero(slope, positive)
+    still, sure = told_zero(slope, positive, engines)
     if still:
         return True, sure
     ring = Ring([g, slope], positive)
     node, rate = ring.node(g), ring.node(slope)
-    point = Solver(ring, [node]).draw(1)
+    point = Solver(ring, [node]).draw(1) if "field" in engines else None
     if point is not None:
         try:
             if values(ring, point)[rate] == 0:
                 return True, "probable"
         except (ZeroDivisionError, NoPointError):
             return None, "undecided"
+    if "balls" not in engines:
+        known = point is not None and independent_generators(ring)
+        return (False, "probable") if known else (None, "undecided")
     real = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive).search()
     if real is not None and real.certified and not values(ring, real.point)[rate].contains(0):
         return False, "proved"
+    if "field" not in engines:
+        return (True, "numeric") if real is not None and real.certified else (None, "undecided")
     return False, "probable" if point is not None else "undecided"
 
 
@@ -71,17 +77,19 @@ def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
     return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
 
 
-def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr]) -> Told:
-    still, sure = told_zero(form.dt, positive)
+def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> Told:
+    still, sure = told_zero(form.dt, positive, engines)
     if not still:
-        return False, sure
+        return still, sure
     coefficients = list(form.coefficients.values())
     if all(ex.TIME not in e.symbols for e in coefficients):
         return True, sure
     turning = [a * ex.diff(b, ex.TIME) - b * ex.diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
-    told = [told_zero(e, positive) for e in turning]
+    told = [told_zero(e, positive, engines) for e in turning]
+    if any(zero is False for zero, _ in told):
+        return False, min((v for zero, v in told if zero is False), key=VERDICTS.index)
     if not all(zero for zero, _ in told):
-        return False, "proved"
+        return None, "undecided"
     return _common_factor_without_zeros(coefficients, positive), weakest(sure, *(v for _, v in told))
 
 
@@ -111,12 +119,12 @@ def _homogeneous(e: Expr) -> bool:
     return any(is_zero(radial - degree * e, frozenset()) for degree in range(7))
 
 
-def catastatic(form: Pfaffian, positive: frozenset[Expr]) -> Told:
+def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
     """No dt term."""
-    return told_zero(form.dt, positive)
+    return told_zero(form.dt, positive, engines)
 
 
-def exact(form: Pfaffian, positive: frozenset[Expr]) -> Told:
+def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
     """Closed as written: d(omega) = 0 in (q, t). Not integrability: x dy - y dx integrates and is not closed."""
     items = list(form.items())
     symbols = dict(items)
@@ -124,8 +132,8 @@ def exact(form: Pfaffian, positive: frozenset[Expr]) -> Told:
     everything = [*items, *((s, ex.ZERO) for s in others)]
     sure: Verdict = "proved"
     for (s, a), (u, b) in combinations(everything, 2):
-        closed, verdict = told_zero(ex.diff(b, s) - ex.diff(a, u), positive)
+        closed, verdict = told_zero(ex.diff(b, s) - ex.diff(a, u), positive, engines)
         if not closed:
-            return False, verdict
+            return closed, verdict
         sure = weakest(sure, verdict)
     return True, sure

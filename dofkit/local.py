@@ -2,30 +2,44 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from flint import arb, ctx
 
 from dofkit import expr as ex
 from dofkit.chart import Chart
-from dofkit.exact.balls import PRECISION, BallPoint, OutsideDomainError
-from dofkit.exact.field import FieldPoint
+from dofkit.exact.balls import (
+    PRECISION,
+    BallPoint,
+    OutsideDomainError,
+    dependency_pattern,
+    greedy_pivots,
+    independent_part,
+    jacobian,
+)
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
-from dofkit.motion import Local
+from dofkit.forms import Frame
+from dofkit.motion import Local, Manifold, numeric_dimension
 from dofkit.rank import rank_of
-from dofkit.rigid import rigid_motions
+from dofkit.rigid import rigid_motions, rigid_motions_real
 from dofkit.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
+
+#: A gap between singular values that tells them apart.
+CLEAR = 1e3
 
 
 @dataclass(frozen=True)
 class AtReference:
     """``instantaneous``: velocities allowed to first order; ``local``: the dimension of the finite motion.
 
-    ``matrix`` is the Jacobian there over GF(``modulus``). ``confined``: the relations fix the time.
+    ``matrix`` is the Jacobian there over GF(``modulus``), or the pattern of its dependent rows. ``confined``: the
+    relations fix the time. ``dependent``: columns that the others determine, where the matrix does not tell.
     """
 
     instantaneous: int
@@ -36,6 +50,7 @@ class AtReference:
     confined: bool
     rigid: int
     ball: BallPoint | None
+    dependent: tuple[int, ...] | None = None
 
 
 def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = True) -> AtReference | None:
@@ -44,6 +59,8 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     With measured geometry (not ``exact``) the relations need not hold there to the last digit.
     """
     known = {**reference, ex.TIME: ex.ZERO}
+    if "field" not in chart.engines:
+        return by_balls(chart, known, exact)
     point = pose_point(chart, known, 3)
     if point is None or (exact and not on_variety(chart, point)):
         return None
@@ -54,11 +71,12 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     rigid = rigid_motions(chart, point)
     ball = None
     if not exact:
-        ball = ball_point(chart, known, point)
+        ball = ball_point(chart, known, point.rng) if "balls" in chart.engines else None
         local = Local(None, "undecided", "measured")
         return AtReference(n - rank_q, local, [], point.p, rank, False, rigid, ball)
-    if rank < len(matrix) and len(chart.columns) - rank - timed - rigid <= BALL_COLUMNS:
-        ball = ball_point(chart, known, point)
+    few = len(chart.columns) - rank - timed - rigid <= BALL_COLUMNS
+    if rank < len(matrix) and few and "balls" in chart.engines:
+        ball = ball_point(chart, known, point.rng)
     local = local_at(chart, point, ball, rigid + timed)
     if local.dimension is not None:
         local = Local(local.dimension - timed, local.verdict, local.reason)
@@ -66,7 +84,54 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     return AtReference(n - rank_q, local, shown, point.p, rank, rank_q < rank, rigid, ball)
 
 
-def ball_point(chart: Chart, known: Mapping[Expr, Expr], seen: FieldPoint) -> BallPoint | None:
+def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:
+    """`at_reference` with balls alone: what a tiny ball contains 0 of is taken for 0."""
+    ball = ball_point(chart, known, random.Random("dofkit reference"))
+    matrix = None if ball is None else ball_matrix(chart, ball, exact)
+    if ball is None or matrix is None:
+        return None
+    n, columns = chart.coordinates, len(chart.columns)
+    timed = columns - n
+    rank, gap, rows, pivots = independent_part(matrix)
+    at = values(chart.ring, ball)
+    rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
+    if not exact:
+        return AtReference(n - rank, Local(None, "undecided", "measured"), [], 2, rank, False, rigid, ball)
+    rank_q = independent_part(matrix[:, :n])[0]
+    local = Local(None, "undecided", f"the gap between singular values is {gap:.1e}")
+    if gap > CLEAR:
+        frame = Frame(tuple(rows), tuple(pivots), tuple(c for c in range(columns) if c not in set(pivots)))
+        local = _followed(Manifold(chart.ring, chart.nodes, chart.columns, frame, ball), rigid + timed)
+    if local.dimension is not None:
+        local = Local(local.dimension - timed, local.verdict, local.reason)
+    shown = dependency_pattern(matrix, rows)
+    names = tuple(greedy_pivots(matrix[rows][:, :n].T, len(rows))) if rank == rank_q else ()
+    return AtReference(n - rank_q, local, shown, 2, rank, rank_q < rank, rigid, ball, names)
+
+
+def _followed(manifold: Manifold, rigid: int) -> Local:
+    try:
+        return numeric_dimension(manifold, rigid)
+    except (ZeroDivisionError, OutsideDomainError):
+        return Local(None, "undecided", "the relations could not be followed along a curve through this configuration")
+
+
+def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> Any:
+    """The Jacobian over all columns in floating point; None where a relation's ball excludes 0 or has no value."""
+    try:
+        at = values(chart.ring, ball)
+        if exact and not all(at[node].contains(0) for node in chart.nodes):
+            return None
+        present = [c for c in chart.columns if c >= 0]
+        found = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
+    except (ZeroDivisionError, OutsideDomainError):
+        return None
+    matrix = np.zeros((len(chart.nodes), len(chart.columns)))
+    matrix[:, [i for i, c in enumerate(chart.columns) if c >= 0]] = [[float(v.mid()) for v in row] for row in found]
+    return matrix
+
+
+def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
     """The reference configuration with balls; symbols without a value get random ones."""
     ctx.prec = PRECISION
     symbols: dict[Expr, Any] = {}
@@ -75,7 +140,7 @@ def ball_point(chart: Chart, known: Mapping[Expr, Expr], seen: FieldPoint) -> Ba
             continue
         value = known.get(var.key)
         if value is None:
-            symbols[var.key] = arb(seen.rng.randrange(257, 1023)) / 512
+            symbols[var.key] = arb(rng.randrange(257, 1023)) / 512
             continue
         ring = Ring([value])
         node = ring.node(value)

@@ -9,9 +9,13 @@ import numpy as np
 
 from dofkit import expr as ex
 from dofkit.chart import Chart, Displacement, displacement_fields
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.field import FieldPoint
 from dofkit.exact.program import gradient, values
 from dofkit.rank import free_point, rank_of
+
+#: Random real points that are tried.
+TRIES = 8
 
 
 def rigid_motions(chart: Chart, point: FieldPoint) -> int:
@@ -20,8 +24,8 @@ def rigid_motions(chart: Chart, point: FieldPoint) -> int:
     A displacement counts only if every relation is unchanged by it at a random point of the ambient space.
     """
     fields = displacement_fields(chart)
-    away = free_point(chart, 11)
-    if not fields or away is None:
+    away = free_point(chart, 11) if fields else None
+    if away is None:
         return 0
     kept = [f for f in fields if _keeps(chart, away, f)]
     vectors = [_at(chart, point, f) for f in kept]
@@ -36,11 +40,12 @@ def rigid_motions_real(chart: Chart, value: Callable[[int], float]) -> int:
 
 def displacements_real(chart: Chart, value: Callable[[int], float]) -> Any:
     """The displacement fields that keep all relations, at a real point, as rows over the columns."""
-    away = free_point(chart, 11)
+    fields = displacement_fields(chart)
+    away = _away(chart) if fields else None
     if away is None:
         return np.zeros((0, 0))
     rows = []
-    for field in displacement_fields(chart):
+    for field in fields:
         if not _keeps(chart, away, field):
             continue
         row = [0.0] * len(chart.columns)
@@ -50,7 +55,22 @@ def displacements_real(chart: Chart, value: Callable[[int], float]) -> Any:
     return np.array(rows)
 
 
-def _at(chart: Chart, point: FieldPoint, field: Displacement) -> list[Any]:
+def _away(chart: Chart) -> FieldPoint | BallPoint | None:
+    """A random point of the ambient space: over GF(p), or of balls where only those may be asked."""
+    if "field" in chart.engines:
+        return free_point(chart, 11)
+    search = RealSearch(chart.ring, (), (), chart.positive)
+    for seed in range(TRIES):
+        point = BallPoint(search.start(seed, {}), seed)
+        try:
+            values(chart.ring, point)
+        except (OutsideDomainError, ZeroDivisionError):
+            continue
+        return point
+    return None
+
+
+def _at(chart: Chart, point: FieldPoint | BallPoint, field: Displacement) -> list[Any]:
     zero = point.number(ex.ZERO.args[0])
     vector = [zero] * len(chart.columns)
     at = values(chart.ring, point)
@@ -62,13 +82,14 @@ def _at(chart: Chart, point: FieldPoint, field: Displacement) -> list[Any]:
     return vector
 
 
-def _keeps(chart: Chart, point: FieldPoint, field: Displacement) -> bool:
+def _keeps(chart: Chart, point: FieldPoint | BallPoint, field: Displacement) -> bool:
     vector = _at(chart, point, field)
     at = values(chart.ring, point)
     one = point.number(ex.ONE.args[0])
     of = {c: vector[i] for i, c in enumerate(chart.columns) if c >= 0}
     for node in chart.nodes:
         g = gradient(chart.ring, at, point, [(node, one)])
-        if sum((v * of[c] for c, v in g.items() if c in of), one * 0) != 0:
+        change = sum((v * of[c] for c, v in g.items() if c in of), one * 0)
+        if change != 0 if isinstance(point, FieldPoint) else not change.contains(0):
             return False
     return True

@@ -21,7 +21,7 @@ from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.identity import excludes_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
-from dofkit.exact.ring import VAR, Ring, reachable
+from dofkit.exact.ring import VAR, Ring, independent_generators, reachable
 from dofkit.expr import Expr
 from dofkit.forms import Frame, field_frame
 from dofkit.linear import presolve
@@ -128,35 +128,56 @@ def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | 
 def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     """Generic points of the configuration space of a block, and its dimension."""
     if not chart.nodes:
-        points = [p for p in (free_point(chart, seed + k) for k in range(samples_for(chart))) if p is not None]
+        points = []
+        if "field" in chart.engines:
+            points = [p for p in (free_point(chart, seed + k) for k in range(samples_for(chart))) if p is not None]
         real = _real(chart, seed, ())
         verdict: Verdict = "proved"
         return Variety(True, chart.coordinates, verdict, points, real)
-    if any(u.args[1].startswith("_a") for u in chart.unknowns if chart.ring.var_index(u) is not None):
+    if "field" in chart.engines and _has_joint_positions(chart):
         posed = _pose_samples(chart, pose, seed)
         if posed:
             return _from_samples(chart, posed, None, seed, chart.nodes)
     linear = presolve(chart.relations)
     if linear.contradiction:
         return Variety(False, None, "proved", reasons=["linear relations contradict each other"])
+    if "field" not in chart.engines:
+        return _numerical(chart, seed, chart.nodes)
     core = [n for i, n in enumerate(chart.nodes) if i not in linear.superfluous]
     others = [n for i, n in enumerate(chart.nodes) if i not in linear.linear]
     solver = Solver(chart.ring, [*(chart.ring.node(e) for e in linear.reduced), *others], seed=seed)
-    if solver.plan.special:
-        why = "the relations hold only for special values of the parameters"
-        return Variety(False, None, "probable", reasons=[why])
-    if solver.plan.contradictory and not excludes_zero(chart.ring, solver.plan.witness, chart.positive):
-        why = "eliminating the unknowns leaves a number of which it is not known whether it is 0"
-        return Variety(None, None, "undecided", reasons=[why])
-    if solver.plan.contradictory:
-        why = "eliminating the unknowns leaves a number that should be 0 and is not"
-        return Variety(False, None, "probable", reasons=[why])
+    refuted = _refuted(chart, solver)
+    if refuted is not None:
+        return refuted
     drawn = [p for p in (solver.draw(seed + k + 1) for k in range(samples_for(chart))) if p is not None]
     drawn = [p for p in drawn if on_variety(chart, p)]
     if drawn:
         return _from_samples(chart, drawn, solver, seed, core)
     samples = _pose_samples(chart, pose, seed)
     return _from_samples(chart, samples, None, seed, core) if samples else _numerical(chart, seed, core)
+
+
+def _has_joint_positions(chart: Chart) -> bool:
+    """Is generic geometry of joints among the unknowns?"""
+    return any(u.args[1].startswith("_a") for u in chart.unknowns if chart.ring.var_index(u) is not None)
+
+
+def _refuted(chart: Chart, solver: Solver) -> Variety | None:
+    """What elimination alone says against the relations; None where it says nothing."""
+    if solver.plan.special:
+        why = "the relations hold only for special values of the parameters"
+        return Variety(False, None, "probable", reasons=[why])
+    if not solver.plan.contradictory:
+        return None
+    if "balls" in chart.engines:
+        certain = excludes_zero(chart.ring, solver.plan.witness, chart.positive)
+    else:
+        certain = independent_generators(chart.ring)
+    if not certain:
+        why = "eliminating the unknowns leaves a number of which it is not known whether it is 0"
+        return Variety(None, None, "undecided", reasons=[why])
+    why = "eliminating the unknowns leaves a number that should be 0 and is not"
+    return Variety(False, None, "probable", reasons=[why])
 
 
 def _pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[FieldPoint]:
@@ -172,7 +193,7 @@ def _pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[Fi
 
 
 def _real(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
-    if len(chart.columns) > BALL_COLUMNS:
+    if len(chart.columns) > BALL_COLUMNS or "balls" not in chart.engines:
         return None
     search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
     try:
@@ -251,6 +272,8 @@ def _free_dimension(chart: Chart, solver: Solver | None) -> int | None:
 def _with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
     """Hold the real point against what the field said."""
     real = found.real
+    if "balls" not in chart.engines:
+        return _by_field_alone(chart, found)
     if len(chart.columns) > BALL_COLUMNS:
         found.verdict = weakest(found.verdict, "probable")
         return found
@@ -261,6 +284,16 @@ def _with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
     if real.rank != rank:
         found.verdict, found.dimension = "undecided", None
         found.reasons.append("real points and points over GF(p) disagree about the rank: the set has several parts")
+    return found
+
+
+def _by_field_alone(chart: Chart, found: Variety) -> Variety:
+    """Without balls a rank stands only where no relation between functions can have been missed."""
+    if independent_generators(chart.ring):
+        found.verdict = weakest(found.verdict, "probable")
+        return found
+    found.consistent, found.dimension, found.verdict = None, None, "undecided"
+    found.reasons.append("the functions that occur may be related in a way that points over GF(p) do not show")
     return found
 
 

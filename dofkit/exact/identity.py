@@ -7,6 +7,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.canon import Canon, TooLargeError
+from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.field import NoPointError, field_point
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring, independent_generators
@@ -19,11 +20,11 @@ PRECISIONS = (256, 1024)
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
     """Is the expression zero identically, as far as can be told? See `told_zero` for how sure that is."""
-    return told_zero(e, positive)[0]
+    return bool(told_zero(e, positive)[0])
 
 
-def told_zero(e: Expr, positive: frozenset[Expr]) -> tuple[bool, Verdict]:
-    """(zero?, how sure).
+def told_zero(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
+    """(zero?, how sure); None only where one engine alone cannot tell.
 
     Zero in the canonical ring is a proof; so is not zero there where the generators are independent, or where a
     ball at some real point excludes 0. What is 0 at random points over GF(p) is probably zero; what no ball tells
@@ -33,6 +34,8 @@ def told_zero(e: Expr, positive: frozenset[Expr]) -> tuple[bool, Verdict]:
         return e.is_zero, "proved"
     ring = Ring([e], positive)
     node = ring.node(e)
+    if engines != BOTH:
+        return _told_by_one(ring, node, positive, engines)
     try:
         if Canon(ring).is_zero(node):
             return True, "proved"
@@ -43,6 +46,16 @@ def told_zero(e: Expr, positive: frozenset[Expr]) -> tuple[bool, Verdict]:
     if excludes_zero(ring, node, positive):
         return False, "proved"
     return True, "probable" if _zero_at_points(ring, node) else "numeric"
+
+
+def _told_by_one(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
+    """Zero over GF(p) is probable, non-zero only for independent generators; a ball proves non-zero only."""
+    if "balls" in engines:
+        return (False, "proved") if excludes_zero(ring, node, positive) else (True, "numeric")
+    zero = _zero_at_points(ring, node)
+    if zero:
+        return True, "probable"
+    return (False, "probable") if zero is False and independent_generators(ring) else (None, "undecided")
 
 
 def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:
@@ -68,7 +81,8 @@ def _excluded_at(ring: Ring, node: int, point: BallPoint) -> bool:
         return False
 
 
-def _zero_at_points(ring: Ring, node: int) -> bool:
+def _zero_at_points(ring: Ring, node: int) -> bool | None:
+    """Zero at random points over GF(p)? None where too few were found."""
     seen = 0
     for seed in range(60):
         try:
@@ -79,4 +93,4 @@ def _zero_at_points(ring: Ring, node: int) -> bool:
         seen += 1
         if seen == 3:
             return True
-    return False
+    return None

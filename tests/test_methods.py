@@ -1,0 +1,158 @@
+"""One engine alone: it agrees with both together wherever it answers, and claims no more than it can know."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any, get_args
+
+import pytest
+from typer.testing import CliRunner
+
+import dofkit
+from dofkit.cli import app
+from dofkit.exact.engines import BOTH
+from dofkit.methods import METHODS, MethodName
+from dofkit.report import VERDICTS, Report
+
+ROOT = Path(__file__).parent.parent
+SCENES = sorted((ROOT / "catalog").glob("*/*.yaml")) + [
+    path for path in sorted((ROOT / "tests/scenes").glob("*/*.yaml")) if path.parent.name != "bad"
+]
+ALONE = tuple(name for name in METHODS if name != "auto")
+WHOLE = ("consistent", "dof", "velocity_dof", "instantaneous_dof", "singular", "holonomic", "scleronomic")
+WHOLE += ("redundant_equations", "growth_vector")
+ENTRY = ("form", "holonomic", "holonomic_alone", "scleronomic", "catastatic", "bilateral", "exact", "independent")
+ENTRY += ("circuit", "equations")
+
+#: Where a method is known to answer something else, and why: (scene, method) -> (fields, reason).
+KNOWN: dict[tuple[str, MethodName], tuple[tuple[str, ...], str]] = {
+    ("three-masses-on-one-rod", "field"): (
+        ("dof", "velocity_dof"),
+        "three lengths with AC = AB + BC are met by complex points on a larger set than by real ones; no drawing is "
+        "given, so only a real point, which the field alone does not look for, shows that the rod is straight",
+    ),
+}
+
+
+@cache
+def reports(path: Path) -> dict[str, Report]:
+    scene = dofkit.load(path)
+    return {name: dofkit.classify(scene, method=name) for name in METHODS}
+
+
+def disagreements(told: Report, auto: Report) -> list[str]:
+    """Fields that one method answers and answers otherwise."""
+    found = [key for key in WHOLE if getattr(told, key) not in (None, getattr(auto, key))]
+    if told.redundant_equations is not None:
+        found += [key for key in ("redundant",) if getattr(told, key) != getattr(auto, key)]
+    if told.consistent is False:
+        found += [key for key in ("conflicting",) if getattr(told, key) != getattr(auto, key)]
+    if told.generalized_coordinates is not None and len(told.generalized_coordinates) != told.dof:
+        found.append("generalized_coordinates")
+    for mine, both in zip(told.constraints, auto.constraints, strict=True):
+        found += [f"{mine.name}.{key}" for key in ENTRY if getattr(mine, key) not in (None, getattr(both, key))]
+    return found
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("method", ALONE)
+def test_one_engine_alone_agrees_wherever_it_answers(method: MethodName, path: Path) -> None:
+    known, _ = KNOWN.get((path.stem, method), ((), ""))
+    assert disagreements(reports(path)[method], reports(path)["auto"]) == list(known)
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+def test_one_engine_alone_is_no_surer_than_it_can_be(path: Path) -> None:
+    for method in ALONE:
+        told = reports(path)[method]
+        best = VERDICTS.index(METHODS[method].best)
+        assert all(VERDICTS.index(v) >= best for v in (told.verdict, *(e.verdict for e in told.constraints)))
+        assert told.method.startswith(f"{method} alone")
+        assert METHODS[method].cannot in told.method
+
+
+def test_every_known_difference_is_one() -> None:
+    for stem, method in KNOWN:
+        path = next(p for p in SCENES if p.stem == stem)
+        assert disagreements(dofkit.classify(dofkit.load(path), method=method), reports(path)["auto"])
+
+
+def test_most_scenes_are_answered_by_one_engine_alone() -> None:
+    """Of the scenes whose freedom is known, each engine alone finds it for nine in ten."""
+    known = [p for p in SCENES if reports(p)["auto"].dof is not None]
+    for method in ALONE:
+        assert sum(reports(p)[method].dof is not None for p in known) >= 0.9 * len(known)
+
+
+def test_the_table_is_complete() -> None:
+    assert tuple(METHODS) == get_args(MethodName)
+    assert METHODS["auto"].engines == BOTH
+    assert all(m.engines and m.sound_for and m.cannot and m.best in VERDICTS for m in METHODS.values())
+
+
+def told(method: MethodName, *constraints: str, **more: Any) -> Report:
+    made = {"coordinates": ["x", "y", "z"], "constraints": list(constraints), **more}
+    return dofkit.classify(dofkit.load(made), method=method)
+
+
+def verdicts(report: Report) -> tuple[str, ...]:
+    return tuple(entry.verdict for entry in report.constraints)
+
+
+def test_non_zero_is_proved_by_balls_and_probable_over_a_field() -> None:
+    """d(dz - y dx) = dx dy does not vanish on the kernel: non-holonomic."""
+    wanted: dict[MethodName, str] = {"balls": "proved", "field": "probable", "auto": "proved"}
+    for method, sure in wanted.items():
+        report = told(method, "dz - y dx = 0")
+        assert (report.dof, report.velocity_dof, report.constraints[0].holonomic) == (3, 2, False)
+        assert report.verdict == sure
+
+
+def test_zero_is_never_proved_by_one_engine() -> None:
+    """Closed, because (x + y)^3 multiplied out is what stands before dy; nothing but a proof makes that sure."""
+    text = "(x + y)^3 dx + (x^3 + 3 x^2 y + 3 x y^2 + y^3) dy + dz = 0"
+    wanted: dict[MethodName, str] = {"balls": "numeric", "field": "probable", "auto": "proved"}
+    for method, sure in wanted.items():
+        report = told(method, text)
+        assert (report.constraints[0].exact, report.constraints[0].holonomic, report.dof) == (True, True, 2)
+        assert verdicts(report) == (sure,)
+
+
+def test_a_field_alone_does_not_tell_whether_anything_real_is_left() -> None:
+    assert told("field", "x^2 + y^2 = 1").consistent is None
+    assert told("field", "x^2 + y^2 = 1").dof == 2
+    assert told("balls", "x^2 + y^2 = 1").consistent is True
+    apart = ("x^2 + y^2 = 1", "(x - 5)^2 + y^2 = 1")
+    assert [told(m, *apart).consistent for m in METHODS] == [None, None, None]
+
+
+def test_balls_alone_do_not_tell_a_contradiction() -> None:
+    nested = ("x^2 + y^2 = 1", "x^2 + y^2 = 2")
+    assert [told(m, *nested).consistent for m in METHODS] == [False, False, None]
+
+
+def test_a_field_alone_answers_nothing_where_functions_may_be_related() -> None:
+    """cbrt(2 + sqrt 5) + cbrt(2 - sqrt 5) = 1: the cubes of (1 +- sqrt 5)/2."""
+    hidden = "((2 + sqrt(5))^(1/3) - (sqrt(5) - 2)^(1/3) - 1) y dx + dz - dy = 0"
+    report = told("field", hidden)
+    assert (report.dof, report.constraints[0].holonomic, report.verdict) == (None, None, "undecided")
+
+
+def test_measured_geometry_has_no_points_over_a_field() -> None:
+    particles = [{"name": "A", "at": [0, 0]}, {"name": "B", "at": [1, 0]}]
+    made = {
+        "dimension": 2,
+        "particles": particles,
+        "constraints": [{"type": "link", "between": ["A", "B"]}],
+        "tolerance": 1e-6,
+    }
+    scene = dofkit.load(made)
+    assert [dofkit.classify(scene, method=m).dof for m in METHODS] == [3, None, 3]
+
+
+def test_the_command_line_takes_a_method() -> None:
+    ran = CliRunner().invoke(app, ["classify", "--json", "--method", "field", "disc-rolling-on-plane"])
+    assert json.loads(ran.stdout)["verdict"] == "probable"
+    assert "balls" in CliRunner().invoke(app, ["classify", "--method", "luck", "disc-rolling-on-plane"]).output
