@@ -40,8 +40,10 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     direct = [c for c in block.coordinates if c not in set(a.dependent)]
     if not turning and len(direct) == a.dof:
         return direct
-    if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear or setting.engines != BOTH:
+    if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
+    if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear:
+        return direct if len(direct) == a.dof else None
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
     return found if found is not None else (direct if len(direct) == a.dof and not turning else None)
 

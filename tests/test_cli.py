@@ -117,10 +117,10 @@ def test_an_internal_error_does_not_stop_the_others(
     module = sys.modules[dofkit.classify.__module__]
     real = dofkit.classify
 
-    def failing(scene: Any, budget: float | None = None) -> Any:
+    def failing(scene: Any, **options: Any) -> Any:
         if scene.name == "good":
             raise error
-        return real(scene, budget)
+        return real(scene, **options)
 
     monkeypatch.setattr(module, "classify", failing)
     given = [str(files / "good.yaml"), str(files / "good.json")]
