@@ -1,0 +1,134 @@
+"""Growth vectors held against brackets of polynomial fields, worked out symbolically with SymPy."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import pytest
+import sympy
+from sympy.polys.rings import ring
+
+import dofkit
+
+Field = list[Any]
+
+
+def bracket(x: Field, y: Field, q: Sequence[Any]) -> Field:
+    """[X, Y]^i = X(Y^i) - Y(X^i)."""
+    return [
+        sum((a * f.diff(v) for a, v in zip(x, q, strict=True)), q[0] * 0)
+        - sum((b * g.diff(v) for b, v in zip(y, q, strict=True)), q[0] * 0)
+        for f, g in zip(y, x, strict=True)
+    ]
+
+
+def growth_by_brackets(fields: Sequence[Field], q: Sequence[Any], point: Sequence[int]) -> list[int]:
+    """dim D_k at a point: D_k+1 adds the brackets of the fields with what the last step added."""
+    layer, vectors, found = list(fields), [], []
+    while True:
+        vectors += [[f.evaluate(list(zip(q, point, strict=True))) for f in y] for y in layer]
+        rank = sympy.Matrix(vectors).rank()
+        if found and found[-1] == rank:
+            return found
+        found.append(rank)
+        if rank == len(q):
+            return found
+        layer = [bracket(x, y, q) for x in fields for y in layer]
+
+
+def report_of(names: Sequence[str], slopes: Sequence[Sequence[str]], free: Sequence[str]) -> dofkit.Report:
+    """The forms dx_i - sum_l slopes[l][i] dfree_l, whose kernel the fields d/dfree_l + slopes_l span."""
+    dependent = [n for n in names if n not in free]
+    forms = []
+    for i, name in enumerate(dependent):
+        forms.append(f"d{name} - " + " - ".join(f"({slopes[k][i]}) d{v}" for k, v in enumerate(free)) + " = 0")
+    return dofkit.classify(dofkit.load({"coordinates": list(names), "constraints": forms}))
+
+
+def agree(names: Sequence[str], slopes: Sequence[Sequence[str]], free: Sequence[str]) -> list[int]:
+    """The growth vector by brackets, once dofkit has said the same."""
+    world, *q = ring(",".join(names), sympy.QQ)
+    here = dict(zip(names, q, strict=True))
+    dependent = [n for n in names if n not in free]
+    fields = []
+    for k, v in enumerate(free):
+        row = {n: polynomial(slopes[k][i], here, world) for i, n in enumerate(dependent)}
+        fields.append([world(1) if n == v else row.get(n, world(0)) for n in names])
+    rng = random.Random(1)
+    expected = growth_by_brackets(fields, q, [rng.randrange(2, 99) for _ in q])
+    found = report_of(names, slopes, free)
+    assert found.growth_vector == expected
+    assert found.dof == expected[-1] if expected[-1] < len(names) else found.dof == len(names)
+    return expected
+
+
+def polynomial(text: str, here: dict[str, Any], world: Any) -> Any:
+    """A sum of products of numbers and names, as these tests write them."""
+    total = world(0)
+    for term in text.split(" + "):
+        product = world(1)
+        for factor in term.split():
+            product = product * (here[factor] if factor in here else Fraction(factor))
+        total = total + product
+    return total
+
+
+@pytest.mark.parametrize(
+    ("names", "slopes", "expected"),
+    [
+        # two fields; the slopes are those of the dependent coordinates
+        ("u v a", [["0"], ["u"]], [2, 3]),
+        ("u v a b", [["0", "0"], ["u", "u u"]], [2, 3, 4]),
+        ("u v a b", [["0", "0"], ["u", "u v"]], [2, 3, 4]),
+        ("u v a b c", [["0", "0", "0"], ["u", "u u", "u v"]], [2, 3, 5]),
+        # chained forms (Goursat)
+        ("u v a b c", [["0", "0", "0"], ["u", "u u", "u u u"]], [2, 3, 4, 5]),
+        ("u v a b c d", [["0", "a", "b", "c"], ["u", "0", "0", "0"]], [2, 3, 4, 5, 6]),
+        # free nilpotent of step 4
+        (
+            "u v a b c d e f",
+            [["0", "0", "0", "0", "0", "0"], ["u", "u u", "u v", "u u u", "u u v", "u v v"]],
+            [2, 3, 5, 8],
+        ),
+    ],
+)
+def test_growth_of_fields_in_the_plane(names: str, slopes: list[list[str]], expected: list[int]) -> None:
+    assert agree(names.split(), slopes, ["u", "v"]) == expected
+
+
+def test_a_flag_that_one_curve_does_not_see() -> None:
+    """[[u, v], [u, [u, v]]] has a direction of its own: length five, and no ad_X^4 Y."""
+    slopes = [["0", "a", "b", "0"], ["u", "0", "0", "a a"]]
+    assert agree(["u", "v", "a", "b", "c", "e"], slopes, ["u", "v"])[-1] == 6
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_growth_of_random_polynomial_fields(seed: int) -> None:
+    rng = random.Random(seed)
+    fields, n = rng.choice([(2, 5), (2, 6), (2, 7), (3, 6), (3, 7), (2, 8)])
+    names = [f"q{i}" for i in range(n)]
+
+    def term() -> str:
+        return " ".join([str(rng.randint(1, 4)), *rng.choices(names, k=rng.randint(0, 2))])
+
+    slopes = [[" + ".join(term() for _ in range(rng.choice([1, 1, 2]))) for _ in range(n - fields)]
+              for _ in range(fields)]  # fmt: skip
+    agree(names, slopes, names[:fields])
+
+
+@pytest.mark.parametrize("seed", range(16))
+def test_growth_of_random_nilpotent_fields(seed: int) -> None:
+    """Each coordinate's slope mentions earlier ones only: long flags."""
+    rng = random.Random(100 + seed)
+    n = rng.choice([5, 6, 7])
+    names = [f"q{i}" for i in range(n)]
+    slopes = [[], []]
+    for i in range(2, n):
+        for row in slopes:
+            row.append(
+                " ".join([str(rng.randint(0, 2)), *rng.choices(names[: min(i, 3 + i // 2)], k=rng.choice([1, 1, 2]))])
+            )
+    agree(names, slopes, names[:2])
