@@ -16,7 +16,7 @@ from dofkit.errors import DofkitError, SceneError, TextError
 
 if TYPE_CHECKING:
     from dofkit.catalog import catalog_names, catalog_text
-    from dofkit.classify import classify
+    from dofkit.classify import classify, derived_flag
     from dofkit.linkage import redundant_links
     from dofkit.reading import load, loads
     from dofkit.report import Report
@@ -33,6 +33,7 @@ __all__ = [
     "catalog_names",
     "catalog_text",
     "classify",
+    "derived_flag",
     "load",
     "loads",
     "redundant_links",
@@ -45,6 +46,7 @@ _HOMES = {
     "catalog_names": "dofkit.catalog",
     "catalog_text": "dofkit.catalog",
     "classify": "dofkit.classify",
+    "derived_flag": "dofkit.classify",
     "load": "dofkit.reading",
     "loads": "dofkit.reading",
     "redundant_links": "dofkit.linkage",

@@ -35,7 +35,9 @@ MAX_HIDDEN_BRANCHES = 6
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block."""
     if not block.forms and not block.nonlinear:
-        return finite_answer(block, setting)
+        finite = finite_answer(block, setting)
+        finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
+        return finite
     return _mixed_answer(block, setting)
 
 
@@ -114,7 +116,7 @@ def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Samp
 def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:
     """A constraint's own rows with the others forgotten."""
     blocks, _ = split(coordinates, rows)
-    answers = [answer(b, replace(setting, pose={}, reference=None, grows=False)) for b in blocks]
+    answers = [answer(b, replace(setting, pose={}, reference=None, grows=False, flag=False)) for b in blocks]
     merged = Answer()
     for a in answers:
         merged.verdict = weakest(merged.verdict, a.verdict)

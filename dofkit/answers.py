@@ -43,12 +43,16 @@ class Answer:
     curved: bool = False
     dependent: tuple[str, ...] = ()
     growth: tuple[int, ...] | None = None
+    derived: tuple[int, ...] | None = None
     method: str = ""
 
 
 @dataclass(frozen=True)
 class Setting:
-    """What the engines may assume of the symbols, and which of them may be asked."""
+    """What the engines may assume of the symbols, which of them may be asked, and what is asked beyond the labels.
+
+    ``grows``: the growth vector; ``flag``: the derived flag.
+    """
 
     positive: frozenset[Expr]
     generic: tuple[Expr, ...] = ()
@@ -59,3 +63,4 @@ class Setting:
     size: float = 1.0
     grows: bool = True
     engines: Engines = BOTH
+    flag: bool = False

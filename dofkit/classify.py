@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from flint import ctx
@@ -36,6 +37,35 @@ def classify(scene: Scene | System, budget: float | None = None, method: MethodN
     ``method``: a name of `METHODS`; one engine alone leaves open what it cannot answer.
     Raises `SceneError` with every fault where the scene cannot be read as mathematics.
     """
+    system, reduced, setting = _prepared(scene)
+    setting = replace(setting, engines=METHODS[method].engines)
+    with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
+        outcome = solve(system, reduced, setting)
+        report = _report(system, reduced, setting, outcome)
+    return report if method == "auto" else _by_one_engine(report, outcome, method)
+
+
+def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int] | None:
+    """The ranks of the codistribution I, of I', I'', ... down to its largest integrable part, at a generic point.
+
+    I is spanned by the differentials of the finite relations and the Pfaffian forms of ``scene``; I' holds the forms
+    of I whose differential vanishes modulo I. None where that is not certain, or a relation is nonlinear in the
+    velocities. Probable: exact arithmetic at random points. Raises `SceneError` as `classify` does.
+    """
+    system, reduced, setting = _prepared(scene)
+    with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
+        outcome = solve(system, reduced, replace(setting, flag=True))
+    ranks = [a.derived for a in outcome.answers]
+    if not outcome.consistent or any(b.nonlinear for b in outcome.blocks):
+        return None
+    known = [r for r in ranks if r is not None]
+    if len(known) < len(ranks):
+        return None
+    return [sum(r[min(k, len(r) - 1)] for r in known) for k in range(max(map(len, known), default=0))]
+
+
+def _prepared(scene: Scene | System) -> tuple[System, list[Reduced], Setting]:
+    """The mathematics, each relation as what it says, and what may be assumed of the symbols."""
     system = scene if isinstance(scene, System) else lower(scene)
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
@@ -48,12 +78,8 @@ def classify(scene: Scene | System, budget: float | None = None, method: MethodN
         system.coordinates,
         system.tolerance,
         system.size,
-        engines=METHODS[method].engines,
     )
-    with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
-        outcome = solve(system, reduced, setting)
-        report = _report(system, reduced, setting, outcome)
-    return report if method == "auto" else _by_one_engine(report, outcome, method)
+    return system, reduced, setting
 
 
 def _by_one_engine(report: Report, outcome: Outcome, method: MethodName) -> Report:

@@ -29,7 +29,7 @@ from dofkit.exact.program import values
 from dofkit.exact.ring import Scalar, independent_generators
 from dofkit.expr import Expr
 from dofkit.finite import dependent_names
-from dofkit.flag import growth
+from dofkit.flag import derived_flag, growth
 from dofkit.flow import Span, lie_span
 from dofkit.forms import Frame, Rows, certified_rank, field_frame, pairing
 from dofkit.hidden import hidden_relation
@@ -204,6 +204,7 @@ def field_labels(
     result.velocity_dof = n - rank
     result.dof = n - integrable
     result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if setting.grows else None
+    result.derived = derived_flag(forms.rows, sampled.frame, point, sampled.span) if setting.flag else None
     rank_finite = rank_of(sampled.matrix[: forms.finite], point.p)
     if found.dimension is None or found.dimension != n - rank_finite:
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True

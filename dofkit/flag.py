@@ -112,10 +112,9 @@ class DualPoint:
 
 @dataclass(frozen=True)
 class Variation:
-    """The pulled-back frame's derivative across the curve, in the direction ``b`` of the frame at the point.
+    """What changes across the curve, for a random field b = sum beta_l B_l with constant beta.
 
-    ``coefficients[k]`` is (b . grad) V_k, a matrix (columns, fields); ``slope`` is the gradient of the field b = sum
-    beta_l B_l with constant beta at the point.
+    ``coefficients[k]`` is (b . grad) V_k at the point, a matrix (columns, fields); ``slope`` is grad b there.
     """
 
     coefficients: MatrixSeries
@@ -127,16 +126,24 @@ class Variation:
 
 
 def vary(flow: Flow) -> Variation:
-    """Move the curve's start in a random direction of D, the controls kept, to first order."""
+    """The variation in a random direction of D."""
+    start = flow.full_frame[0] * random_column(flow, len(flow.frame.free))
+    return Variation(varied(flow, start), _slope(flow, start))
+
+
+def random_column(flow: Flow, size: int) -> Matrix:
+    """Random numbers, one below the other."""
+    return flow.numbers.matrix(size, 1, [flow.base.number(flow.base.rng.randrange(1, 1 << 12)) for _ in range(size)])
+
+
+def varied(flow: Flow, start: Matrix) -> MatrixSeries:
+    """(start . grad) V_k at the point: the curve's start moved to first order, the controls kept."""
     numbers, order = flow.numbers, flow.order
-    beta = numbers.matrix(len(flow.frame.free), 1, [flow.base.number(flow.base.rng.randrange(1, 1 << 12))
-                                                    for _ in flow.frame.free])  # fmt: skip
-    start = flow.full_frame[0] * beta
     moved = _moved(flow, start)
     series = [Series(numbers.polynomial([m[i, 0] for m in moved]), order) for i in range(len(flow.path))]
     point = DualPoint(flow.point, flow, {c: series[i] for i, c in enumerate(flow.rows.columns) if c >= 0})
     at = values(flow.rows.ring, point)
-    return Variation(_varied(flow, at, point, series), _slope(flow, start))
+    return _varied(flow, at, point, series)
 
 
 def _moved(flow: Flow, start: Matrix) -> MatrixSeries:
@@ -191,20 +198,26 @@ def growth(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[int, ...] |
     largest_second = min(terminal, free + free * (free - 1) // 2)
     if len(seen) <= 2 or (len(seen) == 3 and seen[1] == largest_second):
         return seen
+    return spanning_curves(rows, frame, base, span)[1]
+
+
+def spanning_curves(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[list[Flow], tuple[int, ...] | None]:
+    """Curves whose brackets span every D_k together, and the dimensions; None where no number of them was enough."""
+    terminal = span.dimension
     curves: list[tuple[Flow, Variation]] = []
     quiet = 0
     dimensions: tuple[int, ...] = ()
     for number in range(MAX_CURVES):
-        flow = span.flow if number == 0 else Flow(rows, frame, base)
-        flow.follow(len(seen) + 1)
+        flow = span.flow if number == 0 and span.flow is not None else Flow(rows, frame, base)
+        flow.follow(span.dimensions.index(terminal) + 2)
         curves.append((flow, vary(flow)))
         before, dimensions = dimensions, _dimensions([f for f, _ in curves], terminal)
         if _complete(curves, dimensions, terminal):
-            return dimensions
+            return [f for f, _ in curves], dimensions
         quiet = quiet + 1 if dimensions == before else 0
         if quiet == 2:
             break
-    return None
+    return [f for f, _ in curves], None
 
 
 def _dimensions(flows: Sequence[Flow], terminal: int) -> tuple[int, ...]:
@@ -231,3 +244,64 @@ def _complete(curves: Sequence[tuple[Flow, Variation]], dimensions: Sequence[int
         if rank_over([*vectors, *across], flows[0].sample) > dimensions[k]:
             return False
     return dimensions[-1] == terminal
+
+
+def derived_flag(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[int, ...] | None:
+    """The ranks of I, I', I'', ... down to the largest integrable part; None where they are not certain.
+
+    I' holds the forms of I whose differential vanishes modulo I, so it annihilates D + [D, D], and so on with
+    D^(j+1) = D^(j) + [D^(j), D^(j)]: brackets of random fields of D^(j) are added until they add nothing.
+    """
+    n, terminal = len(rows.columns), span.dimension
+    if span.flow is None or not frame.rows or len(frame.free) == terminal:
+        return (n - len(frame.free),)
+    flows, dimensions = spanning_curves(rows, frame, base, span)
+    if dimensions is None:
+        return None
+    found, step = [dimensions[0]], 1
+    while found[-1] < terminal:
+        larger = _derived(flows, dimensions, step)
+        if larger is None:
+            return None
+        found.append(larger)
+        if larger == terminal:
+            break
+        step = dimensions.index(larger) + 1
+    return tuple(n - d for d in found)
+
+
+def _derived(flows: Sequence[Flow], dimensions: Sequence[int], step: int) -> int | None:
+    """dim of S_step + [S_step, S_step]; None where that is none of S_step+1, S_step+2, ..."""
+    if step == 1:
+        return dimensions[1]
+    layers = [[v for f in flows for v in columns_of(f.pulled[k])] for k in range(len(dimensions))]
+    vectors = [v for layer in layers[:step] for v in layer]
+    sample = flows[0].sample
+    vectors += layers[step]
+    larger = rank_over(vectors, sample)
+    while larger < dimensions[-1]:
+        vectors.append(_random_bracket(flows, step))
+        before, larger = larger, rank_over(vectors, sample)
+        if larger == before:
+            break
+    if larger not in dimensions:
+        return None
+    within = [v for layer in layers[: dimensions.index(larger) + 1] for v in layer]
+    return larger if rank_over([*vectors, *within], sample) == larger else None
+
+
+def _random_bracket(flows: Sequence[Flow], step: int) -> tuple[Scalar, ...]:
+    """[Y, Z] at the point for random fields of S_step."""
+    weights = [[[random_column(f, f.pulled[k].ncols()) for k in range(step)] for f in flows] for _ in range(2)]
+    values_at = [_combined([f.pulled for f in flows], w) for w in weights]
+    moved = [_combined([varied(f, values_at[1 - i]) for f in flows], weights[i]) for i in range(2)]
+    return columns_of(moved[1] - moved[0])[0]
+
+
+def _combined(series: Sequence[MatrixSeries], weights: Sequence[Sequence[Matrix]]) -> Matrix:
+    """The sum of the fields with some weights."""
+    total = None
+    for layers, own in zip(series, weights, strict=True):
+        for layer, w in zip(layers, own, strict=False):
+            total = layer * w if total is None else total + layer * w
+    return total

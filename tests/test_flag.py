@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import combinations
 from typing import Any
 
 import pytest
@@ -39,13 +40,30 @@ def growth_by_brackets(fields: Sequence[Field], q: Sequence[Any], point: Sequenc
         layer = [bracket(x, y, q) for x in fields for y in layer]
 
 
-def report_of(names: Sequence[str], slopes: Sequence[Sequence[str]], free: Sequence[str]) -> dofkit.Report:
+def derived_by_brackets(fields: Sequence[Field], q: Sequence[Any], point: Sequence[int]) -> list[int]:
+    """dim D^(j) at a point: D^(j+1) adds all brackets of a basis of D^(j)."""
+
+    def at(y: Field) -> list[Any]:
+        return [f.evaluate(list(zip(q, point, strict=True))) for f in y]
+
+    basis, found = list(fields), [len(fields)]
+    while True:
+        for x, y in combinations(list(basis), 2):
+            new = bracket(x, y, q)
+            if sympy.Matrix([at(v) for v in [*basis, new]]).rank() > len(basis):
+                basis.append(new)
+        if len(basis) == found[-1]:
+            return found
+        found.append(len(basis))
+
+
+def scene_of(names: Sequence[str], slopes: Sequence[Sequence[str]], free: Sequence[str]) -> dofkit.Scene:
     """The forms dx_i - sum_l slopes[l][i] dfree_l, whose kernel the fields d/dfree_l + slopes_l span."""
     dependent = [n for n in names if n not in free]
     forms = []
     for i, name in enumerate(dependent):
         forms.append(f"d{name} - " + " - ".join(f"({slopes[k][i]}) d{v}" for k, v in enumerate(free)) + " = 0")
-    return dofkit.classify(dofkit.load({"coordinates": list(names), "constraints": forms}))
+    return dofkit.load({"coordinates": list(names), "constraints": forms})
 
 
 def agree(names: Sequence[str], slopes: Sequence[Sequence[str]], free: Sequence[str]) -> list[int]:
@@ -58,10 +76,14 @@ def agree(names: Sequence[str], slopes: Sequence[Sequence[str]], free: Sequence[
         row = {n: polynomial(slopes[k][i], here, world) for i, n in enumerate(dependent)}
         fields.append([world(1) if n == v else row.get(n, world(0)) for n in names])
     rng = random.Random(1)
-    expected = growth_by_brackets(fields, q, [rng.randrange(2, 99) for _ in q])
-    found = report_of(names, slopes, free)
+    point = [rng.randrange(2, 99) for _ in q]
+    expected = growth_by_brackets(fields, q, point)
+    scene = scene_of(names, slopes, free)
+    found = dofkit.classify(scene)
     assert found.growth_vector == expected
-    assert found.dof == expected[-1] if expected[-1] < len(names) else found.dof == len(names)
+    assert found.dof == expected[-1]
+    derived = dofkit.derived_flag(scene)
+    assert derived is None or [len(q) - r for r in derived] == derived_by_brackets(fields, q, point)
     return expected
 
 
@@ -132,3 +154,34 @@ def test_growth_of_random_nilpotent_fields(seed: int) -> None:
                 " ".join([str(rng.randint(0, 2)), *rng.choices(names[: min(i, 3 + i // 2)], k=rng.choice([1, 1, 2]))])
             )
     agree(names, slopes, names[:2])
+
+
+def test_the_derived_flag_of_a_car_with_trailers() -> None:
+    """A Goursat flag: every derivation loses one form (Laumond 1993)."""
+    for n in range(1, 5):
+        angles = [f"th{i}" for i in range(n + 1)]
+        forms = []
+        for i, angle in enumerate(angles):
+            arms = "".join(f" + cos({angle} - {a}) d{a}" for a in angles[1 : i + 1])
+            forms.append(f"sin({angle}) dx - cos({angle}) dy{arms} = 0")
+        scene = dofkit.load({"coordinates": ["x", "y", *angles], "constraints": forms})
+        assert dofkit.derived_flag(scene) == list(range(n + 1, -1, -1))
+        assert dofkit.classify(scene).growth_vector == list(range(2, n + 4))
+
+
+@pytest.mark.parametrize(
+    ("constraints", "ranks"),
+    [
+        (["x dx + y dy = 0"], [1]),
+        (["dz - y dx = 0"], [1, 0]),
+        (["dz - y dx = 0", "x^2 + y^2 = 1"], [2]),
+        (["dx - cos(z) dw = 0", "dy - sin(z) dw = 0"], [2, 1, 0]),
+        (["dz - y dx = 0", "dw = 0"], [2, 1]),
+        (["dx = y dt"], [1, 0]),
+        (["x = sin(t)"], [1]),
+        (["xdot^2 + ydot^2 = zdot^2"], None),
+    ],
+)
+def test_the_ranks_of_the_derived_flag(constraints: list[str], ranks: list[int] | None) -> None:
+    scene = dofkit.load({"coordinates": list("xyzw"), "constraints": constraints})
+    assert dofkit.derived_flag(scene) == ranks
