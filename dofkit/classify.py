@@ -13,6 +13,7 @@ from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, uses_time
 from dofkit.choice import generalized
 from dofkit.conflicts import conflict
+from dofkit.constancy import about_constants
 from dofkit.count import Facts, count
 from dofkit.deadline import DEFAULT_SECONDS, limited
 from dofkit.dependence import merged, redundancies
@@ -122,7 +123,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
             sum(_finite_equations(r) for r in reduced),
             dof,
             outcome.consistent,
-            sum(len(a.hidden) for a in outcome.answers),
+            _hidden(reduced, outcome),
             0,
             entries,
         ),
@@ -166,6 +167,12 @@ def _all(labels: Sequence[bool | None]) -> bool | None:
 
 def _finite_equations(r: Reduced) -> int:
     return sum(all(isinstance(p, Finite) for p in normal.pieces) for normal in r.normals)
+
+
+def _hidden(reduced: Sequence[Reduced], outcome: Outcome) -> int:
+    """Hidden relations between coordinates."""
+    constants = [c for r in reduced for c in r.constants]
+    return sum(not about_constants(g, constants) for a in outcome.answers for g in a.hidden)
 
 
 def _instantaneous(system: System, outcome: Outcome) -> int | None:

@@ -12,7 +12,7 @@ from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, Row, split
 from dofkit.branches import algebraic, follows, through_reference
 from dofkit.deadline import OutOfTimeError, check
-from dofkit.normal import Finite
+from dofkit.normal import Finite, Still
 from dofkit.rank import bounded
 from dofkit.redundancy import Redundancies, Rows, analyse
 from dofkit.solving import Outcome, Reduced
@@ -159,7 +159,8 @@ def _by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int) -> 
     """What can go, the last in the order first, without changing the freedom of the block."""
     owners = list(dict.fromkeys(owners_of(block)))
     differential = {r.constraint for r in block.rows if not isinstance(r.piece, Finite)}
-    order = [o for o in owners if o not in differential] + [o for o in owners if o in differential]
+    integrated = {r.constraint for r in block.rows if _constant(r) is not None}
+    order = sorted(owners, key=lambda o: (o in differential) + (o in integrated))
     kept = list(order)
     until = time.monotonic() + LEAVING_SECONDS
     for owner in reversed(order):
@@ -183,14 +184,21 @@ def owners_of(block: Block) -> list[int]:
 
 
 def _same_freedom(block: Block, rows: Sequence[Row], setting: Setting, a: Answer) -> bool:
-    blocks, untouched = split(block.coordinates, rows)
+    gone = {_constant(r) for r in block.rows} - {_constant(r) for r in rows}
+    blocks, untouched = split([c for c in block.coordinates if c not in gone], rows)
     answers = [answer(b, setting) for b in blocks]
     if any(x.dof is None or x.velocity_dof is None for x in answers):
         return False
     dof = len(untouched) + sum(x.dof or 0 for x in answers)
     velocity = len(untouched) + sum(x.velocity_dof or 0 for x in answers)
-    had_finite = {g for x in answers for g in x.hidden} >= set(a.hidden)
+    needed = {g for g in a.hidden if gone.isdisjoint(str(s.args[1]) for s in g.symbols)}
+    had_finite = {g for x in answers for g in x.hidden} >= needed
     return dof == a.dof and velocity == a.velocity_dof and had_finite
+
+
+def _constant(row: Row) -> str | None:
+    """The constant of integration C of a row dC = 0."""
+    return next(iter(row.piece.coefficients)) if isinstance(row.piece, Still) else None
 
 
 def _without_hidden(block: Block, a: Answer) -> list[list[int]]:

@@ -34,7 +34,7 @@ from dofkit.flow import Span, lie_span
 from dofkit.forms import Frame, Rows, certified_rank, field_frame, pairing
 from dofkit.hidden import hidden_relation
 from dofkit.local import CLEAR, ball_matrix, ball_point
-from dofkit.normal import Finite, Nonlinear, Pfaffian
+from dofkit.normal import Finite, Nonlinear, Pfaffian, Still, with_constants
 from dofkit.proofs import proof
 from dofkit.rank import rank_of
 from dofkit.report import Verdict, weakest
@@ -254,18 +254,21 @@ def _rank_verdict(
 ) -> Verdict:
     """How sure the rank and the Lie algebra's dimension are.
 
-    Independent rows have their rank certified by the ball. The dimension is proved where it is everything and
-    a ball certifies it, where D is a line, and where every form is proved to integrate by itself (D is involutive).
+    Independent rows have their rank certified by the ball. The dimension is not too large by a certificate of the
+    ball; not too small where it is everything, where D is a line, and where as many rows are proved to integrate by
+    themselves as the Lie algebra leaves directions out.
     """
     if ball is None or len(sampled.matrix) > rank or ball[0].dimension != sampled.span.dimension:
         return "probable"
     n = sum(map(len, (sampled.frame.dependent, sampled.frame.free)))
     if sampled.span.dimension == n or n - rank <= 1:
         return "proved"
-    if sampled.span.dimension != n - rank:
+    constants = {c: ex.parameter(c) for r in block.forms if isinstance(r.piece, Still) for c in r.piece.coefficients}
+    forms = [p for r in block.forms if isinstance(p := with_constants(r.piece, constants), Pfaffian)]
+    wanted = n - sampled.span.dimension - (len(sampled.matrix) - len(forms))
+    if wanted > len(forms):
         return "probable"
-    forms = [r.piece for r in block.forms if isinstance(r.piece, Pfaffian)]
-    return "proved" if all(proof(f, setting.positive) for f in forms) else "probable"
+    return "proved" if sum(proof(f, setting.positive) is not None for f in forms) == wanted else "probable"
 
 
 def _label(

@@ -1,7 +1,7 @@
 """Differentials and velocities: dq = qdot dt.
 
 A relation homogeneous of degree k in (dq, dt) is divided by dt^k; one that adds differentials to finite terms
-says nothing, and one in accelerations is no constraint on configurations or velocities.
+says nothing. Second derivatives have to stand linearly: then the relation may integrate once.
 """
 
 from __future__ import annotations
@@ -46,10 +46,24 @@ def in_velocities(e: Expr) -> tuple[Expr, bool]:
     return ex.substitute(e, mapping), bool(degree)
 
 
-def no_acceleration(e: Expr) -> None:
-    """Raise TextError for a relation that holds a second derivative."""
-    if any(s.args[0] == "acceleration" for s in e.symbols):
+NOT_LINEAR = "a second derivative does not stand linearly"
+SOLVE_FOR_IT = "write the constraint solved for the second derivative, or put it into the equations of motion"
+
+
+def accelerations_of(e: Expr) -> list[Expr]:
+    """The second derivatives in an expression, by name."""
+    return sorted((s for s in e.symbols if s.args[0] == "acceleration"), key=lambda s: str(s.args[1]))
+
+
+def linear_in_accelerations(e: Expr, sense: str) -> None:
+    """Raise TextError for a relation that holds second derivatives otherwise than as a sum of them with factors."""
+    moving = accelerations_of(e)
+    if not moving:
+        return
+    if sense != "=":
         raise TextError(
-            "a second derivative is no constraint on configurations or velocities",
-            hint="integrate it once, or put it into the equations of motion",
+            "an inequality in second derivatives limits no position and no velocity",
+            hint="leave it out, or put it into the equations of motion",
         )
+    if any(accelerations_of(ex.diff(e, s)) for s in moving):
+        raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)

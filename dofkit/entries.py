@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from dofkit import expr as ex
 from dofkit.answers import Answer, Label, Setting
 from dofkit.blocks import Row
 from dofkit.exact.engines import BOTH
+from dofkit.expr import Expr
 from dofkit.labels import catastatic, exact, scleronomic
-from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
+from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Still, with_constants
 from dofkit.proofs import Integrability, integrability
 from dofkit.report import FORMS, VERDICTS, ConstraintEntry, Form, Verdict, weakest
 from dofkit.system import Constraint
@@ -43,20 +45,24 @@ def entry(
     independent: int | None,
     circuit: list[str] | None,
     consistent: bool | None,
+    constants: Mapping[str, Expr],
 ) -> ConstraintEntry:
-    """Everything that is told of one constraint."""
+    """Everything that is told of one constraint; ``constants`` of integration that the system fixes have values."""
     pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = [p for p in pieces if isinstance(p, Pfaffian)]
     positive, engines = setting.positive, setting.engines
-    proofs = _proofs(form, forms, by_itself, setting)
-    times = [scleronomic(p, positive, engines) for p in pieces]
+    own_constants = {c: constants.get(c, ex.parameter(c)) for normal in normals for c in normal.constants}
+    shown = [with_constants(p, own_constants) for p in pieces]
+    linear = [p for p in shown if isinstance(p, Pfaffian)]
+    proofs = _proofs(form, linear, by_itself, setting)
+    times = [scleronomic(p, positive, engines) for p in shown]
     in_system, sure = _in_system(told, inequalities, proofs, forms)
     own, sure_own = _alone(form, by_itself, proofs, forms, inequalities)
     if consistent is False and in_system is None:
         in_system, sure = own, sure_own
-    still = [catastatic(f, positive, engines) for f in forms] if form == "pfaffian" else []
-    closed = [exact(f, positive, engines) for f in forms] if form == "pfaffian" else []
+    still = [catastatic(f, positive, engines) for f in linear] if form == "pfaffian" else []
+    closed = [exact(f, positive, engines) for f in linear] if form == "pfaffian" else []
     equations = len(normals)
     verdict = weakest(sure, sure_own, *(v for _, v in (*times, *still, *closed)), *(t.answer.verdict for t in told))
     return ConstraintEntry(
@@ -76,8 +82,13 @@ def entry(
         equations=equations,
         independent=None if independent is None else min(independent, equations),
         verdict=verdict,
-        reason=_reason(form, in_system, own, proofs, told, circuit),
+        reason=_once(normals) + _reason(form, in_system, own, proofs, told, circuit),
     )
+
+
+def _once(normals: Sequence[Normal]) -> str:
+    """What was integrated once before anything else was asked, as sentences."""
+    return "".join(f"{n.once[:1].upper()}{n.once[1:]}. " for n in normals if n.once)
 
 
 def unfinished(
@@ -137,7 +148,7 @@ def _in_system(
     labels: list[bool | None] = []
     verdicts: list[Verdict] = []
     for t in told:
-        if isinstance(t.row.piece, Finite) or id(t.row.piece) in proved:
+        if isinstance(t.row.piece, (Finite, Still)) or id(t.row.piece) in proved:
             labels.append(True)
         elif isinstance(t.row.piece, Nonlinear):
             labels.append(False if t.answer.curved else None)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from dofkit.analysis import alone
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Row, coordinates_of
+from dofkit.constancy import fixed_constants
 from dofkit.deadline import OutOfTimeError, check
 from dofkit.entries import Told, entry, unfinished
 from dofkit.exact.field import NoPointError
-from dofkit.normal import Inequality, Nonlinear, Pfaffian
+from dofkit.expr import Expr
+from dofkit.normal import Inequality, Nonlinear, Pfaffian, Still
 from dofkit.redundancy import Redundancies
 from dofkit.report import ConstraintEntry
 from dofkit.solving import Outcome, Reduced
@@ -34,13 +36,16 @@ def entries_of(
     known = {i for found in dependent for i in found.independent}
     circuits = {i: c for found in dependent for i, c in found.circuits.items()}
     told = _told(len(reduced), outcome)
+    constants = fixed_constants(
+        [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
+    )
     entries = []
     for i, r in enumerate(reduced):
         number = independent[i] if i in known else None if told[i] else 0
         circuit = None if i not in circuits else [names[j] for j in circuits[i]]
         try:
             check()
-            entries.append(_one(i, r, told[i], setting, outcome, number, circuit))
+            entries.append(_one(i, r, told[i], setting, outcome, number, circuit, constants))
         except OutOfTimeError as error:
             entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
     return entries
@@ -54,11 +59,13 @@ def _one(
     outcome: Outcome,
     independent: int | None,
     circuit: list[str] | None,
+    constants: Mapping[str, Expr],
 ) -> ConstraintEntry:
     by_itself = None
     written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
     if any(isinstance(row.piece, Nonlinear) for row in written):
-        by_itself = _curved(told) or _alone_in_time(written, setting)
+        still = [t.row for t in told if isinstance(t.row.piece, Still)]
+        by_itself = _curved(told) or _alone_in_time([*written, *still], setting)
     elif any(isinstance(t.row.piece, Pfaffian) for t in told):
         by_itself = _inherited(told) or _alone_in_time([t.row for t in told], setting)
     return entry(
@@ -71,6 +78,7 @@ def _one(
         independent,
         circuit,
         outcome.consistent,
+        constants,
     )
 
 
@@ -96,9 +104,8 @@ def _curved(told: Sequence[Told]) -> Answer | None:
 
 def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
     mentioned = {name for row in own for name in coordinates_of(row.piece)}
-    coordinates = (
-        [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < FEW else sorted(mentioned)
-    )
+    coordinates = [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < FEW else []
+    coordinates += sorted(mentioned - set(coordinates))
     try:
         check()
         return alone(own, setting, coordinates)

@@ -9,11 +9,12 @@ Differentials are read through dq = qdot dt: a relation homogeneous of degree k 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product as cartesian
 
 from dofkit import expr as ex
-from dofkit.differentials import in_velocities, no_acceleration
+from dofkit.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
+from dofkit.errors import TextError
 from dofkit.expr import Expr
 from dofkit.quadratic import split_quadratic
 from dofkit.signs import holds_on_a_region
@@ -40,6 +41,13 @@ class Pfaffian:
             yield ex.coordinate(name), coefficient
         if not self.dt.is_zero:
             yield ex.TIME, self.dt
+
+
+class Still(Pfaffian):
+    """dC = 0 for a constant of integration C."""
+
+    def __init__(self, constant: str) -> None:
+        super().__init__({constant: ex.ONE}, ex.ZERO)
 
 
 @dataclass(frozen=True)
@@ -70,15 +78,31 @@ Branches = tuple[tuple[Piece, ...], ...]
 
 @dataclass(frozen=True)
 class Normal:
-    """What a relation says, and what was done to see it."""
+    """What a relation says, and what was done to see it.
+
+    ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
+    """
 
     branches: Branches
     notes: tuple[str, ...] = ()
+    constants: tuple[str, ...] = ()
+    once: str = ""
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
         """Every piece of every branch."""
         return tuple(piece for branch in self.branches for piece in branch)
+
+
+def with_constants(piece: Piece, values: Mapping[str, Expr]) -> Piece:
+    """``piece`` with constants of integration replaced by parameters or values: what it says for one initial state."""
+    if not values:
+        return piece
+    mapping = {ex.coordinate(c): value for c, value in values.items()}
+    if isinstance(piece, Pfaffian):
+        named = {name: ex.substitute(e, mapping) for name, e in piece.coefficients.items()}
+        return Pfaffian(named, ex.substitute(piece.dt, mapping))
+    return replace(piece, expr=ex.substitute(piece.expr, mapping))
 
 
 def velocities_of(e: Expr) -> list[Expr]:
@@ -118,9 +142,10 @@ def cleared(e: Expr) -> Expr:
 def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     """What ``e = 0`` says; ``written`` equations are reduced over the reals, those of joints are regular as they are.
 
-    Raises TextError for accelerations and for sums of differentials with finite terms.
+    Raises TextError for accelerations (they are integrated before) and for sums of differentials with finite terms.
     """
-    no_acceleration(e)
+    if accelerations_of(e):
+        raise TextError("a second derivative is no constraint on positions or velocities", hint=SOLVE_FOR_IT)
     velocity_form, divided = in_velocities(e)
     if not velocities_of(velocity_form):
         if divided:

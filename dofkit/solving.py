@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain, count
 from itertools import product as cartesian
 
 from dofkit import expr as ex
+from dofkit.accelerations import second_order
 from dofkit.analysis import answer
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, Row, split
 from dofkit.branches import through_reference
+from dofkit.constancy import names_in, with_rows
 from dofkit.deadline import OutOfTimeError, check
+from dofkit.differentials import accelerations_of
 from dofkit.errors import Fault, SceneError, TextError
 from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
-from dofkit.normal import Finite, Inequality, Normal, normalise, without_instants
+from dofkit.normal import Finite, Inequality, Normal, Still, normalise, without_instants
 from dofkit.system import Constraint, System
 from dofkit.velocities import reduced as reduced_velocities
 from dofkit.zeros import never_holds
@@ -35,6 +39,11 @@ class Reduced:
     @property
     def equations(self) -> int:
         return len(self.normals)
+
+    @property
+    def constants(self) -> tuple[str, ...]:
+        """What stands for constants of an integration by time."""
+        return tuple(c for normal in self.normals for c in normal.constants)
 
 
 @dataclass
@@ -77,6 +86,7 @@ class Outcome:
 def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
     """Every relation of every constraint as what it says; all that cannot be one are faults together."""
     found, faults = [], []
+    fresh = _fresh(system)
     for i, constraint in enumerate(system.constraints):
         normals, inequalities = [], []
         written = constraint.type in ("equation", "on")
@@ -85,13 +95,25 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
                 inequalities.append(Inequality(relation.expr, relation.sense == ">"))
                 continue
             try:
-                normals.append(without_instants(normalise(relation.expr, positive, written)))
+                normals.append(_normal(relation.expr, positive, written, fresh))
             except TextError as error:
                 faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
         found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
     if faults:
         raise SceneError(tuple(faults), system.name)
     return found
+
+
+def _normal(e: Expr, positive: frozenset[Expr], written: bool, fresh: Iterator[str]) -> Normal:
+    if accelerations_of(e):
+        return second_order(e, positive, fresh)
+    return without_instants(normalise(e, positive, written))
+
+
+def _fresh(system: System) -> Iterator[str]:
+    """Names for constants of integration: C, C1, C2, ... without those of the scene."""
+    taken = {c.name for c in system.coordinates} | {*system.parameters, *system.generic, *system.functions}
+    return (name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
 
 
 def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:
@@ -102,34 +124,39 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
     copied = copies(reduced)
     best: Outcome | None = None
-    cache: dict[tuple[int, ...], Answer] = {}
+    cache: dict[tuple[int, ...], tuple[Block, Answer]] = {}
+    constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
             break
-        rows, impossible = [], list(never)
+        rows, impossible = list[Row](), list(never)
         for (i, normal), branch in zip(normals, choice, strict=True):
             if branch is None:
                 impossible.append(i)
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
-        for way in reduced_velocities(rows, positive):
-            outcome = _answered(system, way, impossible, setting, cache)
+        for way in reduced_velocities(with_rows(rows, constants), positive):
+            names = [*(c.name for c in system.coordinates), *names_in(way, constants)]
+            outcome = _answered(names, way, impossible, setting, cache)
             if best is None or outcome.size > best.size:
                 best = outcome
     if best is not None:
         best.copies = copied
     best = best or Outcome([], [], [], [c.name for c in system.coordinates])
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
-        best.first_order = _first_order(system, normals, setting)
+        best.first_order = _first_order(system, normals, setting, constants)
     return best
 
 
-def _first_order(system: System, normals: Sequence[tuple[int, Normal]], setting: Setting) -> int | None:
+def _first_order(
+    system: System, normals: Sequence[tuple[int, Normal]], setting: Setting, constants: Mapping[str, Row]
+) -> int | None:
     """Velocities allowed to first order where branches cross: there the gradient of a product is 0."""
     rows = [
         Row(i, p) for i, n in normals if len(n.branches) == 1 for p in n.branches[0] if not isinstance(p, Inequality)
     ]
-    blocks, untouched = split([c.name for c in system.coordinates], rows)
+    rows = with_rows(rows, constants)
+    blocks, untouched = split([*(c.name for c in system.coordinates), *names_in(rows, constants)], rows)
     parts = [in_time(b, setting).instantaneous for b in blocks]
     return None if any(p is None for p in parts) else len(untouched) + sum(p for p in parts if p is not None)
 
@@ -163,20 +190,20 @@ def _scaled(piece: object) -> object:
 
 
 def _answered(
-    system: System,
+    names: Sequence[str],
     rows: list[Row],
     impossible: list[int],
     setting: Setting,
-    cache: dict[tuple[int, ...], Answer],
+    cache: dict[tuple[int, ...], tuple[Block, Answer]],
 ) -> Outcome:
-    blocks, untouched = split([c.name for c in system.coordinates], rows)
+    """``cache`` keeps its blocks, because the pieces' identities are its keys."""
+    blocks, untouched = split(names, rows)
     answers = []
     for block in blocks:
         key = tuple(id(row.piece) for row in block.rows)
-        known = cache.get(key)
-        if known is None:
-            known = cache[key] = in_time(block, setting)
-        answers.append(known)
+        if key not in cache:
+            cache[key] = block, in_time(block, setting)
+        answers.append(cache[key][1])
     return Outcome(rows, blocks, answers, untouched, impossible)
 
 

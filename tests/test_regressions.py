@@ -154,7 +154,7 @@ def test_the_time_for_a_scene_is_bounded() -> None:
 
 def test_a_mixture_of_differentials_and_finite_terms_is_refused_with_its_line() -> None:
     with pytest.raises(dofkit.SceneError) as caught:
-        dofkit.loads("coordinates: [x]\nconstraints:\n- dx + 1 = 0\n- xddot = 0\n")
+        dofkit.loads("coordinates: [x]\nconstraints:\n- dx + 1 = 0\n- xddot^2 = 1\n")
     assert [fault.line for fault in caught.value.faults] == [3, 4]
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from dofkit.constraints.base import ConstraintBase
-from dofkit.differentials import in_velocities, no_acceleration
+from dofkit.differentials import in_velocities, linear_in_accelerations
 from dofkit.errors import TextError
 from dofkit.expr import MINUS_ONE, ONE, Expr, coordinate, mul, power, substitute
 from dofkit.geometry import Placed
@@ -25,7 +25,8 @@ LETTERS = ("x", "y", "z")
 class Equation(ConstraintBase):
     """``left = right`` gives left - right = 0; ``left <= right`` gives right - left >= 0.
 
-    A chain ``0 <= x <= L`` gives two relations. The text may hold velocities, differentials and time.
+    A chain ``0 <= x <= L`` gives two relations. The text may hold velocities, differentials and time,
+    and second derivatives where it integrates once.
     """
 
     type: Literal["equation"] = Field("equation", description="an equation or inequality as text")
@@ -34,7 +35,7 @@ class Equation(ConstraintBase):
     def relations(self, world: World) -> Iterator[Relation]:
         for e, sense in world.relations(self.text, "text"):
             try:
-                no_acceleration(e)
+                linear_in_accelerations(e, sense)
                 in_velocities(e)
             except TextError as error:
                 world.fault(error.message, "text", hint=error.hint)
