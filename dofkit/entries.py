@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from dofkit import expr as ex
@@ -10,7 +10,7 @@ from dofkit.answers import Answer, Label, Setting
 from dofkit.blocks import Row
 from dofkit.exact.engines import BOTH
 from dofkit.expr import Expr
-from dofkit.labels import catastatic, exact, scleronomic
+from dofkit.labels import Traits
 from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Still, with_constants
 from dofkit.proofs import Integrability, integrability
 from dofkit.report import FORMS, VERDICTS, ConstraintEntry, Form, Verdict, weakest
@@ -46,23 +46,27 @@ def entry(
     circuit: list[str] | None,
     consistent: bool | None,
     constants: Mapping[str, Expr],
+    told_of: Callable[[Piece], Traits],
 ) -> ConstraintEntry:
-    """Everything that is told of one constraint; ``constants`` of integration that the system fixes have values."""
+    """Everything that is told of one constraint.
+
+    ``constants`` of integration that the system fixes have values; ``told_of`` gives the labels that a piece carries
+    by itself.
+    """
     pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = [p for p in pieces if isinstance(p, Pfaffian)]
-    positive, engines = setting.positive, setting.engines
     own_constants = {c: constants.get(c, ex.parameter(c)) for normal in normals for c in normal.constants}
     shown = [with_constants(p, own_constants) for p in pieces]
-    linear = [p for p in shown if isinstance(p, Pfaffian)]
-    proofs = _proofs(form, linear, by_itself, setting)
-    times = [scleronomic(p, positive, engines) for p in shown]
+    proofs = _proofs(form, [p for p in shown if isinstance(p, Pfaffian)], by_itself, setting)
+    traits = [told_of(p) for p in shown]
+    times = [t.scleronomic for t in traits]
     in_system, sure = _in_system(told, inequalities, proofs, forms)
     own, sure_own = _alone(form, by_itself, proofs, forms, inequalities)
     if consistent is False and in_system is None:
         in_system, sure = own, sure_own
-    still = [catastatic(f, positive, engines) for f in linear] if form == "pfaffian" else []
-    closed = [exact(f, positive, engines) for f in linear] if form == "pfaffian" else []
+    still = [t.catastatic for t in traits if t.catastatic is not None and form == "pfaffian"]
+    closed = [t.exact for t in traits if t.exact is not None and form == "pfaffian"]
     equations = len(normals)
     verdict = weakest(sure, sure_own, *(v for _, v in (*times, *still, *closed)), *(t.answer.verdict for t in told))
     return ConstraintEntry(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 
 from dofkit.analysis import alone
 from dofkit.answers import Answer, Setting
@@ -13,13 +13,15 @@ from dofkit.deadline import OutOfTimeError, check
 from dofkit.entries import Told, entry, unfinished
 from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
-from dofkit.normal import Inequality, Nonlinear, Pfaffian, Still
+from dofkit.labels import Traits, traits
+from dofkit.normal import Inequality, Nonlinear, Pfaffian, Piece, Still
 from dofkit.redundancy import Redundancies
 from dofkit.report import ConstraintEntry
 from dofkit.solving import Outcome, Reduced
+from dofkit.twins import nameless
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.
-FEW = 2000
+LISTED = 2000
 
 
 def entries_of(
@@ -39,13 +41,14 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
+    told_of = _Remembered(setting).traits
     entries = []
     for i, r in enumerate(reduced):
         number = independent[i] if i in known else None if told[i] else 0
         circuit = None if i not in circuits else [names[j] for j in circuits[i]]
         try:
             check()
-            entries.append(_one(i, r, told[i], setting, outcome, number, circuit, constants))
+            entries.append(_one(i, r, told[i], setting, outcome, number, circuit, constants, told_of))
         except OutOfTimeError as error:
             entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
     return entries
@@ -60,6 +63,7 @@ def _one(
     independent: int | None,
     circuit: list[str] | None,
     constants: Mapping[str, Expr],
+    told_of: Callable[[Piece], Traits],
 ) -> ConstraintEntry:
     by_itself = None
     written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
@@ -79,7 +83,23 @@ def _one(
         circuit,
         outcome.consistent,
         constants,
+        told_of,
     )
+
+
+class _Remembered:
+    """Labels of pieces, found once for those that differ in names only."""
+
+    def __init__(self, setting: Setting) -> None:
+        self._setting = setting
+        self._known: dict[Hashable, Traits] = {}
+
+    def traits(self, piece: Piece) -> Traits:
+        key = nameless(piece)
+        found = self._known.get(key)
+        if found is None:
+            found = self._known[key] = traits(piece, self._setting.positive, self._setting.engines)
+        return found
 
 
 def _told(number: int, outcome: Outcome) -> list[list[Told]]:
@@ -104,7 +124,7 @@ def _curved(told: Sequence[Told]) -> Answer | None:
 
 def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
     mentioned = {name for row in own for name in coordinates_of(row.piece)}
-    coordinates = [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < FEW else []
+    coordinates = [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < LISTED else []
     coordinates += sorted(mentioned - set(coordinates))
     try:
         check()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import combinations
 
 from flint.utils.flint_exceptions import DomainError
@@ -21,6 +22,23 @@ from dofkit.report import VERDICTS, Verdict, weakest
 from dofkit.zeros import never_vanishes
 
 Told = tuple[bool | None, Verdict]
+
+
+@dataclass(frozen=True)
+class Traits:
+    """The labels of one piece; ``catastatic`` and ``exact`` are None for what is not Pfaffian."""
+
+    scleronomic: Told
+    catastatic: Told | None = None
+    exact: Told | None = None
+
+
+def traits(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
+    """All labels that a piece carries by itself."""
+    still = scleronomic(piece, positive, engines)
+    if not isinstance(piece, Pfaffian):
+        return Traits(still)
+    return Traits(still, catastatic(piece, positive, engines), exact(piece, positive, engines))
 
 
 def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:

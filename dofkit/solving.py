@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, count
 from itertools import product as cartesian
@@ -21,6 +21,7 @@ from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Inequality, Normal, Still, normalise, without_instants
 from dofkit.system import Constraint, System
+from dofkit.twins import alike, retold
 from dofkit.velocities import reduced as reduced_velocities
 from dofkit.zeros import never_holds
 
@@ -124,7 +125,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
     copied = copies(reduced)
     best: Outcome | None = None
-    cache: dict[tuple[int, ...], tuple[Block, Answer]] = {}
+    known = Known(system)
     constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
@@ -137,7 +138,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
         for way in reduced_velocities(with_rows(rows, constants), positive):
             names = [*(c.name for c in system.coordinates), *names_in(way, constants)]
-            outcome = _answered(names, way, impossible, setting, cache)
+            outcome = _answered(names, way, impossible, setting, known)
             if best is None or outcome.size > best.size:
                 best = outcome
     if best is not None:
@@ -189,22 +190,38 @@ def _scaled(piece: object) -> object:
     return piece
 
 
-def _answered(
-    names: Sequence[str],
-    rows: list[Row],
-    impossible: list[int],
-    setting: Setting,
-    cache: dict[tuple[int, ...], tuple[Block, Answer]],
-) -> Outcome:
-    """``cache`` keeps its blocks, because the pieces' identities are its keys."""
+def _answered(names: Sequence[str], rows: list[Row], impossible: list[int], setting: Setting, known: Known) -> Outcome:
     blocks, untouched = split(names, rows)
-    answers = []
-    for block in blocks:
-        key = tuple(id(row.piece) for row in block.rows)
-        if key not in cache:
-            cache[key] = block, in_time(block, setting)
-        answers.append(cache[key][1])
+    answers = [known.answer(block, setting, len(blocks) > 1) for block in blocks]
     return Outcome(rows, blocks, answers, untouched, impossible)
+
+
+class Known:
+    """The blocks that were answered: the same block again, or one that differs in names only, is not asked twice.
+
+    The blocks are kept, because their pieces' identities are keys.
+    """
+
+    def __init__(self, system: System) -> None:
+        self._roles = {c.name: (c.owner, c.role) for c in system.coordinates}
+        self._answers: dict[tuple[int, ...], tuple[Block, Answer]] = {}
+        self._alike: dict[Hashable, tuple[tuple[str, ...], Answer]] = {}
+
+    def answer(self, block: Block, setting: Setting, many: bool) -> Answer:
+        """The block's answer; ``many`` blocks are compared with each other."""
+        same = tuple(id(row.piece) for row in block.rows)
+        if same not in self._answers:
+            self._answers[same] = block, self._twin(block, setting) if many else in_time(block, setting)
+        return self._answers[same][1]
+
+    def _twin(self, block: Block, setting: Setting) -> Answer:
+        key = alike(block, setting, self._roles)
+        if key in self._alike:
+            own, known = self._alike[key]
+            return retold(known, own, block.coordinates)
+        found = in_time(block, setting)
+        self._alike[key] = (block.coordinates, found)
+        return found
 
 
 def in_time(block: Block, setting: Setting) -> Answer:
