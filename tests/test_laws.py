@@ -25,7 +25,7 @@ PATHS = [
     *sorted((ROOT / "catalog").glob("*/*.yaml")),
     *(
         p
-        for folder in ("textbook", "corners", "examples")
+        for folder in ("textbook", "integrability", "corners", "examples")
         for p in sorted((ROOT / "tests/scenes" / folder).glob("*.yaml"))
     ),
 ]
@@ -156,7 +156,8 @@ class Renaming:
                 name = word[len(before) : len(word) - len(after)]
                 if name in self.symbols:
                     return before + self.symbols[name] + after
-        return word
+        name = word.replace("dot_", "_", 1)
+        return f"{self.symbols[name]}dot" if name != word and name in self.symbols else word
 
     def text(self, text: str, kept: frozenset[str] = frozenset()) -> str:
         return WORD.sub(lambda match: match[0] if match[0] in kept else self.word(match[0]), text)
@@ -407,7 +408,7 @@ def test_the_renaming_renames() -> None:
             "bodies": ["b"],
             "coordinates": ["phi"],
             "constraints": [
-                {"type": "equation", "text": "dx_A = R cos(phi) dphi"},
+                {"type": "equation", "text": "dx_A + xdot_A dt = R cos(phi) dphi"},
                 {"type": "on", "members": ["A"], "curve": ["x = R"]},
                 {"type": "link", "between": ["A", {"on": "b", "at": [1, 2]}], "length": "2 R"},
             ],
@@ -418,7 +419,7 @@ def test_the_renaming_renames() -> None:
     assert renamed["parameters"] == {"R9": "positive"}
     assert renamed["particles"] == [{"name": "A9"}]
     equation, on, link = renamed["constraints"]
-    assert equation["text"] == "dx_A9 = R9 cos(phi9) dphi9"
+    assert equation["text"] == "dx_A9 + x_A9dot dt = R9 cos(phi9) dphi9"
     assert (on["members"], on["curve"]) == (["A9"], ["x = R9"])
     assert (link["between"], link["length"]) == (["A9", {"on": "b9", "at": [1, 2]}], "2 R9")
 
