@@ -127,7 +127,8 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> Any:
     except (ZeroDivisionError, OutsideDomainError):
         return None
     matrix = np.zeros((len(chart.nodes), len(chart.columns)))
-    matrix[:, [i for i, c in enumerate(chart.columns) if c >= 0]] = [[float(v.mid()) for v in row] for row in found]
+    held = [i for i, c in enumerate(chart.columns) if c >= 0]
+    matrix[:, held] = np.array([[float(v.mid()) for v in row] for row in found]).reshape(len(chart.nodes), len(held))
     return matrix
 
 
