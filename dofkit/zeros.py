@@ -15,6 +15,7 @@ from flint import fmpq, fmpq_mat
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
+from dofkit.circles import EXTREME_NOTE, apart
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
@@ -165,7 +166,10 @@ class _Zeros:
         notes: list[str] = []
         factors = canon.factors(numerator)
         kept = [(f, k) for f, k in factors if self._depends(canon, f)]
-        for factor, multiplicity in kept:
+        extremes, rest = apart(canon, kept, self.variables)
+        if extremes:
+            branches, notes = extremes, [EXTREME_NOTE]
+        for factor, multiplicity in rest:
             if multiplicity > 1:
                 notes.append(POWER_NOTE)
             alone = len(kept) == 1 and multiplicity == 1 and len(factors) == 1

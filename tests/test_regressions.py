@@ -130,6 +130,20 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
         {"dof": 3, "instantaneous_dof": 4, "singular": True, "redundant": []},
     ),
     (
+        "v sin(theta) = 0 is hidden, and then both forms are dy = 0: x is free",
+        scene(
+            "(xdot - v) sin(theta) - ydot cos(theta) = 0",
+            "xdot sin(theta) - ydot cos(theta) = 0",
+            coordinates=["x", "y", "theta"],
+            parameters={"v": "positive"},
+        ),
+        {"consistent": True, "dof": 1, "velocity_dof": 1, "holonomic": True, "growth_vector": [2], "redundant": []},
+    ),
+    ("cos x = 1 is sin(x/2) = 0", scene("cos(x) = 1"), {"dof": 2, "verdict": "proved"}),
+    ("both cosines are -1, told twice", scene("cos(x)+cos(y)=-2", "cos(y)=-1"), {"dof": 1, "redundant": ["c2"]}),
+    ("no angle has both", scene("cos(x)=1", "cos(x)=-1"), {"consistent": False, "conflicting": ["c1", "c2"]}),
+    ("sin = cos = 1 at no angle", scene("sin(x)+cos(x)=2"), {"consistent": False, "conflicting": ["c1"]}),
+    (
         "ten equations in twenty unknowns",
         scene(
             *(" + ".join(f"{pow(i + 2, k + 1, 101)} q{i}" for i in range(20)) + f" = {k}" for k in range(10)),

@@ -23,7 +23,7 @@ from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.program import reachable
 from dofkit.exact.rational import Rational
-from dofkit.exact.ring import ADD, MUL, NUM, POW, VAR, Ring
+from dofkit.exact.ring import ADD, MUL, NUM, POW, VAR, Ring, independent_generators
 
 #: An elimination that makes the program longer than this is given up.
 MAX_CODE = 20_000
@@ -134,6 +134,9 @@ class Solver:
                 break
             eliminated = self._eliminate(remaining)
             if eliminated is None:
+                self._clash(remaining)
+                if self.plan.contradictory:
+                    break
                 together = None if combined else self._combine(remaining)
                 combined = True
                 if together is None:
@@ -275,6 +278,20 @@ class Solver:
             elif not self.fixed:
                 self.plan.contradictory, self.plan.witness = True, node
         return kept
+
+    def _clash(self, remaining: list[int]) -> None:
+        """Notice two relations in the same one unknown that have no common root."""
+        if self.probe is None or self.fixed or not independent_generators(self.ring):
+            return
+        known: dict[Unit, Any] = {}
+        for node in remaining:
+            units = list(units_in(self.ring, node))
+            if len(units) != 1 or not self.degree(node, units[0]):
+                continue
+            polynomial = self._univariate(node, units[0], self.probe)
+            known[units[0]] = known.get(units[0], polynomial).gcd(polynomial)
+            if known[units[0]].degree() == 0:
+                self.plan.contradictory, self.plan.witness = True, node
 
     def _parameters_only(self, node: int) -> bool:
         """Does the relation hold between named parameters alone (generic geometry is not named)?"""
