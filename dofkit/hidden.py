@@ -45,13 +45,13 @@ def hidden_relation(rows: Rows, n: int, point: Point) -> tuple[tuple[Expr, ...],
     common: Any = None
     minors: list[Any] = []
     try:
-        table = [_cleared(canon, rows.entries[r], n + 1) for r in chosen]
+        table = [cleared(canon, rows.entries[r], n + 1) for r in chosen]
         for columns in islice(combinations(range(n), size - 1), MAX_CHOICES):
             check()
             picked = (*columns, n)
             if len(_independent([[numbers[r][c] for c in picked] for r in chosen], range(size))) < size:
                 continue
-            minor = _determinant(canon, [[row[c] for c in picked] for row in table])
+            minor = determinant(canon, [[row[c] for c in picked] for row in table])
             common = minor if common is None else common.gcd(minor)
             minors.append(minor)
             if len(minors) == MAX_MINORS or minor.is_constant():
@@ -85,7 +85,7 @@ def _nonzero(value: Scalar) -> bool:
     return not value.contains(0) if isinstance(value, arb) else bool(value != 0)
 
 
-def _cleared(canon: Canon, row: dict[int, int], n: int) -> list[Any]:
+def cleared(canon: Canon, row: dict[int, int], n: int) -> list[Any]:
     """A row's entries as polynomials, times their common denominator."""
     quotients = [canon.quotient(row[c]) if c in row else (canon.one * 0, canon.one) for c in range(n)]
     whole = canon.one
@@ -94,14 +94,14 @@ def _cleared(canon: Canon, row: dict[int, int], n: int) -> list[Any]:
     return [canon.reduce(top * (whole / bottom)) for top, bottom in quotients]
 
 
-def _determinant(canon: Canon, matrix: list[list[Any]]) -> Any:
+def determinant(canon: Canon, matrix: list[list[Any]]) -> Any:
     """Expanded along the first row, in the canonical ring."""
     if len(matrix) == 1:
         return matrix[0][0]
     total = canon.one * 0
     for c, entry in enumerate(matrix[0]):
         if entry != 0:
-            below = _determinant(canon, [[*row[:c], *row[c + 1 :]] for row in matrix[1:]])
+            below = determinant(canon, [[*row[:c], *row[c + 1 :]] for row in matrix[1:]])
             term = canon.reduce(entry * below)
             total = total + term if c % 2 == 0 else total - term
     return canon.reduce(total)
