@@ -14,11 +14,15 @@ from dofkit.system import Coordinate
 
 @dataclass(frozen=True)
 class Label:
-    """Whether a row is a consequence of finite relations, how sure, and why."""
+    """Whether a row is a consequence of finite relations, how sure, and why.
+
+    ``modulo``: it is none, but one of finite relations together with the other rows.
+    """
 
     holonomic: bool | None
     verdict: Verdict
     reason: str = ""
+    modulo: bool = False
 
 
 @dataclass

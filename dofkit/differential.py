@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from itertools import product as cartesian
 from typing import Any
@@ -223,6 +223,8 @@ def field_labels(
         result.labels[i] = _label(place, good, ball, sampled, rank, total, trusted)
         if result.labels[i].holonomic is None:
             result.verdict, result.dof, result.growth = "undecided", None, None
+        elif not result.labels[i].holonomic and integrable > rank_finite:
+            result.labels[i] = replace(result.labels[i], modulo=_modulo_the_others(place, sampled, point.p))
     result.dependent = _integrable_names(forms, sampled, point)
 
 
@@ -292,6 +294,21 @@ def _label(
     if nonzero:
         return Label(False, "proved")
     return Label(None, "undecided", disagree)
+
+
+def _modulo_the_others(place: int, sampled: Sampled, p: int) -> bool:
+    """Is the row a sum of one in the largest integrable part and of the other rows, and independent of these?
+
+    So it is where it annihilates what both allow: the Lie algebra's vectors that the other rows annihilate.
+    """
+    others = [row for i, row in enumerate(sampled.matrix) if i != place]
+    if not others or rank_of(others, p) == rank_of(sampled.matrix, p):
+        return False
+    vectors = sampled.span.vectors
+    paired = nmod_mat([[int(v) for v in pairing(row, vectors)] for row in others], p)
+    null, nullity = paired.nullspace()
+    own = [int(v) for v in pairing(sampled.matrix[place], vectors)]
+    return all(sum(int(null[r, c]) * own[r] for r in range(len(own))) % p == 0 for c in range(nullity))
 
 
 def _integrable_names(forms: Codistribution, sampled: Sampled, point: FieldPoint) -> tuple[str, ...]:

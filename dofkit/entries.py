@@ -7,12 +7,13 @@ from dataclasses import dataclass
 
 from dofkit import expr as ex
 from dofkit.answers import Answer, Label, Setting
-from dofkit.blocks import Row
+from dofkit.blocks import Block, Row
 from dofkit.exact.engines import BOTH
 from dofkit.expr import Expr
 from dofkit.labels import Traits
 from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Still, with_constants
 from dofkit.proofs import Integrability, integrability
+from dofkit.reasons import Labels, Others, joined, reason_of
 from dofkit.report import FORMS, VERDICTS, ConstraintEntry, Form, Verdict, weakest
 from dofkit.system import Constraint
 
@@ -24,6 +25,7 @@ class Told:
     row: Row
     label: Label | None
     answer: Answer
+    block: Block | None = None
 
 
 def form_of(piece: Piece) -> Form:
@@ -47,11 +49,12 @@ def entry(
     consistent: bool | None,
     constants: Mapping[str, Expr],
     told_of: Callable[[Piece], Traits],
+    with_others: Callable[[bool], Others],
 ) -> ConstraintEntry:
     """Everything that is told of one constraint.
 
     ``constants`` of integration that the system fixes have values; ``told_of`` gives the labels that a piece carries
-    by itself.
+    by itself, ``with_others`` what the other constraints do for a form that is holonomic in the system, or is not.
     """
     pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
@@ -68,6 +71,12 @@ def entry(
     still = [t.catastatic for t in traits if t.catastatic is not None and form == "pfaffian"]
     closed = [t.exact for t in traits if t.exact is not None and form == "pfaffian"]
     equations = len(normals)
+    integral = joined([p.integral for p in proofs])
+    others = Others()
+    if form == "pfaffian" and in_system is not None and consistent and not (own and integral):
+        others = with_others(in_system)
+    if own and integral is None:
+        integral = others.integral
     verdict = weakest(sure, sure_own, *(v for _, v in (*times, *still, *closed)), *(t.answer.verdict for t in told))
     return ConstraintEntry(
         name=constraint.name,
@@ -80,13 +89,13 @@ def entry(
         catastatic=_together([c for c, _ in still]) if form == "pfaffian" else None,
         bilateral=not inequalities,
         exact=_together([c for c, _ in closed]) if form == "pfaffian" else None,
-        integrating_factor=_joined([p.factor for p in proofs]),
-        integral=_joined([p.integral for p in proofs]) if own else None,
+        integrating_factor=joined([p.factor for p in proofs]),
+        integral=integral if own else others.integral if in_system else None,
         circuit=circuit,
         equations=equations,
         independent=None if independent is None else min(independent, equations),
         verdict=verdict,
-        reason=_once(normals) + _reason(form, in_system, own, proofs, told, circuit),
+        reason=_once(normals) + reason_of(form, _labels(in_system, own, told), proofs, circuit, others),
     )
 
 
@@ -137,9 +146,9 @@ def _together(labels: Sequence[bool | None]) -> bool | None:
     return None if any(label is None for label in labels) else True
 
 
-def _joined(parts: Sequence[str | None]) -> str | None:
-    found = [p for p in parts if p is not None]
-    return "; ".join(found) if found and len(found) == len(parts) else None
+def _labels(in_system: bool | None, own: bool | None, told: Sequence[Told]) -> Labels:
+    undecided = (t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason)
+    return Labels(in_system, own, next(undecided, ""), bool(told))
 
 
 def _in_system(
@@ -201,63 +210,3 @@ def _alone(
     if together is False:
         return False, min((x.verdict for x in labels if x.holonomic is False), key=VERDICTS.index, default="proved")
     return together, weakest(*(x.verdict for x in labels))
-
-
-def _reason(
-    form: Form,
-    in_system: bool | None,
-    own: bool | None,
-    proofs: Sequence[Integrability],
-    told: Sequence[Told],
-    circuit: list[str] | None,
-) -> str:
-    if form == "inequality":
-        reason = "An inequality keeps to one side (unilateral): it is not holonomic and takes no freedom away."
-    elif form == "finite":
-        reason = "A relation between coordinates (and time): holonomic."
-        if not told:
-            reason = "It relates no coordinates and holds always."
-    elif form == "nonlinear" and in_system:
-        reason = "Not linear in the velocities alone; with the other constraints it becomes integrable: holonomic here."
-    elif form == "nonlinear" and in_system is None:
-        reason = "Not decided: the velocities it allows may form flat pieces, so that it is linear in disguise."
-    elif form == "nonlinear":
-        reason = (
-            "It is not linear in the velocities and no finite relation gives it: non-holonomic; "
-            "it limits velocities only."
-        )
-    else:
-        reason = _pfaffian_reason(in_system, own, proofs, told)
-    if circuit:
-        reason += f" It follows from {', '.join(circuit)}."
-    elif circuit is not None:
-        reason += " It takes nothing away."
-    return reason
-
-
-def _pfaffian_reason(
-    in_system: bool | None, own: bool | None, proofs: Sequence[Integrability], told: Sequence[Told]
-) -> str:
-    undecided = next((t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason), "")
-    if in_system is None:
-        return f"Not decided: {undecided or 'the engines found no regular point to decide at'}."
-    if in_system and own:
-        shown = _joined([p.integral for p in proofs])
-        if shown:
-            return f"It integrates to {shown}: holonomic; the constant is set by the initial state."
-        how = next((p.reason for p in proofs if p.reason), "d(omega) ^ omega = 0")
-        return (
-            f"It is integrable ({how}), though no integral was found in closed form: holonomic; "
-            "the constant is set by the initial state."
-        )
-    if in_system:
-        return (
-            "Alone it is not integrable; it is integrable only together with the other constraints, "
-            "so in this system it is holonomic."
-        )
-    if own:
-        return "Alone it is integrable."
-    return (
-        "Its curvature does not vanish on the velocities that are left (Frobenius): no function of the coordinates "
-        "has it as a consequence, so it is non-holonomic and limits velocities only."
-    )

@@ -12,11 +12,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, permutations
 from math import isqrt
 from typing import Any
 
-import networkx as nx
 from flint import nmod_mat
 from flint.utils.flint_exceptions import DomainError
 
@@ -37,6 +36,8 @@ from dofkit.rank import free_point, rank_of
 MAX_DEGREE, MAX_PRODUCTS = 3, 170
 #: Functions that occur in the products, and rows of the bordered minors that are written out.
 MAX_FUNCTIONS, MAX_ROWS = 12, 5
+#: Integrals that are distributed over the rows, and how bad it is to give one twice.
+MAX_ASSIGNED, UNLIKE = 6, 1000
 #: Fresh points at which an integral is checked where the minors are not written out.
 CHECKS = 4
 
@@ -80,18 +81,29 @@ def assigned(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[
     sample = search.sample()
     if sample is None:
         return {}
-    graph: nx.Graph = nx.Graph()
     usable: dict[int, list[int]] = {}
     for row in range(forms.finite, len(forms.rows.entries)):
         across = sample.across(row)
         usable[row] = [k for k, f in enumerate(integrals) if across and search.slope(f.expr, sample, across) != 0]
-        graph.add_edges_from((("row", row), ("integral", k)) for k in usable[row])
-    matched = nx.bipartite.maximum_matching(graph, [("row", r) for r in usable if usable[r]]) if graph else {}
-    return {
-        row: integrals[matched["row", row][1] if ("row", row) in matched else few[0]]
-        for row, few in usable.items()
-        if few
-    }
+    chosen = _likest(forms, integrals, {row: few for row, few in usable.items() if few})
+    return {row: integrals[k] for row, k in chosen.items()}
+
+
+def _likest(forms: Codistribution, integrals: Sequence[FirstIntegral], usable: dict[int, list[int]]) -> dict[int, int]:
+    """One integral a row, different ones where there are enough, such that they mention what the rows mention."""
+    moving = frozenset(forms.chart.symbols)
+    own = {row: {forms.chart.symbols[c] for c in forms.rows.entries[row]} for row in usable}
+    places = [*range(len(integrals)), *(None for row in usable if len(usable) > len(integrals))][:MAX_ASSIGNED]
+    best: tuple[int, dict[int, int]] | None = None
+    for choice in permutations(places, len(usable)):
+        total, found = 0, {}
+        for row, k in zip(usable, choice, strict=True):
+            found[row] = k if k in usable[row] and k is not None else usable[row][0]
+            unlike = own[row] ^ (integrals[found[row]].expr.symbols & moving)
+            total += UNLIKE if found[row] != k else len(unlike) ** 2
+        if best is None or total < best[0]:
+            best = total, found
+    return best[1] if best is not None else {row: few[0] for row, few in usable.items()}
 
 
 def shown(f: Expr) -> Expr:

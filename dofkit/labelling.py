@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Mapping, Sequence
+from functools import partial
 
 from dofkit.analysis import alone
 from dofkit.answers import Answer, Setting
@@ -15,9 +16,11 @@ from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
 from dofkit.labels import Traits, traits
 from dofkit.normal import Inequality, Nonlinear, Pfaffian, Piece, Still
+from dofkit.reasons import Others
 from dofkit.redundancy import Redundancies
 from dofkit.report import ConstraintEntry
 from dofkit.solving import Outcome, Reduced
+from dofkit.together import Companionship
 from dofkit.twins import nameless
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.
@@ -42,13 +45,15 @@ def entries_of(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
     told_of = _Remembered(setting).traits
+    company = Companionship(setting)
     entries = []
     for i, r in enumerate(reduced):
         number = independent[i] if i in known else None if told[i] else 0
         circuit = None if i not in circuits else [names[j] for j in circuits[i]]
         try:
             check()
-            entries.append(_one(i, r, told[i], setting, outcome, number, circuit, constants, told_of))
+            entries.append(_one(i, r, told[i], setting, outcome, number, circuit, constants, told_of,
+                                partial(_with_others, i, told[i], company, names)))  # fmt: skip
         except OutOfTimeError as error:
             entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
     return entries
@@ -64,6 +69,7 @@ def _one(
     circuit: list[str] | None,
     constants: Mapping[str, Expr],
     told_of: Callable[[Piece], Traits],
+    with_others: Callable[[bool], Others],
 ) -> ConstraintEntry:
     by_itself = None
     written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
@@ -84,7 +90,19 @@ def _one(
         outcome.consistent,
         constants,
         told_of,
+        with_others,
     )
+
+
+def _with_others(i: int, told: Sequence[Told], company: Companionship, names: Sequence[str], in_system: bool) -> Others:
+    """What the constraints of its block do for a form; nothing where it stands alone there or in several blocks."""
+    blocks = {id(t.block): t for t in told if t.block is not None}
+    only = next(iter(blocks.values())) if len(blocks) == 1 else None
+    if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in told)):
+        return Others()
+    found = (company.of if in_system else company.modulo)(i, only.block, only.answer)
+    companions = None if found.companions is None else tuple(f"'{names[k]}'" for k in found.companions)
+    return Others(companions, found.integral, found.identically)
 
 
 class _Remembered:
@@ -108,12 +126,12 @@ def _told(number: int, outcome: Outcome) -> list[list[Told]]:
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         linear = [r for r in block.rows if not isinstance(r.piece, Nonlinear)]
         for i, row in enumerate(linear):
-            told[row.constraint].append(Told(row, a.labels.get(i), a))
+            told[row.constraint].append(Told(row, a.labels.get(i), a, block))
         for row in block.rows:
             if isinstance(row.piece, Nonlinear):
-                told[row.constraint].append(Told(row, None, a))
+                told[row.constraint].append(Told(row, None, a, block))
     for i, original in outcome.copies.items():
-        told[i] = [Told(Row(i, t.row.piece), t.label, t.answer) for t in told[original]]
+        told[i] = [Told(Row(i, t.row.piece), t.label, t.answer, t.block) for t in told[original]]
     return told
 
 
