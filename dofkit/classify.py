@@ -19,6 +19,7 @@ from dofkit.deadline import DEFAULT_SECONDS, limited
 from dofkit.dependence import merged, redundancies
 from dofkit.exact.balls import PRECISION
 from dofkit.expr import Expr
+from dofkit.integrable import integrable_part
 from dofkit.labelling import entries_of
 from dofkit.lowering import lower
 from dofkit.methods import METHODS, MethodName
@@ -27,6 +28,7 @@ from dofkit.report import ConstraintEntry, ForceEntry, Redundancy, Report, weake
 from dofkit.scene import Scene
 from dofkit.solving import Outcome, Reduced, reduce_all, solve
 from dofkit.system import System
+from dofkit.together import Companionship
 
 _BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
 
@@ -110,7 +112,8 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
     names = [c.name for c in system.constraints]
     conflicting = conflict(system, reduced, setting, outcome) if outcome.consistent is False else []
     dependent = redundancies(reduced, setting, outcome)
-    entries = entries_of(reduced, setting, outcome, dependent, names)
+    company = Companionship(setting)
+    entries = entries_of(reduced, setting, outcome, dependent, names, company)
     equations = sum(r.equations for r in reduced)
     dof, velocity_dof = outcome.dof, outcome.velocity_dof
     instantaneous = _instantaneous(system, outcome)
@@ -149,6 +152,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
         conflicting=[names[i] for i in conflicting],
         generalized_coordinates=_generalized(system, setting, outcome),
         growth_vector=_growth(outcome, entries),
+        integrable_part=integrable_part(outcome, entries, company),
         constraints=entries,
         forces=[ForceEntry(name=f.name, reason=f.reason) for f in system.forces],
         verdict=verdict,

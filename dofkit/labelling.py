@@ -33,6 +33,7 @@ def entries_of(
     outcome: Outcome,
     dependent: Sequence[Redundancies],
     names: Sequence[str],
+    company: Companionship,
 ) -> list[ConstraintEntry]:
     """An entry for every constraint, in order; one that there is no time for says so."""
     independent: Counter[int] = Counter()
@@ -45,7 +46,6 @@ def entries_of(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
     told_of = _Remembered(setting).traits
-    company = Companionship(setting)
     entries = []
     for i, r in enumerate(reduced):
         number = independent[i] if i in known else None if told[i] else 0

@@ -81,6 +81,17 @@ class Redundancy(Model):
     members: list[str]
 
 
+class IntegrablePart(Model):
+    """What the constraints say in finite relations: the codistribution's largest integrable part I^(inf).
+
+    ``rank``: of I^(inf), coordinates less ``dof``. ``basis``: the relations beyond those that were written finite:
+    hidden ones (``g = 0``) and integrals (``f = C``); None where not all could be written.
+    """
+
+    rank: int
+    basis: list[str] | None
+
+
 class ForceEntry(Model):
     """A force: no constraint, and why."""
 
@@ -112,6 +123,7 @@ class Report(Model):
     conflicting: list[str]
     generalized_coordinates: list[str] | None
     growth_vector: list[int] | None
+    integrable_part: IntegrablePart | None = None
     constraints: list[ConstraintEntry]
     forces: list[ForceEntry]
     verdict: Verdict

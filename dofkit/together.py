@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain, count
+from itertools import chain, count, islice
 
 from dofkit.analysis import answer
 from dofkit.answers import Answer, Setting
@@ -32,12 +32,20 @@ class Together:
     identically: bool = True
 
 
+@dataclass(frozen=True)
+class Found:
+    """Integrals by the numbers of the rows they can stand for, and all of them."""
+
+    by_row: Mapping[int, FirstIntegral]
+    integrals: Sequence[FirstIntegral]
+
+
 @dataclass
 class Companionship:
     """The blocks of a system, asked one constraint at a time; what was found for a block is kept."""
 
     setting: Setting
-    _integrals: dict[tuple[int, ...], Mapping[int, FirstIntegral]] = field(default_factory=dict)
+    _integrals: dict[tuple[int, ...], Found] = field(default_factory=dict)
 
     def of(self, constraint: int, block: Block, a: Answer) -> Together:
         """For a constraint that is holonomic in its block: what it needs there, and its integral."""
@@ -89,28 +97,40 @@ class Companionship:
 
     def _integral(self, constraint: int, block: Block, owners: Sequence[int]) -> FirstIntegral | None:
         """The integral of the one form that a constraint wrote, among those of some constraints."""
-        key = (id(block), *owners)
         own = _forms_of(constraint, block)
-        if len(own) != 1:
-            return None
-        if key not in self._integrals:
-            self._integrals[key] = self._found(block, owners)
-        return self._integrals[key].get(own[0])
+        return self._found(block, owners).by_row.get(own[0]) if len(own) == 1 else None
 
-    def _found(self, block: Block, owners: Sequence[int]) -> dict[int, FirstIntegral]:
-        """Integrals by the numbers of the block's rows."""
+    def basis(self, block: Block) -> list[str]:
+        """Independent integrals of all the block's rows together, as text."""
+        owners = list(dict.fromkeys(r.constraint for r in block.rows))
+        if len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES or block.nonlinear:
+            return []
+        try:
+            integrals = self._found(block, owners).integrals
+        except (OutOfTimeError, ArithmeticError, NoPointError):
+            return []
+        return [equation(f, block, i if len(integrals) > 1 else None) for i, f in enumerate(integrals)]
+
+    def _found(self, block: Block, owners: Sequence[int]) -> Found:
+        """The integrals of a block's rows that some constraints wrote."""
+        key = (id(block), *owners)
+        if key not in self._integrals:
+            self._integrals[key] = self._sought(block, owners)
+        return self._integrals[key]
+
+    def _sought(self, block: Block, owners: Sequence[int]) -> Found:
         numbers = [i for i, r in enumerate(block.rows) if r.constraint in owners]
         part = Block(block.coordinates, tuple(block.rows[i] for i in numbers))
         plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
         whole = answer(part, plain)
         if whole.dof is None:
-            return {}
+            return Found({}, [])
         forms = codistribution(part, plain, whole.hidden)
         sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
         integrals = first_integrals(forms, sought)
         shift = forms.finite - len(part.finite)
         by_row = assigned(forms, integrals)
-        return {numbers[row - shift]: f for row, f in by_row.items()}
+        return Found({numbers[row - shift]: f for row, f in by_row.items()}, integrals)
 
 
 def _forms_of(constraint: int, block: Block) -> list[int]:
@@ -126,12 +146,13 @@ def _true(a: Answer, i: int) -> bool:
     return label is not None and label.holonomic is True
 
 
-def equation(f: FirstIntegral, block: Block) -> str:
-    """``f = C``, with C1, C2, ... where the block itself has a C."""
+def equation(f: FirstIntegral, block: Block, number: int | None = None) -> str:
+    """``f = C``, or C1, C2, ... where there are several or the block itself has a C."""
     taken = set(block.coordinates)
     for row in block.rows:
         piece = row.piece
         parts = [e for _, e in piece.items()] if isinstance(piece, Pfaffian) else [piece.expr]
         taken |= {str(s.args[1]) for e in parts for s in e.symbols}
-    constant = next(name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
-    return f"{to_text(f.expr)} = {constant}"
+    names = (f"C{i}" for i in count(1))
+    free = (name for name in (names if number is not None else chain(("C",), names)) if name not in taken)
+    return f"{to_text(f.expr)} = {next(islice(free, number or 0, None))}"

@@ -175,3 +175,31 @@ def test_the_differential_of_an_integral_lies_in_the_span_of_the_forms(path: Pat
         with_slope = np.vstack([matrix, slope])
         assert np.linalg.matrix_rank(with_slope, tol=1e-9 * scale) == np.linalg.matrix_rank(matrix, tol=1e-9 * scale)
         assert max(map(abs, slope)) > 1e-9
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "constraints", "rank", "basis"),
+    [
+        (
+            "x y theta",
+            ["sin(theta) dx = cos(theta) dy", "sin(theta) dx - cos(theta) dy + 2 dtheta = 0"],
+            2,
+            ["theta = C1", "x*sin(theta) - y*cos(theta) = C2"],
+        ),
+        ("x y z w", ["dz = y dx", "dw + dz = y dx"], 1, ["w = C"]),
+        ("x y z", ["x + y = t", "xdot + ydot = z"], 2, ["z - 1 = 0"]),
+        ("x y", ["x dy + y dx = 0"], 1, ["x*y = C"]),
+        ("x y z", ["dz = y dx"], 0, []),
+        ("x y z", ["x^2 + y^2 = 1", "dz = x dy - y dx"], 2, None),  # z is an angle: no polynomial
+    ],
+)
+def test_the_largest_integrable_part(
+    coordinates: str, constraints: list[str], rank: int, basis: list[str] | None
+) -> None:
+    part = classified(coordinates, *constraints).integrable_part
+    assert part is not None
+    assert (part.rank, part.basis) == (rank, basis)
+
+
+def test_finite_relations_alone_have_no_integrable_part_to_find() -> None:
+    assert classified("x y z", "x = y").integrable_part is None

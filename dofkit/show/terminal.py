@@ -83,6 +83,9 @@ def _rows(report: Report) -> Iterator[tuple[str, Text]]:
         yield "coordinates", Text(f"{_names(report.generalized_coordinates)} (independent, and enough)")
     if report.growth_vector:
         yield "growth vector", Text(f"({', '.join(map(str, report.growth_vector))})")
+    part = report.integrable_part
+    if part is not None and part.rank and part.basis:
+        yield "integrable part", Text(f"{safe(', '.join(part.basis))} (and what is finite as written)")
     yield "verdict", Text(report.verdict, _STYLES[report.verdict])
 
 
