@@ -163,7 +163,8 @@ def _varied(flow: Flow, at: list[Any], point: DualPoint, moved: list[Series]) ->
         [[g[c].du if c >= 0 and c in g else None for c in flow.rows.columns] for g in slopes], n
     )
     rows = flow.by_coefficient([[at[row[c]].du if c in row else None for c in range(n)] for row in flow.kept], n)
-    bent = flow.lifted(lambda k: -(first[k] + convolved(_columns(flow, rows, frame.dependent), flow.slope, k)), order)
+    own = [picked(m, frame.dependent, flow.numbers) for m in rows]
+    bent = flow.lifted(lambda k: -(first[k] + convolved(own, flow.slope, k)), order)
     turned = flow.lifted(lambda k: -convolved(rows, flow.full_frame, k), order)
     full_bent, full_turned = [flow.full(m, None) for m in bent], [flow.full(m, None) for m in turned]
     back = [scaled(flow.back[0], flow.sample * 0)]
@@ -171,10 +172,6 @@ def _varied(flow: Flow, at: list[Any], point: DualPoint, moved: list[Series]) ->
         total = convolved(back, flow.full_slope, k) + convolved(flow.back, full_bent, k)
         back.append(scaled(total, -1 / flow.base.number(k + 1)))
     return [convolved(back, flow.full_frame, k) + convolved(flow.back, full_turned, k) for k in range(order)]
-
-
-def _columns(flow: Flow, series: MatrixSeries, columns: Sequence[int]) -> MatrixSeries:
-    return [picked(m, columns, flow.numbers) for m in series]
 
 
 def _slope(flow: Flow, direction: Matrix) -> Matrix:

@@ -28,8 +28,8 @@ from dofkit.forms import Frame, Rows, kernel, rank_over
 Matrix = Any
 MatrixSeries = list[Matrix]
 
-#: The first order to which the curve is followed, and the largest.
-FIRST_ORDER, MAX_ORDER = 3, 42
+#: The first order to which the curve is followed, and the largest; with two fields a flag is long or stops at once.
+FIRST_ORDER, MAX_ORDER, SHORT = 3, 42, 12
 
 
 @dataclass(frozen=True)
@@ -254,7 +254,8 @@ def lie_span(rows: Rows, frame: Frame, base: Any) -> Span:
         return Span(tuple(tuple(v) for v in basis), (free,))
     flow = Flow(rows, frame, base)
     enough = min(n - free + 2, MAX_ORDER)
-    for order in dict.fromkeys((min(FIRST_ORDER, enough), enough)):
+    first = enough if free <= 2 and enough <= SHORT else min(FIRST_ORDER, enough)
+    for order in dict.fromkeys((first, enough)):
         flow.follow(order)
         vectors: list[tuple[Scalar, ...]] = []
         dimensions: list[int] = []
