@@ -46,13 +46,13 @@ def entries_of(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
     told_of = _Remembered(setting).traits
-    entries = []
+    entries, consistent = [], outcome.consistent
     for i, r in enumerate(reduced):
         number = independent[i] if i in known else None if told[i] else 0
         circuit = None if i not in circuits else [names[j] for j in circuits[i]]
         try:
             check()
-            entries.append(_one(i, r, told[i], setting, outcome, number, circuit, constants, told_of,
+            entries.append(_one(i, r, told[i], setting, consistent, number, circuit, constants, told_of,
                                 partial(_with_others, i, told[i], company, names)))  # fmt: skip
         except OutOfTimeError as error:
             entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
@@ -64,7 +64,7 @@ def _one(
     r: Reduced,
     told: list[Told],
     setting: Setting,
-    outcome: Outcome,
+    consistent: bool | None,
     independent: int | None,
     circuit: list[str] | None,
     constants: Mapping[str, Expr],
@@ -87,7 +87,7 @@ def _one(
         setting,
         independent,
         circuit,
-        outcome.consistent,
+        consistent,
         constants,
         told_of,
         with_others,
