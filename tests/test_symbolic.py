@@ -20,7 +20,7 @@ PATHS = sorted((ROOT / "catalog").glob("*/*.yaml")) + [
     p for p in sorted((ROOT / "tests/scenes").glob("*/*.yaml")) if p.parent.name != "bad"
 ]
 #: Seconds of processor time for a scene.
-SECONDS = 4.0
+SECONDS = 10.0
 
 
 # The second way by itself
