@@ -16,6 +16,7 @@ from flint.utils.flint_exceptions import DomainError
 from dofkit import expr as ex
 from dofkit.chart import Chart
 from dofkit.deadline import check
+from dofkit.emptiness import no_solution
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.identity import excludes_zero
@@ -34,6 +35,9 @@ from dofkit.singular import numeric_local
 BALL_COLUMNS = 60
 #: Points over GF(p) that must agree.
 SAMPLES, MORE_SAMPLES = 2, 6
+#: More relations than this are not searched for a proof that they have no real solution.
+MAX_RELATIONS = 40
+EMPTY = "no real configuration satisfies the relations together: all of space is excluded by certified bounds"
 
 
 @dataclass
@@ -126,7 +130,18 @@ def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | 
 
 
 def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
-    """Generic points of the configuration space of a block, and its dimension."""
+    """Generic points of the configuration space of a block, and its dimension.
+
+    Where no real point was found it is tried to prove that there is none.
+    """
+    found = _found(chart, pose, seed)
+    looked = {"field", "balls"} <= chart.engines and found.consistent is not True and found.verdict != "proved"
+    if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
+        return Variety(False, None, "proved", reasons=[EMPTY])
+    return found
+
+
+def _found(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if not chart.nodes:
         points = []
         if "field" in chart.engines:
