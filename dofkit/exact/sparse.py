@@ -1,0 +1,172 @@
+"""Sparse matrices over GF(p): independent rows in order, what the others depend on, and columns to solve for.
+
+Rows are taken one after another and reduced by those before them; a pivot is the entry whose column occurs in the
+fewest rows, so a chain or a tree fills in nothing and a grid little more than its width.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
+from typing import Any
+
+from dofkit.deadline import check
+
+Row = dict[int, int]
+
+#: Rows between two looks at the clock.
+LOOK = 64
+
+
+def sparse(rows: Iterable[Sequence[Any]]) -> list[Row]:
+    """Dense rows without their zeros."""
+    return [{c: int(v) for c, v in enumerate(row) if v != 0} for row in rows]
+
+
+def transposed(rows: Sequence[Mapping[int, int]], columns: int) -> list[Row]:
+    """The columns as rows."""
+    found: list[Row] = [{} for _ in range(columns)]
+    for i, row in enumerate(rows):
+        for c, v in row.items():
+            found[c][i] = v
+    return found
+
+
+@dataclass(frozen=True)
+class Echelon:
+    """``independent``: the first independent rows in order; ``supports``: for every other row those it is a sum of.
+
+    ``supports`` is empty where it was not asked for.
+    """
+
+    independent: tuple[int, ...]
+    supports: dict[int, tuple[int, ...]]
+
+    @property
+    def rank(self) -> int:
+        return len(self.independent)
+
+
+def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -> Echelon:
+    """The greedy basis of the rows over GF(p)."""
+    weight = Counter(c for row in rows for c in row)
+    alone = _private(rows)
+    found = _Reduction(p, weight)
+    independent = []
+    dependent: dict[int, tuple[int, ...]] = {}
+    for i, row in enumerate(rows):
+        if i % LOOK == 0:
+            check()
+        if i in alone:
+            independent.append(i)
+            continue
+        rest, used = found.reduced(row)
+        if rest:
+            found.add(i, rest, used)
+            independent.append(i)
+        elif supports:
+            dependent[i] = found.support(used)
+    return Echelon(tuple(independent), dependent)
+
+
+def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
+    """The rank over GF(p)."""
+    return echelon(rows, p).rank
+
+
+def last_columns(rows: Sequence[Mapping[int, int]], columns: int, p: int) -> tuple[int, ...]:
+    """Columns to solve the rows for: a basis of the column space, the last ones where there is a choice."""
+    turned = transposed(rows, columns)[::-1]
+    return tuple(sorted(columns - 1 - k for k in echelon(turned, p).independent))
+
+
+def _private(rows: Sequence[Mapping[int, int]]) -> set[int]:
+    """Rows that can be taken away one after another, each with a column that no row left has: independent of the rest.
+
+    A tree or a chain goes entirely; what stays is the core, where every column occurs twice.
+    """
+    having: dict[int, set[int]] = {}
+    for i, row in enumerate(rows):
+        for c in row:
+            having.setdefault(c, set()).add(i)
+    single = [c for c, owners in having.items() if len(owners) == 1]
+    gone: set[int] = set()
+    while single:
+        left = having[single.pop()]
+        if not left:
+            continue
+        number = next(iter(left))
+        gone.add(number)
+        for c in rows[number]:
+            having[c].discard(number)
+            if len(having[c]) == 1:
+                single.append(c)
+    return gone
+
+
+class _Reduction:
+    """Pivot rows with a 1 in their pivot column, each free of the pivots before it."""
+
+    def __init__(self, p: int, weight: Mapping[int, int]) -> None:
+        self.p, self._weight = p, weight
+        self._rows: list[list[tuple[int, int]]] = []
+        self._sources: list[tuple[int, int, Row]] = []
+        self._of: dict[int, int] = {}
+
+    def reduced(self, row: Mapping[int, int]) -> tuple[Row, Row]:
+        """What is left of a row, and the multiples of pivot rows that were taken from it."""
+        p, of, work, used = self.p, self._of, dict(row), Row()
+        pending = [of[c] for c in work if c in of]
+        heapify(pending)
+        seen = set(pending)
+        while pending:
+            number = heappop(pending)
+            pivot = self._rows[number]
+            factor = work.get(pivot[0][0])
+            if not factor:
+                continue
+            used[number] = factor
+            for c, v in pivot:
+                old = work.get(c)
+                if old is None:
+                    work[c] = -factor * v % p
+                    k = of.get(c)
+                    if k is not None and k not in seen:
+                        seen.add(k)
+                        heappush(pending, k)
+                else:
+                    new = (old - factor * v) % p
+                    if new:
+                        work[c] = new
+                    else:
+                        del work[c]
+        return work, used
+
+    def add(self, row: int, rest: Row, used: Row) -> None:
+        """A new pivot row: ``rest`` is the row less ``used`` multiples of earlier ones, then scaled."""
+        column = min(rest, key=lambda c: (self._weight[c], c))
+        inverse = pow(rest[column], -1, self.p)
+        self._of[column] = len(self._rows)
+        self._rows.append([(column, 1), *((c, v * inverse % self.p) for c, v in rest.items() if c != column)])
+        self._sources.append((row, inverse, used))
+
+    def support(self, used: Mapping[int, int]) -> tuple[int, ...]:
+        """The rows of which a sum of pivot rows is the sum: each is its row less earlier pivots, unfolded backwards."""
+        left, found = dict(used), []
+        pending = [-k for k in left]
+        heapify(pending)
+        while pending:
+            number = -heappop(pending)
+            row, inverse, earlier = self._sources[number]
+            factor = left.pop(number) * inverse % self.p
+            if not factor:
+                continue
+            found.append(row)
+            for k, v in earlier.items():
+                if k not in left:
+                    left[k] = 0
+                    heappush(pending, -k)
+                left[k] = (left[k] - factor * v) % self.p
+        return tuple(sorted(found))
