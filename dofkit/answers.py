@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.sparse import SparseRow
 from dofkit.expr import Expr
 from dofkit.report import Verdict
 from dofkit.system import Coordinate
@@ -40,7 +41,7 @@ class Answer:
     labels: dict[int, Label] = field(default_factory=dict)
     reasons: list[str] = field(default_factory=list)
     hidden: list[Expr] = field(default_factory=list)
-    matrix: list[list[int]] = field(default_factory=list)
+    matrix: list[SparseRow] = field(default_factory=list)
     modulus: int = 2
     degenerate: bool = False
     instantaneous: int | None = None

@@ -23,6 +23,7 @@ from dofkit.exact.field import FieldPoint
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, independent_generators
+from dofkit.exact.sparse import sparse
 from dofkit.forms import Frame, certified_rank, kernel
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.rank import rank_of
@@ -102,8 +103,7 @@ def _nonlinear_rank(
         rows.append([g.get(c, zero) if c is not None else zero for c in columns])
     if isinstance(point, FieldPoint):
         rank = rank_of(rows, point.p)
-        timed = len(result.matrix[0]) - len(columns) if result.matrix else 0
-        result.matrix += [[*(int(v) for v in row), *([0] * timed)] for row in rows[linear:]]
+        result.matrix += sparse(rows[linear:])
         result.verdict = weakest(result.verdict, "proved" if rank == len(rows) else "probable")
     else:
         rank = certified_rank(rows)

@@ -12,8 +12,8 @@ from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, Row, split
 from dofkit.branches import algebraic, follows, through_reference
 from dofkit.deadline import OutOfTimeError, check
+from dofkit.exact.sparse import SparseRow
 from dofkit.normal import Finite, Still
-from dofkit.rank import bounded
 from dofkit.redundancy import Redundancies, Rows, analyse
 from dofkit.solving import Outcome, Reduced
 
@@ -72,8 +72,6 @@ def _analysed(group: list[Rows]) -> list[Redundancies]:
     """One group's redundancies; none where there is no time left for them."""
     try:
         check()
-        for part in group:
-            bounded(len(part.matrix), len(part.matrix[0]) if part.matrix else 0)
         return [analyse(group)]
     except OutOfTimeError:
         return []
@@ -201,7 +199,7 @@ def _constant(row: Row) -> str | None:
     return next(iter(row.piece.coefficients)) if isinstance(row.piece, Still) else None
 
 
-def _without_hidden(block: Block, a: Answer) -> list[list[int]]:
+def _without_hidden(block: Block, a: Answer) -> list[SparseRow]:
     """The matrix without the rows of hidden relations."""
     first = len(block.finite)
     return a.matrix[:first] + a.matrix[first + len(a.hidden) :]

@@ -27,6 +27,7 @@ from dofkit.exact.balls import (
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.program import values
 from dofkit.exact.ring import Scalar, independent_generators
+from dofkit.exact.sparse import sparse
 from dofkit.expr import Expr
 from dofkit.finite import dependent_names
 from dofkit.flag import derived_flag, growth
@@ -197,7 +198,7 @@ def field_labels(
         return
     point, sampled = max(good, key=lambda pair: pair[1].span.dimension)
     total, n = len(forms.chart.symbols), forms.n
-    result.matrix, result.modulus = [[int(v) for v in row] for row in sampled.matrix], point.p
+    result.matrix, result.modulus = sparse(sampled.matrix), point.p
     result.method = "Lie algebra along a curve over GF(p)"
     integrable = total - sampled.span.dimension
     rank = len(sampled.frame.rows)
@@ -318,7 +319,7 @@ def _integrable_names(forms: Codistribution, sampled: Sampled, point: FieldPoint
     vectors = nmod_mat([[int(v) for v in vector] for vector in sampled.span.vectors], point.p)
     basis, nullity = vectors.nullspace()
     rows = [[basis[i, k] for i in range(basis.nrows())] for k in range(nullity)]
-    return dependent_names(rows, forms.chart, point.p) if rows else ()
+    return dependent_names(sparse(rows), forms.chart, point.p) if rows else ()
 
 
 def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> None:
@@ -336,7 +337,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
     result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
     result.velocity_dof, result.dof = n - rank, n - (total - span.dimension)
     if "field" not in forms.chart.engines:
-        result.matrix = dependency_pattern(_middles(matrix), rows)
+        result.matrix = sparse(dependency_pattern(_middles(matrix), rows))
         if real.consistent and len(real.rows) == forms.finite and certified_rank(matrix) == len(matrix):
             result.verdict = "proved" if span.dimension == total or total - rank <= 1 else "numeric"
     result.reasons.append(f"decided at real points of high precision, with a gap of {gap:.1e} between singular values")

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
-from flint import nmod
+from collections.abc import Mapping, Sequence
 
 from dofkit import expr as ex
 from dofkit.answers import Answer, Setting
@@ -18,11 +15,12 @@ from dofkit.exact.balls import (
     greedy_pivots,
     independent_part,
 )
+from dofkit.exact.sparse import SparseRow, rank_of_rows, sparse
 from dofkit.expr import Expr
-from dofkit.forms import field_frame
+from dofkit.forms import sparse_frame
 from dofkit.local import AtReference, at_reference
 from dofkit.measured import measure
-from dofkit.rank import rank_of
+from dofkit.rank import without_time
 from dofkit.variety import Variety, field_jacobian, find
 
 OFF_REFERENCE = (
@@ -54,7 +52,7 @@ def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     """Which relations depend on which, and which coordinates on which, from a regular real point."""
     if real.matrix is None or not real.certified or not real.rows or len(real.matrix) != len(chart.nodes):
         return
-    result.matrix = dependency_pattern(real.matrix, real.rows)
+    result.matrix = sparse(dependency_pattern(real.matrix, real.rows))
     shown = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
     columns = [i for i, s in enumerate(shown) if s != ex.TIME]
     if independent_part(real.matrix[:, columns])[0] < real.rank:
@@ -77,8 +75,7 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
     result.instantaneous = found.instantaneous
     result.matrix, result.modulus = found.matrix, found.modulus
     if found.dependent is None:
-        rows = [[nmod(v, found.modulus) for v in row] for row in found.matrix]
-        result.dependent = dependent_names(rows, chart, found.modulus)
+        result.dependent = dependent_names(found.matrix, chart, found.modulus)
     else:
         result.method = "balls at the given configuration"
         result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
@@ -102,7 +99,7 @@ def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answ
     result.method = "singular values within the tolerance at the given configuration"
     result.instantaneous = told.instantaneous
     result.reasons.append(f"{told.reason}; the gap between singular values is {told.gap:.1e}")
-    result.matrix, result.modulus = told.dependencies, 2
+    result.matrix, result.modulus = sparse(told.dependencies), 2
     result.dependent = tuple(str(chart.symbols[c].args[1]) for c in told.columns)
     result.degenerate = told.dimension != told.instantaneous
     return result
@@ -112,8 +109,9 @@ def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:
     point = found.samples[0]
     matrix = field_jacobian(chart, point)
     n = chart.coordinates
-    rank, rank_q = rank_of(matrix, point.p), rank_of([row[:n] for row in matrix], point.p)
-    result.matrix, result.modulus = [[int(v) for v in row] for row in matrix], point.p
+    rank = rank_of_rows(matrix, point.p)
+    rank_q = rank_of_rows(without_time(matrix, n), point.p) if len(chart.columns) > n else rank
+    result.matrix, result.modulus = matrix, point.p
     result.dependent = dependent_names(matrix, chart, point.p)
     if rank_q < rank:
         result.consistent, result.dof, result.velocity_dof = False, None, None
@@ -123,6 +121,7 @@ def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:
     result.degenerate = result.dof is not None and result.dof != n - rank
 
 
-def dependent_names(matrix: list[list[Any]], chart: Chart, p: int) -> tuple[str, ...]:
-    frame = field_frame([row[: chart.coordinates] for row in matrix], chart.coordinates, p)
+def dependent_names(rows: Sequence[SparseRow], chart: Chart, p: int) -> tuple[str, ...]:
+    """Coordinates that the rows can be solved for, the last ones where there is a choice."""
+    frame = sparse_frame(without_time(rows, chart.coordinates), chart.coordinates, p)
     return tuple(str(chart.symbols[c].args[1]) for c in frame.dependent)

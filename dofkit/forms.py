@@ -10,6 +10,7 @@ from flint import arb, arb_mat, nmod, nmod_mat
 
 from dofkit.exact.ring import Ring, Scalar
 from dofkit.exact.series import Series
+from dofkit.exact.sparse import SparseRow, echelon, last_columns
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,13 @@ def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Frame:
     chosen = [[int(v) for v in reversed(matrix[r])] for r in rows]
     dependent = sorted(n - 1 - c for c in pivots(nmod_mat(chosen, p))) if chosen else []
     return Frame(tuple(rows), tuple(dependent), tuple(c for c in range(n) if c not in set(dependent)))
+
+
+def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Frame:
+    """The same for rows without their zeros."""
+    kept = echelon(rows, p).independent
+    dependent = last_columns([rows[i] for i in kept], n, p)
+    return Frame(kept, dependent, tuple(c for c in range(n) if c not in set(dependent)))
 
 
 def pivots(matrix: nmod_mat) -> list[int]:

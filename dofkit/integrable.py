@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dofkit.blocks import Block
+from dofkit.exact.sparse import rank_of_rows
 from dofkit.normal import Pfaffian
-from dofkit.rank import rank_of
 from dofkit.report import ConstraintEntry, IntegrablePart
 from dofkit.solving import Outcome
 from dofkit.text import to_text
@@ -28,7 +28,7 @@ def integrable_part(
     basis: list[str] | None = []
     for block, a in blocks:
         known = len(block.finite) + len(a.hidden)
-        finite = rank_of([list(row) for row in a.matrix[:known]], a.modulus) if a.matrix else known
+        finite = rank_of_rows(a.matrix[:known], a.modulus) if a.matrix else known
         left = len(block.coordinates) - (a.dof or 0) - finite
         found = _integrals(block, left, entries, company) if left > 0 else []
         if found is None or basis is None:

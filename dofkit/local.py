@@ -23,10 +23,11 @@ from dofkit.exact.balls import (
 )
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring
+from dofkit.exact.sparse import SparseRow, rank_of_rows, sparse
 from dofkit.expr import Expr
 from dofkit.forms import Frame
 from dofkit.motion import Local, Manifold, numeric_dimension
-from dofkit.rank import rank_of
+from dofkit.rank import without_time
 from dofkit.rigid import rigid_motions, rigid_motions_real
 from dofkit.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
 
@@ -44,7 +45,7 @@ class AtReference:
 
     instantaneous: int
     local: Local
-    matrix: list[list[int]]
+    matrix: list[SparseRow]
     modulus: int
     rank: int
     confined: bool
@@ -66,7 +67,8 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
         return None
     matrix = field_jacobian(chart, point)
     n = chart.coordinates
-    rank, rank_q = rank_of(matrix, point.p), rank_of([row[:n] for row in matrix], point.p)
+    rank = rank_of_rows(matrix, point.p)
+    rank_q = rank_of_rows(without_time(matrix, n), point.p) if len(chart.columns) > n else rank
     timed = len(chart.columns) - n
     rigid = rigid_motions(chart, point)
     ball = None
@@ -80,8 +82,7 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     local = local_at(chart, point, ball, rigid + timed)
     if local.dimension is not None:
         local = Local(local.dimension - timed, local.verdict, local.reason)
-    shown = [[int(v) for v in row] for row in matrix]
-    return AtReference(n - rank_q, local, shown, point.p, rank, rank_q < rank, rigid, ball)
+    return AtReference(n - rank_q, local, matrix, point.p, rank, rank_q < rank, rigid, ball)
 
 
 def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:
@@ -104,7 +105,7 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
         local = _followed(Manifold(chart.ring, chart.nodes, chart.columns, frame, ball), rigid + timed)
     if local.dimension is not None:
         local = Local(local.dimension - timed, local.verdict, local.reason)
-    shown = dependency_pattern(matrix, rows)
+    shown = sparse(dependency_pattern(matrix, rows))
     names = tuple(greedy_pivots(matrix[rows][:, :n].T, len(rows))) if rank == rank_q else ()
     return AtReference(n - rank_q, local, shown, 2, rank, rank_q < rank, rigid, ball, names)
 

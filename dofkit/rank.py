@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from flint import nmod_mat
@@ -10,6 +11,7 @@ from dofkit.chart import Chart
 from dofkit.deadline import OutOfTimeError
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.program import values
+from dofkit.exact.sparse import SparseRow
 
 #: rows * columns * min(rows, columns) of a matrix that is still eliminated.
 MAX_WORK = 30_000_000_000
@@ -27,6 +29,11 @@ def rank_of(matrix: list[list[Any]], p: int) -> int:
         return 0
     bounded(len(matrix), len(matrix[0]))
     return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())
+
+
+def without_time(rows: Sequence[SparseRow], n: int) -> list[SparseRow]:
+    """The first n columns."""
+    return [{c: v for c, v in row.items() if c < n} for row in rows]
 
 
 def free_point(chart: Chart, seed: int) -> FieldPoint | None:

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import networkx as nx
-from flint import nmod_mat
+
+from dofkit.exact.sparse import SparseRow, echelon, rank_of_rows
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
 SEARCHED = 12
@@ -28,22 +29,16 @@ class Redundancies:
     circuits: dict[int, list[int]]
 
 
-def rank(matrix: Sequence[Sequence[int]], p: int) -> int:
-    """Over GF(p)."""
-    rows = [row for row in matrix if any(row)]
-    return int(nmod_mat(rows, p).rank()) if rows else 0
-
-
 @dataclass(frozen=True)
 class Rows:
-    """The matrix of a block: ``owners[i]`` wrote row i, ``finite[i]`` tells a finite row."""
+    """The matrix of a block, without zeros: ``owners[i]`` wrote row i, ``finite[i]`` tells a finite row."""
 
-    matrix: Sequence[Sequence[int]]
+    matrix: Sequence[SparseRow]
     owners: Sequence[int]
     finite: Sequence[bool]
     p: int
 
-    def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[Sequence[int]]:
+    def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
         """The rows that some constraints wrote."""
         return [
             row
@@ -75,20 +70,9 @@ class _Basis:
     def __init__(self, rows: Rows) -> None:
         self.owners = rows.owners
         numbers = sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
-        columns = [rows.matrix[i] for i in numbers]
-        reduced, found = nmod_mat([list(column) for column in zip(*columns, strict=True)], rows.p).rref()
-        self.pivots: list[int] = []
-        column = 0
-        for r in range(found):
-            while not reduced[r, column]:
-                column += 1
-            self.pivots.append(numbers[column])
-            column += 1
-        kept = set(self.pivots)
-        self.supports = {
-            i: [self.pivots[r] for r in range(found) if reduced[r, c]] for c, i in enumerate(numbers) if i not in kept
-        }
-
+        found = echelon([rows.matrix[i] for i in numbers], rows.p, supports=True)
+        self.pivots = [numbers[k] for k in found.independent]
+        self.supports = {numbers[k]: [numbers[j] for j in support] for k, support in found.supports.items()}
         self.pivot_owners = {self.owners[i] for i in self.pivots}
         self.circuits: dict[int, set[int]] = {}
         for i, support in self.supports.items():
@@ -119,7 +103,7 @@ def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
 def _spans(parts: Sequence[Rows], kept: set[int], everything: set[int]) -> bool:
     """Do the kept constraints imply the others? Finite ones only by finite ones: a rate does not fix a constant."""
     return all(
-        rank(part.of(kept, only), part.p) == rank(part.of(everything, only), part.p)
+        rank_of_rows(part.of(kept, only), part.p) == rank_of_rows(part.of(everything, only), part.p)
         for part in parts
         for only in (False, True)
     )

@@ -23,8 +23,9 @@ from dofkit.exact.identity import excludes_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import VAR, Ring, independent_generators, reachable
+from dofkit.exact.sparse import SparseRow, rank_of_rows
 from dofkit.expr import Expr
-from dofkit.forms import Frame, field_frame
+from dofkit.forms import Frame, sparse_frame
 from dofkit.linear import presolve
 from dofkit.motion import Local, Manifold, local_dimension
 from dofkit.rank import free_point, rank_of
@@ -62,19 +63,16 @@ def samples_for(chart: Chart) -> int:
     return MORE_SAMPLES if free else SAMPLES
 
 
-def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None = None) -> list[list[Any]]:
-    """dg/d(columns) over GF(p)."""
+def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None = None) -> list[SparseRow]:
+    """dg/d(columns) over GF(p), row by row without zeros."""
     at = values(chart.ring, point)
-    zero = point.number(ex.ZERO.args[0])
+    one = point.number(ex.ONE.args[0])
     place = {c: i for i, c in enumerate(chart.columns) if c >= 0}
     rows = []
     for node in chart.nodes if nodes is None else nodes:
         check()
-        row = [zero] * len(chart.columns)
-        for c, v in gradient(chart.ring, at, point, [(node, zero + 1)]).items():
-            if c in place:
-                row[place[c]] = v
-        rows.append(row)
+        slope = gradient(chart.ring, at, point, [(node, one)])
+        rows.append({place[c]: int(v) for c, v in slope.items() if c in place and v != 0})
     return rows
 
 
@@ -226,7 +224,7 @@ def split_time(chart: Chart, matrix: list[list[Any]]) -> list[list[Any]]:
 def _from_samples(
     chart: Chart, samples: list[FieldPoint], solver: Solver | None, seed: int, core: Sequence[int]
 ) -> Variety:
-    ranks = [rank_of(field_jacobian(chart, p), p.p) for p in samples]
+    ranks = [rank_of_rows(field_jacobian(chart, p), p.p) for p in samples]
     rank = max(ranks)
     samples = [p for p, r in zip(samples, ranks, strict=True) if r == rank]
     columns = len(chart.columns)
@@ -365,7 +363,7 @@ def _numerical(chart: Chart, seed: int, core: Sequence[int]) -> Variety:
 
 def frame_at(chart: Chart, point: FieldPoint) -> Frame:
     """Independent relations and dependent columns at a point."""
-    return field_frame(field_jacobian(chart, point), len(chart.columns), point.p)
+    return sparse_frame(field_jacobian(chart, point), len(chart.columns), point.p)
 
 
 def local_at(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int) -> Local:

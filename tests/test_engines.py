@@ -24,6 +24,7 @@ from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring
 from dofkit.exact.series import Series, SeriesPoint, series_values
+from dofkit.exact.sparse import sparse
 from dofkit.exact.terms import expand, linear_terms
 from dofkit.expr import Expr
 from dofkit.flag import growth
@@ -499,7 +500,7 @@ def test_signatures(form: list[list[int]], signature: tuple[int, int]) -> None:
 
 def test_the_last_written_is_redundant() -> None:
     rows = [[1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [2, 0, 0]]
-    found = analyse([Equations(rows, [0, 1, 2, 3, 4], [True] * 5, 101)])
+    found = analyse([Equations(sparse(rows), [0, 1, 2, 3, 4], [True] * 5, 101)])
     assert found.redundant == [2, 4]
     assert found.groups == [(2, [0, 1, 2, 4])]
     assert found.circuits == {2: [0, 1], 4: [0]}
@@ -507,20 +508,20 @@ def test_the_last_written_is_redundant() -> None:
 
 
 def test_a_differential_form_goes_before_a_finite_relation() -> None:
-    found = analyse([Equations([[1, 2], [2, 4]], [0, 1], [False, True], 101)])
+    found = analyse([Equations(sparse([[1, 2], [2, 4]]), [0, 1], [False, True], 101)])
     assert (found.redundant, found.circuits) == ([0], {0: [1]})
 
 
 def test_constraints_of_several_equations() -> None:
     rows = [[1, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 1]]
-    found = analyse([Equations(rows, [0, 0, 1, 1], [True] * 4, 101)])
+    found = analyse([Equations(sparse(rows), [0, 0, 1, 1], [True] * 4, 101)])
     assert found.redundant == []
     assert found.groups == [(1, [0, 1])]
     assert found.independent == {0: 2, 1: 1}
 
 
 def test_nothing_is_redundant_where_all_is_independent() -> None:
-    found = analyse([Equations([[1, 0], [0, 1]], [0, 1], [True, True], 101)])
+    found = analyse([Equations(sparse([[1, 0], [0, 1]]), [0, 1], [True, True], 101)])
     assert (found.redundant, found.groups) == ([], [])
 
 

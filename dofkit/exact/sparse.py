@@ -14,20 +14,20 @@ from typing import Any
 
 from dofkit.deadline import check
 
-Row = dict[int, int]
+SparseRow = dict[int, int]
 
 #: Rows between two looks at the clock.
 LOOK = 64
 
 
-def sparse(rows: Iterable[Sequence[Any]]) -> list[Row]:
+def sparse(rows: Iterable[Sequence[Any]]) -> list[SparseRow]:
     """Dense rows without their zeros."""
     return [{c: int(v) for c, v in enumerate(row) if v != 0} for row in rows]
 
 
-def transposed(rows: Sequence[Mapping[int, int]], columns: int) -> list[Row]:
+def transposed(rows: Sequence[Mapping[int, int]], columns: int) -> list[SparseRow]:
     """The columns as rows."""
-    found: list[Row] = [{} for _ in range(columns)]
+    found: list[SparseRow] = [{} for _ in range(columns)]
     for i, row in enumerate(rows):
         for c, v in row.items():
             found[c][i] = v
@@ -112,12 +112,12 @@ class _Reduction:
     def __init__(self, p: int, weight: Mapping[int, int]) -> None:
         self.p, self._weight = p, weight
         self._rows: list[list[tuple[int, int]]] = []
-        self._sources: list[tuple[int, int, Row]] = []
+        self._sources: list[tuple[int, int, SparseRow]] = []
         self._of: dict[int, int] = {}
 
-    def reduced(self, row: Mapping[int, int]) -> tuple[Row, Row]:
+    def reduced(self, row: Mapping[int, int]) -> tuple[SparseRow, SparseRow]:
         """What is left of a row, and the multiples of pivot rows that were taken from it."""
-        p, of, work, used = self.p, self._of, dict(row), Row()
+        p, of, work, used = self.p, self._of, dict(row), SparseRow()
         pending = [of[c] for c in work if c in of]
         heapify(pending)
         seen = set(pending)
@@ -144,7 +144,7 @@ class _Reduction:
                         del work[c]
         return work, used
 
-    def add(self, row: int, rest: Row, used: Row) -> None:
+    def add(self, row: int, rest: SparseRow, used: SparseRow) -> None:
         """A new pivot row: ``rest`` is the row less ``used`` multiples of earlier ones, then scaled."""
         column = min(rest, key=lambda c: (self._weight[c], c))
         inverse = pow(rest[column], -1, self.p)
