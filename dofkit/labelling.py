@@ -113,6 +113,8 @@ class _Remembered:
         self._known: dict[Hashable, Traits] = {}
 
     def traits(self, piece: Piece) -> Traits:
+        if not isinstance(piece, Pfaffian):
+            return traits(piece, self._setting.positive, self._setting.engines)
         key = nameless(piece)
         found = self._known.get(key)
         if found is None:

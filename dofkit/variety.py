@@ -21,7 +21,7 @@ from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSea
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.identity import excludes_zero
 from dofkit.exact.points import Solver
-from dofkit.exact.program import gradient, values
+from dofkit.exact.program import gradient, value_of, values
 from dofkit.exact.ring import VAR, Ring, independent_generators, reachable
 from dofkit.exact.sparse import SparseRow, rank_of_rows
 from dofkit.expr import Expr
@@ -95,7 +95,7 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
         try:
             point = field_point([chart.ring], 1000 * seed + attempt)
             for index, node in fixed:
-                point.set(chart.ring.vars[index], _value(chart.ring, node, point))
+                point.set(chart.ring.vars[index], value_of(chart.ring, point, node))
             values(chart.ring, point)
         except NoPointError:
             continue
@@ -103,10 +103,6 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
             return None
         return point
     return None
-
-
-def _value(ring: Ring, node: int, point: FieldPoint) -> Any:
-    return values(ring, point, node + 1)[node]
 
 
 def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:

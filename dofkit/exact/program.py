@@ -3,10 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from math import prod
 
 from flint import arb
 
 from dofkit.exact.ring import ADD, MUL, NUM, POW, VAR, Point, Ring, Scalar, Var, reachable
+
+
+def value_of(ring: Ring, point: Point, node: int) -> Scalar:
+    """The value of one instruction, from those only that it needs; raises ZeroDivisionError at a pole."""
+    out: dict[int, Scalar] = {}
+    for i in reversed(reachable(ring, [node])):
+        op, payload = ring.code[i]
+        if op == MUL:
+            out[i] = prod(out[j] for j in payload)
+        elif op == ADD:
+            out[i] = sum(out[j] for j in payload)
+        elif op == VAR:
+            var = ring.vars[payload]
+            out[i] = point.generator(var, [out[j] for j in var.args])
+        elif op == NUM:
+            out[i] = point.number(payload)
+        else:
+            base, n = payload
+            out[i] = integer_power(out[base], n) if n > 0 else 1 / integer_power(out[base], -n)
+    return out[node]
 
 
 def values(ring: Ring, point: Point, upto: int | None = None) -> list[Scalar]:
@@ -129,4 +150,4 @@ def polynomial_nodes(ring: Ring) -> bool:
     return all(op != POW or payload[1] > 0 for op, payload in ring.code)
 
 
-__all__ = ["gradient", "integer_power", "partials", "polynomial_nodes", "reachable", "values"]
+__all__ = ["gradient", "integer_power", "partials", "polynomial_nodes", "reachable", "value_of", "values"]
