@@ -138,9 +138,14 @@ def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> System | No
     count = len(ring.vars)
     symbols = tuple(ex.parameter(f"generator {count - 1 - i}") for i in range(count))
     ranges = {symbols[count - 1 - v.index]: _range(v, ring) for v in ring.vars}
-    if any(never_vanishes(canon.to_expr(p), positive) for p in everything):
+    if any(_known(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything):
         return None
     return System(tuple(everything), symbols, ranges)
+
+
+def _known(canon: Canon, p: Poly) -> bool:
+    """No generator is a number of its own: such numbers may be related, and their polynomials hidden zeros."""
+    return all(canon.ring.var_expr[i].symbols for i in canon.generators_in(p))
 
 
 def _range(var: Var, ring: Ring) -> Interval:

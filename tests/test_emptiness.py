@@ -89,6 +89,12 @@ SOLVABLE = [
     ("x^2 + y^2 = R^2; x = R", "(R, 0)"),
     ("tan(x) = 1e6", "just below pi/2"),
     ("(x - y)^2 = 0; x = 1e8", "(1e8, 1e8)"),
+    ("z = 0; z + atan(1) - pi/4 = 0", "0, by an identity between numbers"),
+    ("z = 0; z + sqrt(5 + 2 sqrt(6)) = sqrt(2) + sqrt(3)", "0, the nested root is the sum"),
+    ("z = 0; z + 4 atan(1/5) - atan(1/239) - pi/4 = 0", "0, Machin's formula"),
+    ("z = 0; z + cos(pi/5) = (1 + sqrt(5))/4", "0"),
+    ("(x^2 + 1) (atan(1) - pi/4) = 0", "everything"),
+    ("(x^2 + 1) z = (x^2 + 1) (asin(sin(pi/7)) - pi/7)", "z = 0"),
 ]
 
 

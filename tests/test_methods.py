@@ -125,7 +125,7 @@ def test_a_field_alone_does_not_tell_whether_anything_real_is_left() -> None:
     assert told("field", "x^2 + y^2 = 1").dof == 2
     assert told("balls", "x^2 + y^2 = 1").consistent is True
     apart = ("x^2 + y^2 = 1", "(x - 5)^2 + y^2 = 1")
-    assert [told(m, *apart).consistent for m in METHODS] == [None, None, None]
+    assert {m: told(m, *apart).consistent for m in METHODS} == {"auto": False, "field": None, "balls": None}
 
 
 def test_balls_alone_do_not_tell_a_contradiction() -> None:
