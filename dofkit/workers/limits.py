@@ -1,0 +1,64 @@
+"""What a process may take: memory, processor time, no core files. Where the platform cannot say, nothing is bounded."""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+import sys
+import time
+
+if sys.platform != "win32":
+    import resource
+
+#: Seconds beyond the limit of a job: the parent should be the one that ends it.
+SPARE = 2.0
+#: Longer than this is without end.
+LONGEST = 1e8
+#: A process that has grown past this part of its memory is replaced after the job.
+GROWN = 0.25
+_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+
+
+def bound(memory: int) -> None:
+    """Bound this process's address space in bytes, and let it leave no core file; one thread for linear algebra.
+
+    Many workers with a thread for each core would only wait for each other, and every thread takes address space.
+    """
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    if sys.platform != "win32":
+        _set(resource.RLIMIT_CORE, 0)
+        _set(resource.RLIMIT_AS, memory)
+
+
+def allow(seconds: float) -> None:
+    """Let this process run for so many more seconds, by the clock and of processor time; then the system ends it.
+
+    This is for a worker whose parent is gone and that is deep inside a library: it hears nothing else.
+    """
+    if sys.platform != "win32":
+        finite = seconds < LONGEST
+        signal.setitimer(signal.ITIMER_REAL, seconds + SPARE if finite else 0.0)
+        until = math.ceil(time.process_time() + seconds + SPARE) if finite else resource.RLIM_INFINITY
+        _set(resource.RLIMIT_CPU, until)
+
+
+def grown(memory: int) -> bool:
+    """Has this process taken much of the memory that it may have?"""
+    if sys.platform == "win32":
+        return False
+    unit = 1 if sys.platform == "darwin" else 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit > GROWN * memory
+
+
+if sys.platform != "win32":
+
+    def _set(what: int, soft: int) -> None:
+        """Set the soft limit, as far as the hard one lets it; some systems refuse some of them."""
+        try:
+            _, hard = resource.getrlimit(what)
+            if hard != resource.RLIM_INFINITY and (soft == resource.RLIM_INFINITY or soft > hard):
+                soft = hard
+            resource.setrlimit(what, (soft, hard))
+        except (ValueError, OSError):
+            pass

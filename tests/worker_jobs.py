@@ -1,0 +1,93 @@
+"""Jobs for the tests of the workers: what answers, what hangs, and what dies."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import re
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import flint
+
+
+def same(payload: Any) -> Any:
+    """What was given."""
+    return payload
+
+
+def process(_: Any) -> int:
+    """The number of this process."""
+    return os.getpid()
+
+
+def sleep(seconds: float) -> float:
+    """Wait, deaf to every deadline."""
+    time.sleep(seconds)
+    return seconds
+
+
+def count(upto: int) -> Iterator[int]:
+    """Tell 0, 1, 2, ... and then nothing for long."""
+    yield from range(upto)
+    time.sleep(60)
+
+
+def patient(steps: int) -> Iterator[int]:
+    """Tell something every fifth of a second."""
+    for step in range(steps):
+        time.sleep(0.2)
+        yield step
+
+
+def stuck(path: str = "") -> None:
+    """Hang inside a library that never lets another thread run."""
+    told(path)
+    re.match("(a+)+$", "a" * 60 + "b")
+
+
+def busy(path: str = "") -> None:
+    """Hang in Python."""
+    told(path)
+    while True:
+        pass
+
+
+def told(path: str) -> None:
+    """Leave the number of this process in a file."""
+    if path:
+        Path(path).write_text(str(os.getpid()))
+
+
+def hog(_: Any) -> int:
+    """Take memory without end."""
+    taken = []
+    while True:
+        taken.append(bytearray(1 << 24))
+
+
+def hog_in_c(_: Any) -> int:
+    """The same inside a library, which knows no MemoryError."""
+    return int((flint.fmpz(3) ** (1 << 33)).bit_length())
+
+
+def crash(_: Any) -> None:
+    """Read what is not there."""
+    ctypes.string_at(0)
+
+
+def fail(said: str) -> None:
+    """Raise."""
+    raise KeyError(said)
+
+
+def leave(status: int) -> None:
+    """End the process."""
+    os._exit(status)
+
+
+def unwritable(_: Any) -> object:
+    """Answer what json cannot write."""
+    return object()
