@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import time
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,11 +12,12 @@ from flint import ctx
 from dofkit import expr as ex
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, uses_time
+from dofkit.bounded import checked, in_worker
 from dofkit.choice import generalized
 from dofkit.conflicts import conflict
 from dofkit.constancy import about_constants
 from dofkit.count import Facts, count
-from dofkit.deadline import DEFAULT_SECONDS, limited
+from dofkit.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.dependence import merged, redundancies
 from dofkit.exact.balls import PRECISION
 from dofkit.expr import Expr
@@ -26,6 +28,7 @@ from dofkit.methods import METHODS, MethodName
 from dofkit.normal import Finite
 from dofkit.report import ConstraintEntry, ForceEntry, Redundancy, Report, weakest
 from dofkit.scene import Scene
+from dofkit.sketch import blank, sketch
 from dofkit.solving import Outcome, Reduced, reduce_all, solve
 from dofkit.system import System
 from dofkit.together import Companionship
@@ -33,18 +36,63 @@ from dofkit.together import Companionship
 _BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
 
 
+_UNWATCHED = "No worker process could be started here: the time was watched, but nothing would have been killed."
+
+
 def classify(scene: Scene | System, budget: float | None = None, method: MethodName = "auto") -> Report:
     """How the system of ``scene`` can move.
 
-    ``budget``: seconds for the scene (60 where none is given); what is not finished then is undecided.
-    ``method``: a name of `METHODS`; one engine alone leaves open what it cannot answer.
+    ``budget``: seconds for the scene; what is not finished then is undecided. The work is then done in a process of
+    its own, which is killed where it does not end by itself (1 s or a quarter of the budget later), or needs too much
+    memory: then everything is undecided, and the reason says so. Without a budget it is done here, and no new part of
+    it is begun after 60 s. ``method``: a name of `METHODS`; one engine alone leaves open what it cannot answer.
     Raises `SceneError` with every fault where the scene cannot be read as mathematics.
     """
-    system, reduced, setting = _prepared(scene)
-    setting = replace(setting, engines=METHODS[method].engines)
-    with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
-        outcome = solve(system, reduced, setting)
-        report = _report(system, reduced, setting, outcome)
+    if budget is None:
+        return _classified(scene, DEFAULT_SECONDS, method)
+    seconds = checked(budget)
+    report = in_worker(scene, seconds, method)
+    if report is not None:
+        return report
+    report = _classified(scene, seconds, method)
+    return report.model_copy(update={"warnings": [*report.warnings, _UNWATCHED]})
+
+
+def stages(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Iterator[Report]:
+    """A report in which all is undecided, at once, and then what `classify` finds within so many seconds."""
+    until = time.monotonic() + seconds
+    system = _lowered(scene, seconds)
+    if isinstance(system, Report):
+        yield system
+        return
+    yield sketch(system, OUT_OF_TIME)
+    yield _classified(system, until - time.monotonic(), method)
+
+
+def _lowered(scene: Scene | System, seconds: float) -> System | Report:
+    """The scene's mathematics; where there is no time even for that, a report that says so."""
+    if isinstance(scene, System):
+        return scene
+    try:
+        with limited(seconds):
+            return lower(scene)
+    except OutOfTimeError as error:
+        return blank(scene, str(error))
+
+
+def _classified(scene: Scene | System, seconds: float, method: MethodName) -> Report:
+    until = time.monotonic() + seconds
+    system = _lowered(scene, seconds)
+    if isinstance(system, Report):
+        return system
+    try:
+        with limited(until - time.monotonic()), ctx.workprec(PRECISION):
+            reduced, setting = _prepared(system)
+            setting = replace(setting, engines=METHODS[method].engines)
+            outcome = solve(system, reduced, setting)
+            report = _report(system, reduced, setting, outcome)
+    except OutOfTimeError as error:
+        return sketch(system, str(error))
     return report if method == "auto" else _by_one_engine(report, outcome, method)
 
 
@@ -52,12 +100,17 @@ def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int
     """The ranks of the codistribution I, of I', I'', ... down to its largest integrable part, at a generic point.
 
     I is spanned by the differentials of the finite relations and the Pfaffian forms of ``scene``; I' holds the forms
-    of I whose differential vanishes modulo I. None where that is not certain, or a relation is nonlinear in the
-    velocities. Probable: exact arithmetic at random points. Raises `SceneError` as `classify` does.
+    of I whose differential vanishes modulo I. None where that is not certain in the time there is (no new part of the
+    work is begun after it), or a relation is nonlinear in the velocities. Probable: exact arithmetic at random points.
+    Raises `SceneError` as `classify` does.
     """
-    system, reduced, setting = _prepared(scene)
-    with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
-        outcome = solve(system, reduced, replace(setting, flag=True))
+    system = scene if isinstance(scene, System) else lower(scene)
+    try:
+        with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
+            reduced, setting = _prepared(system)
+            outcome = solve(system, reduced, replace(setting, flag=True))
+    except OutOfTimeError:
+        return None
     ranks = [a.derived for a in outcome.answers]
     if not outcome.consistent or any(b.nonlinear for b in outcome.blocks):
         return None
@@ -67,9 +120,8 @@ def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int
     return [sum(r[min(k, len(r) - 1)] for r in known) for k in range(max(map(len, known), default=0))]
 
 
-def _prepared(scene: Scene | System) -> tuple[System, list[Reduced], Setting]:
-    """The mathematics, each relation as what it says, and what may be assumed of the symbols."""
-    system = scene if isinstance(scene, System) else lower(scene)
+def _prepared(system: System) -> tuple[list[Reduced], Setting]:
+    """Each relation as what it says, and what may be assumed of the symbols."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
     reduced = reduce_all(system, positive)
@@ -82,7 +134,7 @@ def _prepared(scene: Scene | System) -> tuple[System, list[Reduced], Setting]:
         system.tolerance,
         system.size,
     )
-    return system, reduced, setting
+    return reduced, setting
 
 
 def _by_one_engine(report: Report, outcome: Outcome, method: MethodName) -> Report:

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import sys
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from contextlib import closing
+from typing import Annotated, Any, cast
 
 import typer
 
 from dofkit import __version__
-from dofkit.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.errors import Fault, SceneError
 from dofkit.methods import METHODS, MethodName
-
-if TYPE_CHECKING:
-    from dofkit.documents import Document
-    from dofkit.report import Report
 
 app = typer.Typer(
     name="dofkit",
@@ -33,12 +31,14 @@ app.add_typer(catalog_app, name="catalog")
 
 #: The exit status where something could not be read, and after Ctrl-C.
 UNREADABLE, INTERRUPTED = 2, 130
-_STDIN = "stdin"
 
 Files = Annotated[list[str], typer.Argument(metavar="FILE...", help="Scenes: paths, catalog names, - for stdin.")]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object a line, in the order given.")]
 Budget = Annotated[
-    float | None, typer.Option("--budget", metavar="SECONDS", min=0, help="Begin no new part of a scene after this.")
+    float | None,
+    typer.Option(
+        "--budget", metavar="SECONDS", min=0, help="Seconds for each scene; what is not finished is undecided."
+    ),
 ]
 
 
@@ -74,18 +74,16 @@ def dofkit(
 @app.command()
 def classify(files: Files, as_json: AsJson = False, budget: Budget = None, method: Method = "auto") -> None:
     """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
+    from dofkit.watched import told
+
+    if budget is not None and math.isnan(budget):
+        raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
     failed = False
-    for file in files:
-        told = _Told(file)
-        report = told.classified(budget, cast(MethodName, method))
-        if report is None:
-            failed = True
-            _print_errors(told, as_json)
-        elif as_json:
-            _line(report.model_dump(mode="json"))
-        else:
-            _print_report(report, told.title)
-        sys.stdout.flush()
+    with closing(told(files, budget, cast(MethodName, method), as_json)) as stream:
+        for out, err, unread in stream:
+            typer.echo(out, nl=False)
+            typer.echo(err, nl=False, err=True)
+            failed = failed or unread
     if failed:
         raise typer.Exit(UNREADABLE)
 
@@ -117,7 +115,7 @@ def catalog_show(name: Annotated[str, typer.Argument(help="A scene's name.")]) -
     try:
         typer.echo(catalog_text(name), nl=False)
     except SceneError as error:
-        _complain(name, error.faults, None)
+        _complain(name, error.faults)
         raise typer.Exit(UNREADABLE) from None
 
 
@@ -129,90 +127,11 @@ def schema() -> None:
     typer.echo(json.dumps(Scene.model_json_schema(), indent=2))
 
 
-class _Told:
-    """One file on its way to a report, and what went wrong with it."""
-
-    def __init__(self, file: str) -> None:
-        self.file = file
-        stem = os.path.splitext(os.path.basename(os.path.normpath(file)))[0]
-        self.name = _STDIN if file == "-" else stem.encode("utf-8", "replace").decode("utf-8")
-        self.title: str | None = None
-        self.document: Document | None = None
-        self.faults: tuple[Fault, ...] = ()
-
-    def classified(self, budget: float | None, method: MethodName) -> Report | None:
-        """The report, or None with ``faults``."""
-        try:
-            return self._classified(budget, method)
-        except SceneError as error:
-            self.faults = error.faults
-        except TextError as error:
-            self.faults = (Fault(error.message, hint=error.hint),)
-        except DofkitError as error:
-            self.faults = (Fault(str(error)),)
-        except Exception as error:
-            self.faults = (internal(error),)
-        return None
-
-    def _classified(self, budget: float | None, method: MethodName) -> Report:
-        from dofkit.classify import classify
-        from dofkit.reading import SceneFile, find
-
-        if self.file == "-":
-            file = SceneFile.read(_stdin(), _STDIN)
-        else:
-            self.name, data = find(self.file)
-            file = SceneFile.read(data, self.name)
-        self.document = file.document
-        scene = file.scene(checked=False)
-        self.title = scene.title
-        try:
-            return classify(scene, budget=budget, method=method)
-        except SceneError as error:
-            raise file.located(error) from None
-
-
-def internal(error: Exception) -> Fault:
-    """A fault of dofkit's own, told in one line."""
-    said = " ".join(str(error).split())[:200]
-    message = f"internal error, {type(error).__name__}" + (f": {said}" if said else "")
-    return Fault(message, hint="this is a fault of dofkit, please report it with this scene")
-
-
-def _stdin() -> bytes:
-    from dofkit.documents.document import MOST_BYTES
-
-    return sys.stdin.buffer.read(MOST_BYTES + 1)
-
-
-def _print_report(report: Report, title: str | None) -> None:
-    from rich.console import Console
-
-    from dofkit.show.terminal import as_text
-
-    typer.echo(as_text(report, title, Console()) + "\n")
-
-
-def _print_errors(told: _Told, as_json: bool) -> None:
-    if as_json:
-        _line({"scene": told.name, "error": error_object(told.faults)})
-    else:
-        _complain(told.file if told.file != "-" else _STDIN, told.faults, told.document)
-
-
-def error_object(faults: Iterable[Fault]) -> dict[str, Any]:
-    """The first fault, with all further ones under ``faults``."""
-    first, *others = [
-        {"message": fault.message, "line": fault.line, "column": fault.column, "hint": fault.hint} for fault in faults
-    ] or [{"message": "unknown error", "line": None, "column": None, "hint": None}]
-    return {**first, "faults": others}
-
-
-def _complain(file: str, faults: Iterable[Fault], document: Document | None) -> None:
+def _complain(file: str, faults: Iterable[Fault]) -> None:
     from dofkit.show.faults import complaint
 
     sys.stdout.flush()
-    typer.echo(complaint(file, tuple(faults), document), err=True)
+    typer.echo(complaint(file, tuple(faults), None), err=True)
 
 
 def _line(value: Any) -> None:

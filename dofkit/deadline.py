@@ -11,6 +11,8 @@ from dofkit.errors import DofkitError
 
 #: Seconds for one scene where the caller gives no budget.
 DEFAULT_SECONDS = 60.0
+#: Past that, work has so many seconds (or that part of the time, if it is more) to see it and to end by itself.
+GRACE_SECONDS, GRACE_PART = 1.0, 0.25
 OUT_OF_TIME = "the time allowed for the scene was used up"
 
 _until: ContextVar[float] = ContextVar("until", default=float("inf"))
@@ -18,6 +20,11 @@ _until: ContextVar[float] = ContextVar("until", default=float("inf"))
 
 class OutOfTimeError(DofkitError):
     """The time allowed for the scene was used up; what was asked is undecided."""
+
+
+def limit(seconds: float) -> float:
+    """The seconds after which work is killed that should have ended by itself after ``seconds``."""
+    return seconds + max(GRACE_SECONDS, GRACE_PART * seconds)
 
 
 @contextmanager

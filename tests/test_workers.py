@@ -1,0 +1,424 @@
+"""Workers: whatever a job does, there is an answer in time, and the next job finds a worker."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import pytest
+import worker_jobs
+
+import dofkit
+from dofkit.workers import Job, Pool, Worker
+
+HERE = Path(__file__).parent
+SMALL = 1 << 29
+#: One factorisation of its second equation takes minutes inside flint, where nothing asks for the time.
+ENDLESS = {
+    "coordinates": ["x", "y", "z", "u", "v"],
+    "particles": ["A"],
+    "constraints": [
+        {"name": "first", "type": "equation", "text": "x dy = du"},
+        {"name": "second", "type": "equation", "text": "x^64 y^64 z^64 + 1 = u^64 v^64"},
+        "x >= 0",
+    ],
+}
+GOOD = {"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}
+posix = pytest.mark.skipif(os.name == "nt", reason="signals and limits")
+
+
+@pytest.fixture(scope="module")
+def worker() -> Iterator[Worker]:
+    made = Worker(SMALL)
+    yield made
+    made.kill()
+
+
+def taken(work: Callable[[], object]) -> float:
+    start = time.monotonic()
+    work()
+    return time.monotonic() - start
+
+
+def script(code: str, *arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:
+    """Run ``code`` as a program of its own that has no guard."""
+    paths = os.pathsep.join([str(HERE), str(HERE.parent), os.environ.get("PYTHONPATH", "")])
+    command = [sys.executable, *(arguments or ("-c", code))]
+    settings: dict[str, Any] = {"capture_output": True, "text": True, "timeout": 60, **options}
+    return subprocess.run(command, check=False, env={**os.environ, "PYTHONPATH": paths}, **settings)
+
+
+def gone(pid: int, seconds: float) -> bool:
+    """Does the process end within so many seconds?"""
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        try:
+            os.kill(pid, 0)
+            if "\nState:\tZ" in Path(f"/proc/{pid}/status").read_text():
+                return True
+        except (ProcessLookupError, FileNotFoundError):
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def written(path: Path) -> int:
+    """The number that a job leaves in a file, as soon as it is there."""
+    until = time.monotonic() + 20
+    while time.monotonic() < until:
+        if path.exists() and path.read_text():
+            return int(path.read_text())
+        time.sleep(0.02)
+    raise AssertionError("the job did not begin")
+
+
+# -- one worker ------------------------------------------------------------------------------------
+
+
+def test_a_job_is_answered_by_the_same_warm_process(worker: Worker) -> None:
+    payload = {"a": [1, 2.5, None, "θ\ud800"], "b": (3,)}
+    assert worker.run(Job(worker_jobs.same, payload, 10)).value == {"a": [1, 2.5, None, "θ\ud800"], "b": [3]}
+    first, second = (worker.run(Job("worker_jobs:process", None, 10)).value for _ in range(2))
+    assert first == second != os.getpid()
+
+
+def test_what_was_told_last_stands_where_the_job_is_killed(worker: Worker) -> None:
+    outcome = worker.run(Job(worker_jobs.count, 3, 0.3))
+    assert (outcome.value, outcome.ended, outcome.finished) == (2, "overrun", False)
+    assert outcome.reason == "the worker process was killed after 0.3 s"
+    assert worker.run(Job(worker_jobs.count, 0, 0.1)).value is None
+
+
+def test_the_clock_runs_from_one_thing_told_to_the_next(worker: Worker) -> None:
+    assert worker.run(Job(worker_jobs.patient, 4, 0.6)).finished
+    assert worker.run(Job(worker_jobs.patient, 2, 0.01, first=5)).ended == "overrun"
+    assert worker.run(Job(worker_jobs.patient, 2, 5, first=0.01)).value is None
+
+
+@pytest.mark.parametrize(
+    ("function", "payload", "ended", "reason"),
+    [
+        (worker_jobs.sleep, 60, "overrun", "killed after 0.5 s"),
+        (worker_jobs.stuck, "", "overrun", "killed after 0.5 s"),
+        (worker_jobs.busy, "", "overrun", "killed after 0.5 s"),
+        (worker_jobs.fail, "no", "failed", "KeyError: 'no'"),
+        (worker_jobs.unwritable, None, "failed", "TypeError"),
+        (worker_jobs.leave, 3, "died", "the worker process ended with exit status 3"),
+        ("worker_jobs:nothing", None, "failed", "no attribute 'nothing'"),
+        ("no_such_module:nothing", None, "failed", "ModuleNotFoundError"),
+    ],
+)
+def test_whatever_a_job_does_there_is_an_answer(
+    worker: Worker, function: Any, payload: Any, ended: str, reason: str
+) -> None:
+    seconds = 0.5 if ended == "overrun" else 30
+    outcome = worker.run(Job(function, payload, seconds))
+    assert (outcome.value, outcome.ended) == (None, ended)
+    assert reason in outcome.reason
+    assert worker.run(Job(worker_jobs.same, 7, 30)).value == 7
+
+
+@posix
+@pytest.mark.parametrize(
+    ("function", "ended", "reason"),
+    [
+        (worker_jobs.hog, "memory", "more than 0.5 GiB of memory would have been needed"),
+        (worker_jobs.hog_in_c, "died", "was ended by SIGABRT"),
+        (worker_jobs.crash, "died", "was ended by SIGSEGV"),
+    ],
+)
+def test_want_of_memory_and_crashes_end_the_job_only(worker: Worker, function: Any, ended: str, reason: str) -> None:
+    outcome = worker.run(Job(function, None, 30))
+    assert outcome.ended == ended
+    assert reason in outcome.reason
+    assert worker.run(Job(worker_jobs.same, 7, 30)).value == 7
+
+
+@posix
+def test_a_worker_that_is_killed_from_outside_is_replaced(tmp_path: Path) -> None:
+    worker, path = Worker(), tmp_path / "pid"
+    with ThreadPoolExecutor(1) as threads:
+        future = threads.submit(worker.run, Job(worker_jobs.busy, str(path), 30))
+        os.kill(written(path), signal.SIGKILL)
+        assert future.result(10).reason == "the worker process was ended by SIGKILL"
+    idle = worker.run(Job(worker_jobs.process, None, 30)).value
+    os.kill(idle, signal.SIGKILL)
+    time.sleep(0.2)
+    assert worker.run(Job(worker_jobs.process, None, 30)).value != idle
+    worker.kill()
+
+
+def test_a_worker_that_cannot_start_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert Worker(modules=["no_such_module"]).run(Job(worker_jobs.same, 1, 5)).ended == "absent"
+    monkeypatch.setattr(sys, "executable", "/no/such/python")
+    outcome = Worker().run(Job(worker_jobs.same, 1, 5))
+    assert (outcome.ended, "no worker process could be started" in outcome.reason) == ("absent", True)
+
+
+def test_a_function_that_no_other_process_can_import_is_refused() -> None:
+    with pytest.raises(ValueError, match="cannot import"):
+        Worker().run(Job(lambda payload: payload, 1, 5))
+
+
+# -- several ---------------------------------------------------------------------------------------
+
+
+def test_threads_share_a_pool() -> None:
+    with Pool(2) as pool, ThreadPoolExecutor(8) as threads:
+        found = threads.map(lambda i: pool.run(Job(worker_jobs.same, i, 30)).value, range(200))
+        assert list(found) == list(range(200))
+
+
+def test_a_stream_of_jobs_is_answered_as_they_finish() -> None:
+    asked: list[int] = []
+
+    def jobs() -> Iterator[Job]:
+        for i in range(30):
+            asked.append(i)
+            yield Job(worker_jobs.sleep, 0.9 if i == 0 else 0.0, 10)
+
+    with Pool(2) as pool:
+        stream = pool.map_unordered(jobs())
+        assert next(stream)[0].payload == 0.0
+        assert len(asked) <= 2 * 2
+        values = [outcome.value for _, outcome in stream]
+    assert values.index(0.9) > 5
+    assert Counter(values) == {0.0: 28, 0.9: 1}
+
+
+def test_bad_jobs_do_not_stop_the_others() -> None:
+    jobs = [Job(f, p, 5) for f, p in [(worker_jobs.leave, 1), (worker_jobs.fail, ""), (worker_jobs.same, 1)] * 5]
+    with Pool(2) as pool:
+        ended = Counter(outcome.ended for _, outcome in pool.map_unordered(jobs))
+    assert ended == {"died": 5, "failed": 5, "done": 5}
+
+
+def test_whoever_stops_early_leaves_nothing_running(tmp_path: Path) -> None:
+    path = tmp_path / "pid"
+    with Pool(2) as pool:
+        stream = pool.map_unordered([Job(worker_jobs.busy, str(path), 60), Job(worker_jobs.sleep, 0.5, 60)])
+        assert next(stream)[1].value == 0.5
+        assert taken(stream.close) < 3
+        assert gone(written(path), 3)
+
+
+# -- what is left behind -----------------------------------------------------------------------------
+
+LEFT = """
+import os, sys, worker_jobs
+from dofkit.workers import Job, Pool, Worker
+pool = Pool(2)
+worker = Worker()
+pids = [worker.run(Job(worker_jobs.process, None, 30)).value]
+pids += [outcome.value for _, outcome in pool.map_unordered([Job(worker_jobs.process, None, 30)] * 8)]
+worker.run(Job(worker_jobs.leave, 1, 30))
+print(*set(pids), flush=True)
+"""
+
+
+@posix
+@pytest.mark.parametrize("ending", ["", "sys.exit(3)", "raise ValueError", "os.kill(os.getpid(), 9)"])
+def test_no_process_is_left_behind(ending: str) -> None:
+    ended = script(LEFT + ending)
+    pids = [int(pid) for pid in ended.stdout.split()]
+    assert pids
+    assert all(gone(pid, 3) for pid in pids)
+
+
+@posix
+@pytest.mark.parametrize(("job", "within"), [("busy", 3), ("stuck", 8)])
+def test_a_worker_dies_with_its_parent_in_the_middle_of_a_job(job: str, within: float, tmp_path: Path) -> None:
+    """In Python it hears that the pipe is closed; inside a library its own alarm ends it."""
+    path = tmp_path / "pid"
+    code = f"import worker_jobs as w\nfrom dofkit.workers import *\nWorker().run(Job(w.{job}, {str(path)!r}, 1))"
+    paths = os.pathsep.join([str(HERE), str(HERE.parent)])
+    with subprocess.Popen([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": paths}) as parent:
+        pid = written(path)
+        parent.kill()
+    assert gone(pid, within)
+
+
+@posix
+def test_a_killed_worker_is_no_zombie() -> None:
+    waited = "try: os.waitpid(-1, os.WNOHANG)\nexcept ChildProcessError: print('none')"
+    assert script(LEFT + "worker.kill(); pool.close()\n" + waited).stdout.splitlines()[-1] == "none"
+
+
+@posix
+def test_a_fork_of_the_parent_has_workers_of_its_own() -> None:
+    code = LEFT + (
+        "pid = os.fork()\n"
+        "found = worker.run(Job(worker_jobs.same, 5, 30)).value, pool.run(Job(worker_jobs.same, 5, 30)).value\n"
+        "if pid: os.waitpid(pid, 0)\n"
+        "print(found, flush=True)\n"
+    )
+    assert script(code).stdout.splitlines()[1:] == ["(5, 5)", "(5, 5)"]
+
+
+# -- a scene within its budget -----------------------------------------------------------------------
+
+
+def test_within_its_budget_a_scene_has_the_same_report() -> None:
+    for name in dofkit.catalog_names()[::6]:
+        assert dofkit.classify(dofkit.load(name), budget=60) == dofkit.classify(dofkit.load(name)), name
+
+
+def test_without_time_everything_is_undecided_but_named() -> None:
+    for budget in (0, 0.001, -1):
+        report = dofkit.classify(dofkit.load(ENDLESS), budget=budget)
+        assert (report.verdict, report.dof, report.consistent) == ("undecided", None, None)
+        assert [entry.name for entry in report.constraints] == ["first", "second", "c3"]
+
+
+def test_work_that_hears_no_deadline_is_killed() -> None:
+    """8 coordinates, one finite equation as written: the lecture's count is 7."""
+    dofkit.classify(dofkit.load(GOOD), budget=10)
+    scene = dofkit.load(ENDLESS)
+    start = time.monotonic()
+    report = dofkit.classify(scene, budget=0.3)
+    assert 1.2 < time.monotonic() - start < 4
+    assert [(e.form, e.bilateral, e.equations) for e in report.constraints] == [
+        ("pfaffian", True, 1), ("finite", True, 1), ("inequality", False, 0),
+    ]  # fmt: skip
+    assert {e.verdict for e in report.constraints} == {report.verdict} == {"undecided"}
+    assert report.count.coordinates == 8
+    assert report.count.naive_dof == 7
+    assert report.constraints[1].reason == "Not decided: the worker process was killed after 1.3 s."
+    assert report.warnings == ["Nothing was decided: the worker process was killed after 1.3 s."]
+    assert dofkit.classify(dofkit.load(GOOD), budget=10).dof == 1
+
+
+def test_faults_come_back_as_they_are() -> None:
+    made = {"coordinates": ["x"], "constraints": ["dx + 1 = 0", "x = 1"]}
+    scene = dofkit.Scene.model_validate({"name": "bad", **made})
+    told = []
+    for budget in (None, 10.0):
+        with pytest.raises(dofkit.SceneError) as caught:
+            dofkit.classify(scene, budget)
+        told.append((caught.value.faults, caught.value.source, str(caught.value)))
+    assert told[0] == told[1]
+
+
+def test_a_budget_is_a_number() -> None:
+    with pytest.raises(ValueError, match="seconds"):
+        dofkit.classify(dofkit.load(GOOD), budget=math.nan)
+    assert dofkit.classify(dofkit.load(GOOD), budget=math.inf).dof == 1
+
+
+def test_where_no_process_can_start_the_time_is_watched(monkeypatch: pytest.MonkeyPatch) -> None:
+    import dofkit.workers.pool as pools
+
+    monkeypatch.setattr(sys, "executable", "/no/such/python")
+    monkeypatch.setattr(pools, "_shared", lambda process: Pool(1))
+    report = dofkit.classify(dofkit.load(GOOD), budget=10)
+    assert report.dof == 1
+    assert "nothing would have been killed" in report.warnings[-1]
+
+
+def test_scenes_in_many_threads() -> None:
+    plain = dofkit.classify(dofkit.load(GOOD))
+    with ThreadPoolExecutor(6) as threads:
+        found = list(threads.map(lambda _: dofkit.classify(dofkit.load(GOOD), budget=30), range(24)))
+    assert all(report == plain for report in found)
+    assert threading.active_count() < 20
+
+
+UNGUARDED = """
+print("once")
+import dofkit
+print(dofkit.classify(dofkit.load({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}), budget=30).dof)
+"""
+
+
+def test_a_script_needs_no_guard(tmp_path: Path) -> None:
+    (tmp_path / "script.py").write_text(UNGUARDED)
+    for told in (script(UNGUARDED), script("", str(tmp_path / "script.py"))):
+        assert (told.stdout.split(), told.stderr) == (["once", "1"], "")
+
+
+@posix
+def test_closed_standard_streams_do_no_harm(tmp_path: Path) -> None:
+    report = f"dofkit.classify(dofkit.load({GOOD}), budget=30)"
+    closed = "import os, dofkit\nfor i in range(3): os.close(i)\n"
+    script(closed + f"open('told', 'w').write({report}.verdict)", cwd=tmp_path)
+    assert (tmp_path / "told").read_text() == "proved"
+
+
+def test_a_file_in_the_working_folder_is_not_run(tmp_path: Path) -> None:
+    for name in ("flint.py", "struct.py", "dofkit.py"):
+        (tmp_path / name).write_text("open('it-ran', 'w')")
+    code = "import os, sys; sys.path[:] = [p for p in sys.path if p]\n" + UNGUARDED
+    assert script(code, cwd=tmp_path).stdout.split() == ["once", "1"]
+    assert not (tmp_path / "it-ran").exists()
+
+
+# -- the command line ----------------------------------------------------------------------------------
+
+
+def command(*arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:
+    return script("", "-m", "dofkit", "classify", *arguments, **options)
+
+
+def test_a_scene_without_end_does_not_stop_the_others(tmp_path: Path) -> None:
+    files = [tmp_path / name for name in ("first.json", "endless.json", "last.json")]
+    for file, scene in zip(files, (GOOD, ENDLESS, GOOD), strict=True):
+        file.write_text(json.dumps(scene))
+    told = command("--json", "--budget", "0.3", *map(str, files))
+    reports = [json.loads(line) for line in told.stdout.splitlines()]
+    assert (told.returncode, told.stderr) == (0, "")
+    assert [(r["scene"], r["verdict"]) for r in reports] == [
+        ("first", "proved"), ("endless", "undecided"), ("last", "proved"),
+    ]  # fmt: skip
+    told = command("--budget", "0.3", str(files[1]))
+    assert "Nothing was decided: the worker process was killed after" in " ".join(told.stdout.split())
+
+
+CRASHING = """
+import sys, worker_jobs, dofkit.telling as telling, dofkit.cli
+real = telling.SceneFile.read
+def read(data, name):
+    if name in ("crash", "hog", "sleep"):
+        getattr(worker_jobs, name)(60)
+    return real(data, name)
+telling.SceneFile.read = read
+import dofkit.watched
+dofkit.watched.limit = lambda seconds: 1.0
+sys.argv = ["dofkit", "classify", *sys.argv[1:]]
+dofkit.cli.main()
+"""
+
+
+@posix
+@pytest.mark.parametrize("how", ["crash", "sleep"])
+def test_a_file_that_kills_its_reader_is_an_error_on_its_line(how: str, tmp_path: Path) -> None:
+    for name in (how, "good"):
+        (tmp_path / f"{name}.json").write_text(json.dumps(GOOD))
+    files = [str(tmp_path / f"{name}.json") for name in ("good", how, "good")]
+    told = script("", "-c", CRASHING, "--json", *files)
+    lines = [json.loads(line) for line in told.stdout.splitlines()]
+    assert (told.returncode, told.stderr) == (2, "")
+    assert [line["scene"] for line in lines] == ["good", how, "good"]
+    assert lines[1]["error"]["message"].startswith("it could not be read: the worker process was")
+    told = script("", "-c", CRASHING, files[1])
+    assert (told.returncode, told.stdout) == (2, "")
+    assert told.stderr.startswith(f"{files[1]}: error: it could not be read")
+
+
+@posix
+def test_a_pipe_is_a_file(tmp_path: Path) -> None:
+    (tmp_path / "good.json").write_text(json.dumps(GOOD))
+    line = f"{sys.executable} -m dofkit classify --json <(sleep 0.3; cat good.json) -"
+    told = script("", "-c", f"import subprocess\nsubprocess.run(['bash', '-c', {line!r}], check=True)",
+                  cwd=tmp_path, input="coordinates: [x]\n")  # fmt: skip
+    assert [json.loads(line)["dof"] for line in told.stdout.splitlines()] == [1, 1]
