@@ -40,7 +40,7 @@ posix = pytest.mark.skipif(os.name == "nt", reason="signals and limits")
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[Worker]:
-    made = Worker(SMALL)
+    made = Worker(SMALL, modules=["worker_jobs"])
     yield made
     made.kill()
 
@@ -94,16 +94,16 @@ def test_a_job_is_answered_by_the_same_warm_process(worker: Worker) -> None:
 
 
 def test_what_was_told_last_stands_where_the_job_is_killed(worker: Worker) -> None:
-    outcome = worker.run(Job(worker_jobs.count, 3, 0.3))
+    outcome = worker.run(Job(worker_jobs.count, 3, 0.3, first=30))
     assert (outcome.value, outcome.ended, outcome.finished) == (2, "overrun", False)
     assert outcome.reason == "the worker process was killed after 0.3 s"
     assert worker.run(Job(worker_jobs.count, 0, 0.1)).value is None
 
 
 def test_the_clock_runs_from_one_thing_told_to_the_next(worker: Worker) -> None:
-    assert worker.run(Job(worker_jobs.patient, 4, 0.6)).finished
-    assert worker.run(Job(worker_jobs.patient, 2, 0.01, first=5)).ended == "overrun"
-    assert worker.run(Job(worker_jobs.patient, 2, 5, first=0.01)).value is None
+    assert worker.run(Job(worker_jobs.patient, 6, 1.0)).finished
+    assert worker.run(Job(worker_jobs.patient, 2, 0.01, first=30)).value == 0
+    assert worker.run(Job(worker_jobs.patient, 2, 30, first=0.01)).value is None
 
 
 @pytest.mark.parametrize(
@@ -169,6 +169,13 @@ def test_a_worker_that_cannot_start_is_told(monkeypatch: pytest.MonkeyPatch) -> 
 def test_a_function_that_no_other_process_can_import_is_refused() -> None:
     with pytest.raises(ValueError, match="cannot import"):
         Worker().run(Job(lambda payload: payload, 1, 5))
+
+
+def test_a_worker_that_holds_much_memory_is_replaced_after_the_job() -> None:
+    worker = Worker(SMALL, modules=["worker_jobs"])
+    first, second = (worker.run(Job(worker_jobs.keep, SMALL // 3, 30)).value for _ in range(2))
+    assert (first != second) == Path("/proc/self/statm").exists()
+    worker.kill()
 
 
 # -- several ---------------------------------------------------------------------------------------

@@ -68,6 +68,15 @@ def hog(_: Any) -> int:
         taken.append(bytearray(1 << 24))
 
 
+KEPT: list[bytearray] = []
+
+
+def keep(size: int) -> int:
+    """Take memory for good, and tell the number of this process."""
+    KEPT.append(bytearray(b"1" * size))
+    return os.getpid()
+
+
 def hog_in_c(_: Any) -> int:
     """The same inside a library, which knows no MemoryError."""
     return int((flint.fmpz(3) ** (1 << 33)).bit_length())

@@ -35,6 +35,8 @@ def main() -> None:
 def serve(down: int, up: int, memory: int, modules: Sequence[str]) -> None:
     """Answer the jobs that come ``down`` until the parent closes that pipe; first import ``modules``."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "SIGALRM"):
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
     bound(memory)
     for module in modules:
         import_module(module)

@@ -15,7 +15,7 @@ if sys.platform != "win32":
 SPARE = 2.0
 #: Longer than this is without end.
 LONGEST = 1e8
-#: A process that has grown past this part of its memory is replaced after the job.
+#: A process that holds more than this part of its memory is replaced after the job.
 GROWN = 0.25
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 
@@ -44,11 +44,15 @@ def allow(seconds: float) -> None:
 
 
 def grown(memory: int) -> bool:
-    """Has this process taken much of the memory that it may have?"""
-    if sys.platform == "win32":
+    """Does this process hold much of the memory that it may have? False where the system does not say.
+
+    The peak that `resource` knows will not do: it begins with that of the parent.
+    """
+    try:
+        with open("/proc/self/statm", encoding="ascii") as pages:
+            return int(pages.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") > GROWN * memory
+    except (OSError, AttributeError, ValueError):
         return False
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit > GROWN * memory
 
 
 if sys.platform != "win32":
