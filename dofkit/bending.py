@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 from flint import arb
 
 from dofkit import expr as ex
@@ -17,11 +16,11 @@ from dofkit.exact.balls import (
     BallPoint,
     OutsideDomainError,
     RealSearch,
-    independent_part,
 )
 from dofkit.exact.field import FieldPoint
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
+from dofkit.exact.ranks import ball_part
 from dofkit.exact.ring import Ring, independent_generators
 from dofkit.exact.sparse import sparse
 from dofkit.forms import Frame, certified_rank, kernel
@@ -128,9 +127,9 @@ def _curved(
         for node in nodes:
             g = gradient(ring, at, point, [(node, arb(1))])
             rows.append([g.get(c, arb(0)) if c is not None else arb(0) for c in columns])
-        _, _, kept, pivots = independent_part(np.array([[float(v.mid()) for v in row] for row in rows]))
-        free = tuple(c for c in range(len(columns)) if c not in set(pivots))
-        tangent = kernel(rows, Frame(tuple(kept), tuple(pivots), free), arb(0))
+        part = ball_part(rows)
+        free = tuple(c for c in range(len(columns)) if c not in set(part.columns))
+        tangent = kernel(rows, Frame(tuple(part.rows), tuple(part.columns), free), arb(0))
         return any(_bends(at, h, u, v) for h in hessians for i, u in enumerate(tangent) for v in tangent[: i + 1])
     except (OutsideDomainError, ZeroDivisionError):
         return False

@@ -9,7 +9,6 @@ from itertools import islice
 from itertools import product as cartesian
 from typing import Any
 
-import numpy as np
 from flint import arb, nmod_mat
 
 from dofkit import expr as ex
@@ -21,18 +20,17 @@ from dofkit.exact.balls import (
     BallPoint,
     OutsideDomainError,
     RealPoint,
-    dependency_pattern,
-    independent_part,
 )
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.program import values
+from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.ring import Scalar, independent_generators
 from dofkit.exact.sparse import sparse
 from dofkit.expr import Expr
 from dofkit.finite import dependent_names
 from dofkit.flag import derived_flag, growth
 from dofkit.flow import Span, lie_span
-from dofkit.forms import Frame, Rows, certified_rank, field_frame, pairing
+from dofkit.forms import Frame, Rows, field_frame, pairing
 from dofkit.hidden import hidden_relation
 from dofkit.local import CLEAR, ball_matrix, ball_point
 from dofkit.normal import Finite, Nonlinear, Pfaffian, Still, with_constants
@@ -99,12 +97,8 @@ def _first_order_by_balls(forms: Codistribution, reference: Mapping[Expr, Expr])
         matrix = forms.rows.matrix(values(forms.chart.ring, ball), arb(0))
     except (ZeroDivisionError, OutsideDomainError):
         return None
-    rank, gap, _, _ = independent_part(_middles(matrix)[:, : forms.n])
-    return forms.n - rank if gap > CLEAR else None
-
-
-def _middles(matrix: Sequence[Sequence[arb]]) -> np.ndarray:
-    return np.array([[float(v.mid()) for v in row] for row in matrix])
+    part = ball_part([row[: forms.n] for row in matrix])
+    return forms.n - part.rank if part.gap > CLEAR else None
 
 
 def confined(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], ...] | None:
@@ -123,8 +117,7 @@ def confined(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], .
         balls = forms.rows.matrix(values(forms.chart.ring, found.real.point), arb(0))
     except (OutsideDomainError, ZeroDivisionError):
         return None
-    j = _middles(balls)
-    free = independent_part(j[:, :n])[0] == independent_part(j)[0]
+    free = ball_part([row[:n] for row in balls]).rank == ball_part(balls).rank
     return None if free else hidden_relation(forms.rows, n, found.real.point)
 
 
@@ -172,12 +165,12 @@ def _ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span
     """The Lie algebra with balls; None where the point is no regular one, or has another rank than over GF(p)."""
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
-        found, _, rows, columns = independent_part(_middles(matrix))
-        if found != rank:
+        part = ball_part(matrix)
+        if part.rank != rank:
             return None
-        free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(columns))
+        free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(part.columns))
         point.rng.seed("dofkit curve")
-        return lie_span(forms.rows, Frame(tuple(rows), tuple(columns), free), point), matrix
+        return lie_span(forms.rows, Frame(tuple(part.rows), tuple(part.columns), free), point), matrix
     except (ZeroDivisionError, OutsideDomainError):
         return None
 
@@ -326,10 +319,11 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
     """With real points only: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
-    rank, gap, rows, _ = independent_part(_middles(matrix))
+    part = ball_part(matrix)
+    rank = part.rank
     total, n = len(forms.chart.symbols), forms.n
     found = _ball_span(forms, rank, real.point)
-    if found is None or gap < CLEAR:
+    if found is None or part.gap < CLEAR:
         result.verdict, result.consistent = "undecided", None
         result.reasons.append("the only points found are singular")
         return
@@ -337,10 +331,10 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
     result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
     result.velocity_dof, result.dof = n - rank, n - (total - span.dimension)
     if "field" not in forms.chart.engines:
-        result.matrix = sparse(dependency_pattern(_middles(matrix), rows))
-        if real.consistent and len(real.rows) == forms.finite and certified_rank(matrix) == len(matrix):
+        result.matrix = sparse(dependencies(matrix, part))
+        if real.consistent and len(real.rows) == forms.finite and rank == len(matrix):
             result.verdict = "proved" if span.dimension == total or total - rank <= 1 else "numeric"
-    result.reasons.append(f"decided at real points of high precision, with a gap of {gap:.1e} between singular values")
+    result.reasons.append(f"decided at real points of high precision, with a gap of {part.gap:.1e} between pivots")
     for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear)):
         place = i if i < len(block.finite) else i + forms.finite - len(block.finite)
         zero = all(v.contains(0) for v in pairing(matrix[place], span.vectors))

@@ -9,12 +9,8 @@ from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block
 from dofkit.chart import Chart
 from dofkit.charting import make_chart
-from dofkit.exact.balls import (
-    RealPoint,
-    dependency_pattern,
-    greedy_pivots,
-    independent_part,
-)
+from dofkit.exact.balls import RealPoint
+from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.sparse import SparseRow, rank_of_rows, sparse
 from dofkit.expr import Expr
 from dofkit.forms import sparse_frame
@@ -50,17 +46,17 @@ def finite_answer(block: Block, setting: Setting) -> Answer:
 
 def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     """Which relations depend on which, and which coordinates on which, from a regular real point."""
-    if real.matrix is None or not real.certified or not real.rows or len(real.matrix) != len(chart.nodes):
+    if not real.certified or not real.rows or len(real.matrix) != len(chart.nodes):
         return
-    result.matrix = sparse(dependency_pattern(real.matrix, real.rows))
+    result.matrix = sparse(dependencies(real.matrix, real.part))
     shown = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
     columns = [i for i, s in enumerate(shown) if s != ex.TIME]
-    if independent_part(real.matrix[:, columns])[0] < real.rank:
+    part = ball_part([[row[c] for c in columns] for row in real.matrix])
+    if part.rank < real.rank:
         result.consistent, result.dof, result.velocity_dof = False, None, None
         result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
         return
-    pivots = greedy_pivots(real.matrix[list(real.rows)][:, columns].T, len(real.rows))
-    result.dependent = tuple(str(shown[columns[i]].args[1]) for i in pivots)
+    result.dependent = tuple(str(shown[columns[i]].args[1]) for i in part.columns)
 
 
 def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]) -> Answer | None:

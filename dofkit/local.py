@@ -7,21 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from flint import arb, ctx
 
 from dofkit import expr as ex
 from dofkit.chart import Chart
-from dofkit.exact.balls import (
-    PRECISION,
-    BallPoint,
-    OutsideDomainError,
-    dependency_pattern,
-    greedy_pivots,
-    independent_part,
-    jacobian,
-)
+from dofkit.exact.balls import PRECISION, BallPoint, OutsideDomainError, jacobian
 from dofkit.exact.program import values
+from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.ring import Ring
 from dofkit.exact.sparse import SparseRow, rank_of_rows, sparse
 from dofkit.expr import Expr
@@ -93,21 +85,22 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
         return None
     n, columns = chart.coordinates, len(chart.columns)
     timed = columns - n
-    rank, gap, rows, pivots = independent_part(matrix)
+    part = ball_part(matrix)
+    rank = part.rank
     at = values(chart.ring, ball)
     rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
     if not exact:
         return AtReference(n - rank, Local(None, "undecided", "measured"), [], 2, rank, False, rigid, ball)
-    rank_q = independent_part(matrix[:, :n])[0]
-    local = Local(None, "undecided", f"the gap between singular values is {gap:.1e}")
-    if gap > CLEAR:
-        frame = Frame(tuple(rows), tuple(pivots), tuple(c for c in range(columns) if c not in set(pivots)))
+    of_q = ball_part([row[:n] for row in matrix])
+    local = Local(None, "undecided", f"the gap between pivots is {part.gap:.1e}")
+    if part.gap > CLEAR:
+        frame = Frame(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
         local = _followed(Manifold(chart.ring, chart.nodes, chart.columns, frame, ball), rigid + timed)
     if local.dimension is not None:
         local = Local(local.dimension - timed, local.verdict, local.reason)
-    shown = sparse(dependency_pattern(matrix, rows))
-    names = tuple(greedy_pivots(matrix[rows][:, :n].T, len(rows))) if rank == rank_q else ()
-    return AtReference(n - rank_q, local, shown, 2, rank, rank_q < rank, rigid, ball, names)
+    shown = sparse(dependencies(matrix, part))
+    names = tuple(of_q.columns) if rank == of_q.rank else ()
+    return AtReference(n - of_q.rank, local, shown, 2, rank, of_q.rank < rank, rigid, ball, names)
 
 
 def _followed(manifold: Manifold, rigid: int) -> Local:
@@ -117,8 +110,8 @@ def _followed(manifold: Manifold, rigid: int) -> Local:
         return Local(None, "undecided", "the relations could not be followed along a curve through this configuration")
 
 
-def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> Any:
-    """The Jacobian over all columns in floating point; None where a relation's ball excludes 0 or has no value."""
+def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:
+    """The Jacobian over all columns; None where a relation's ball excludes 0 or has no value."""
     try:
         at = values(chart.ring, ball)
         if exact and not all(at[node].contains(0) for node in chart.nodes):
@@ -127,10 +120,8 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> Any:
         found = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
     except (ZeroDivisionError, OutsideDomainError):
         return None
-    matrix = np.zeros((len(chart.nodes), len(chart.columns)))
-    held = [i for i, c in enumerate(chart.columns) if c >= 0]
-    matrix[:, held] = np.array([[float(v.mid()) for v in row] for row in found]).reshape(len(chart.nodes), len(held))
-    return matrix
+    place = {c: i for i, c in enumerate(present)}
+    return [[row[place[c]] if c >= 0 else arb(0) for c in chart.columns] for row in found]
 
 
 def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:

@@ -17,7 +17,8 @@ import numpy as np
 
 from dofkit import expr as ex
 from dofkit.chart import Chart
-from dofkit.exact.balls import FloatPoint, dependency_pattern, greedy_pivots, jacobian
+from dofkit.exact.balls import FloatPoint, jacobian
+from dofkit.exact.floats import dependency_pattern, greedy_pivots
 from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.rigid import displacements_real

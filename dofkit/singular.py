@@ -9,7 +9,8 @@ import numpy as np
 from flint import arb, arb_mat, ctx
 
 from dofkit.chart import Chart
-from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, independent_part, jacobian
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, jacobian
+from dofkit.exact.floats import independent_part
 from dofkit.exact.program import values
 from dofkit.forms import Frame
 from dofkit.motion import Local, Manifold, numeric_dimension

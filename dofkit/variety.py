@@ -352,7 +352,7 @@ def _numerical(chart: Chart, seed: int, core: Sequence[int]) -> Variety:
     if not real.certified or not real.consistent:
         return _singular(chart, Variety(True, None, "proved", [], real))
     if real.gap > 1e3:
-        why = f"the gap between singular values is {real.gap:.1e}"
+        why = f"the gap between pivots is {real.gap:.1e}"
         return Variety(True, columns - real.rank - timed, "numeric", [], real, [why])
     return Variety(None, None, "undecided", [], real, ["the only points found are singular"])
 

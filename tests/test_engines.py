@@ -16,9 +16,10 @@ from hypothesis import strategies as st
 import dofkit
 from dofkit import expr as ex
 from dofkit.errors import TextError
-from dofkit.exact.balls import BallPoint, RealSearch, independent_part
+from dofkit.exact.balls import BallPoint, RealSearch
 from dofkit.exact.canon import Canon, is_identically_zero
 from dofkit.exact.field import field_point
+from dofkit.exact.floats import independent_part
 from dofkit.exact.identity import is_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values

@@ -18,13 +18,13 @@ import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
 from dofkit.deadline import check
+from dofkit.exact.floats import independent_part
 from dofkit.exact.program import gradient, values
+from dofkit.exact.ranks import ORDERED, Part, ball_part
 from dofkit.exact.ring import Ring, Scalar, Var
 from dofkit.expr import Expr
 
 PRECISION = 256
-#: Relative size below which a singular value of the scaled Jacobian is taken for 0, and above which it is not.
-NOISE, SIGNAL = 1e-9, 1e-6
 STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
 #: After this many singular points no regular one is looked for.
 SINGULAR_TRIES = 4
@@ -120,19 +120,28 @@ class BallPoint(_RealPoint):
 class RealPoint:
     """A real point of the variety.
 
-    ``point``: ball values of all symbols. ``rank``: the numerical rank of the Jacobian there by the
-    unknowns; ``rows`` a regular subset of the relations (certified independent); ``certified``: the ball
-    contains a true zero of these; ``consistent``: the other relations' balls contain 0 too. ``gap``: the ratio of the
-    smallest singular value kept to the largest one dropped.
+    ``point``: ball values of all symbols. ``part``: of the Jacobian there by the unknowns, a regular part of its rows;
+    ``certified``: the ball contains a true zero of as many independent relations; ``consistent``: the other
+    relations' balls contain 0 too. ``matrix``: the Jacobian by the ranked symbols that occur.
     """
 
     point: BallPoint
-    rank: int
-    rows: tuple[int, ...]
+    part: Part
     certified: bool
     consistent: bool
-    gap: float
-    matrix: np.ndarray | None = None
+    matrix: list[list[arb]]
+
+    @property
+    def rank(self) -> int:
+        return self.part.rank
+
+    @property
+    def rows(self) -> tuple[int, ...]:
+        return tuple(self.part.rows)
+
+    @property
+    def gap(self) -> float:
+        return self.part.gap
 
 
 def jacobian(
@@ -237,34 +246,52 @@ class RealSearch:
         return f, j.reshape(len(self.nodes), len(self.columns))
 
     def refine(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
-        """To high precision on independent rows, and the interval Newton test."""
+        """To high precision on independent rows, and the interval Newton test.
+
+        Rows that floating point takes for dependent are tried as independent where the others do not imply them.
+        """
         if any(symbols[p] <= 0 for p in self.positive if p in symbols):
             return None
-        rank, gap, rows, columns = independent_part(j)
-        ctx.prec = PRECISION
-        exact = {s: arb(v) for s, v in symbols.items()}
-        if rank:
+        ctx.prec = max(ctx.prec, PRECISION)
+        _, _, rows, columns = independent_part(j)
+        found = self._refined(symbols, rows, columns, seed)
+        if (found is not None and found.certified and found.consistent) or len(rows) == len(self.nodes):
+            return found
+        part = self._part_at(symbols, seed)
+        if part is None or part.rank <= len(rows):
+            return found
+        other = self._refined(symbols, part.rows, part.columns, seed)
+        return other if other is not None and other.certified and other.consistent else found
+
+    def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> Part | None:
+        """A regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
+        if len(self.nodes) ** 2 * len(self.columns) > ORDERED:
+            return None
+        point = BallPoint({s: arb(v) for s, v in symbols.items()}, seed)
+        try:
+            at = values(self.ring, point, self.upto)
+            return ball_part(jacobian(self.ring, at, point, self.nodes, self.columns, arb(0)))
+        except (OutsideDomainError, ZeroDivisionError):
+            return None
+
+    def _refined(
+        self, symbols: Mapping[Expr, float], rows: Sequence[int], columns: Sequence[int], seed: int
+    ) -> RealPoint | None:
+        exact, certified = {s: arb(v) for s, v in symbols.items()}, True
+        if rows:
             moved = self._newton(exact, rows, columns, seed)
             if moved is None:
                 return None
             exact, certified = moved
-        else:
-            certified = True
         point = BallPoint(exact, seed)
         try:
             at = values(self.ring, point, self.upto)
+            ranked = self.columns if self.ranked is None else self.ranked
+            matrix = jacobian(self.ring, at, point, self.nodes, ranked, arb(0))
         except (OutsideDomainError, ZeroDivisionError):
             return None
         consistent = all(at[n].contains(0) for n in self.nodes)
-        if self.ranked is not None and rank:
-            j = self._ranked_jacobian(point, at)
-            rank, gap, rows, _ = independent_part(j)
-        return RealPoint(point, rank, tuple(rows), certified, consistent, gap, j)
-
-    def _ranked_jacobian(self, point: BallPoint, at: Sequence[Scalar]) -> np.ndarray:
-        """By the ranked symbols only, to working precision."""
-        j = jacobian(self.ring, at, point, self.nodes, self.ranked or [], arb(0))
-        return np.array([[float(v.mid()) for v in row] for row in j])
+        return RealPoint(point, ball_part(matrix), certified, consistent, matrix)
 
     def _newton(
         self, exact: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
@@ -301,62 +328,3 @@ class RealSearch:
         at = values(self.ring, point, self.upto)
         j = jacobian(self.ring, at, point, nodes, indices, arb(0))
         return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
-
-
-def independent_part(j: np.ndarray) -> tuple[int, float, list[int], list[int]]:
-    """(rank, gap, rows, columns) of a matrix with its rows scaled; rows are taken greedily in their order."""
-    if not j.size:
-        return 0, math.inf, [], []
-    norms = np.linalg.norm(j, axis=1)
-    scaled = j / np.where(norms > 0, norms, 1.0)[:, None]
-    singular = np.linalg.svd(scaled, compute_uv=False)
-    rank = int(np.sum(singular > math.sqrt(NOISE * SIGNAL)))
-    below = float(singular[rank]) if rank < len(singular) else 0.0
-    gap = math.inf if below == 0 or rank == 0 else float(singular[rank - 1]) / below
-    rows = greedy_rows(scaled, rank)
-    columns = greedy_pivots(scaled[rows].T, len(rows)) if rows else []
-    return len(rows), gap, rows, columns
-
-
-def greedy_rows(matrix: np.ndarray, rank: int) -> list[int]:
-    """The first rows, in order, each independent of those before it."""
-    kept: list[int] = []
-    basis = np.zeros((0, matrix.shape[1]))
-    for i, row in enumerate(matrix):
-        rest = row - basis.T @ (basis @ row)
-        rest = rest - basis.T @ (basis @ rest)
-        size = float(np.linalg.norm(rest))
-        if size > math.sqrt(NOISE * SIGNAL):
-            basis = np.vstack([basis, rest / size])
-            kept.append(i)
-        if len(kept) == rank:
-            break
-    return kept
-
-
-def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
-    """Which rows depend on which of the independent ``rows``, as a matrix over GF(2)."""
-    place = {r: i for i, r in enumerate(rows)}
-    pattern = []
-    for r in range(len(j)):
-        entry = [0] * max(len(rows), 1)
-        if r in place:
-            entry[place[r]] = 1
-        elif rows:
-            weights = np.linalg.lstsq(j[list(rows)].T, j[r], rcond=None)[0]
-            entry = [int(abs(w) > 1e-3 * max(1e-300, float(np.max(np.abs(weights))))) for w in weights]
-        pattern.append(entry)
-    return pattern
-
-
-def greedy_pivots(matrix: np.ndarray, rank: int) -> list[int]:
-    """Rows chosen for the largest remainder: well conditioned, in no order."""
-    kept: list[int] = []
-    rest = matrix.copy()
-    for _ in range(rank):
-        sizes = np.linalg.norm(rest, axis=1)
-        best = int(np.argmax(sizes))
-        kept.append(best)
-        direction = rest[best] / sizes[best]
-        rest = rest - np.outer(rest @ direction, direction)
-    return sorted(kept)

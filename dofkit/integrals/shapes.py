@@ -56,7 +56,7 @@ def _product(parts: tuple[Expr, ...]) -> Expr:
     if exponents:
         total = arranged(ex.add(*exponents)) if len(exponents) > 1 else exponents[0]
         others += [] if total.is_zero else [ex.fn("exp", total)]
-    return others[0] if len(others) == 1 else Expr("mul", tuple(others))
+    return Expr("mul", tuple(others)) if len(others) > 1 else ex.mul(*others)
 
 
 def upright(e: Expr) -> Expr:
