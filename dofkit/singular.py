@@ -18,6 +18,8 @@ from dofkit.rigid import rigid_motions_real
 
 #: Working precision, steps (each halves the distance to the singular point), and the radius given to the result.
 BITS, STEPS, RADIUS_BITS = 700, 110, 84
+#: Relations are smaller than this near a singular point that was reached.
+RESIDUAL_BITS = 150
 MAX_ROWS = 40
 #: A gradient shorter than this at the converged point is taken for 0.
 TINY = 1e-12
@@ -74,10 +76,16 @@ def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
         for s, d in zip(moved, step, strict=True):
             symbols[s] = (symbols[s] - d).mid()
         size = max(abs(d) for d in step)
-    if not size < arb(2) ** (-RADIUS_BITS - 8):
+    if not size < arb(2) ** (-RADIUS_BITS - 8) or not _on_the_set(chart, BallPoint(symbols, 0)):
         return None
     radius = arb(0, arb(2) ** -RADIUS_BITS)
     return BallPoint({s: v + radius if s in set(moved) else v for s, v in symbols.items()}, 0)
+
+
+def _on_the_set(chart: Chart, point: BallPoint) -> bool:
+    """Do the relations hold to the precision that a singular point lets them? Least squares stop elsewhere too."""
+    at = values(chart.ring, point)
+    return all(abs(at[n].mid()) < arb(2) ** -RESIDUAL_BITS for n in chart.nodes)
 
 
 def _minimal_step(j: Sequence[Sequence[arb]], f: Sequence[arb]) -> list[arb]:

@@ -17,6 +17,10 @@ from flint.utils.flint_exceptions import DomainError
 from dofkit import expr as ex
 from dofkit.circles import EXTREME_NOTE, apart
 from dofkit.exact.canon import Canon, TooLargeError
+from dofkit.exact.field import NoPointError
+from dofkit.exact.identity import told_zero
+from dofkit.exact.points import Solver
+from dofkit.exact.program import values
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
 
@@ -30,11 +34,16 @@ POWER_NOTE = "a power is zero where its base is: the base is used, because the p
 SQUARES_NOTE = "a sum of squares is zero over the reals only where every term is: each term is one equation"
 PRODUCT_NOTE = "a product is zero on several branches; each is looked at, and the largest one counts"
 EMPTY_NOTE = "no real configuration satisfies it: every term has the same sign and one never vanishes"
+POLE_NOTE = "where a denominator vanishes it says nothing: such zeros of the numerator are left out"
 FACTOR_NOTE = "a factor that never vanishes was taken out"
 
 
 class TooManyBranchesError(Exception):
     """The zero set has more than `MAX_BRANCHES` branches."""
+
+
+class HiddenZeroError(Exception):
+    """A constant factor may be 0 by an identity that is not known."""
 
 
 def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> Zeros:
@@ -46,7 +55,7 @@ def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> 
         return ((e,),), ()
     try:
         return _Zeros(positive, variables).of(e)
-    except (TooLargeError, DomainError, TooManyBranchesError, ZeroDivisionError):
+    except (TooLargeError, DomainError, TooManyBranchesError, HiddenZeroError, ZeroDivisionError):
         return ((e,),), ()
 
 
@@ -97,11 +106,22 @@ class _Zeros:
             if factor.op == "num" or (factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0):
                 continue
             if self.variables.isdisjoint(factor.symbols):
+                if self._is_zero(factor):
+                    return ((),), ()
                 continue
             found, said = self.of(factor)
             notes += [n for n in said if n not in (EMPTY_NOTE, FACTOR_NOTE)] if found else [FACTOR_NOTE]
             branches += [b for b in found if b not in branches]
         return self._union(branches, notes)
+
+    def _is_zero(self, constant: Expr) -> bool:
+        """Is a constant 0? Raises HiddenZeroError where neither that nor the contrary is certain."""
+        if constant.op == "sym":
+            return False
+        zero, sure = told_zero(constant, self.positive)
+        if zero and sure != "proved":
+            raise HiddenZeroError
+        return bool(zero)
 
     def _union(self, branches: list[Conjunction], notes: list[str]) -> Zeros:
         if len(branches) > MAX_BRANCHES:
@@ -158,7 +178,7 @@ class _Zeros:
         ring = Ring([e], self.positive)
         node = ring.node(e)
         canon = Canon(ring)
-        numerator, _ = canon.quotient(node)
+        numerator, bottom = canon.quotient(node)
         if numerator == 0:
             return ((),), ()
         signs = Signs(canon, self.positive)
@@ -166,9 +186,14 @@ class _Zeros:
         notes: list[str] = []
         factors = canon.factors(numerator)
         kept = [(f, k) for f, k in factors if self._depends(canon, f)]
+        if any(self._is_zero(canon.to_expr(f)) for f, _ in factors if not self._depends(canon, f)):
+            return ((),), ()
+        defined = [(f, k) for f, k in kept if not self._undefined(canon, f, bottom)]
+        if len(defined) < len(kept):
+            kept, notes = defined, [POLE_NOTE]
         extremes, rest = apart(canon, kept, self.variables)
         if extremes:
-            branches, notes = extremes, [EXTREME_NOTE]
+            branches, notes = extremes, [*notes, EXTREME_NOTE]
         for factor, multiplicity in rest:
             if multiplicity > 1:
                 notes.append(POWER_NOTE)
@@ -179,6 +204,23 @@ class _Zeros:
         if not kept:
             return (), (EMPTY_NOTE,)
         return self._union(branches, notes)
+
+    def _undefined(self, canon: Canon, factor: Any, bottom: Any) -> bool:
+        """Does a denominator vanish wherever the factor does?"""
+        if bottom.is_constant():
+            return False
+        if not factor.gcd(bottom).is_constant():
+            return True
+        if all(canon.ring.vars[i].kind == "symbol" for i in canon.generators_in(factor)):
+            return False
+        zero, pole = canon.to_expr(factor), canon.to_expr(bottom)
+        ring = Ring([zero, pole], self.positive)
+        nodes = ring.node(zero), ring.node(pole)
+        point = Solver(ring, nodes[:1]).draw(1)
+        try:
+            return point is not None and bool(values(ring, point)[nodes[1]] == 0)
+        except (NoPointError, ZeroDivisionError):
+            return False
 
     def _depends(self, canon: Canon, factor: Any) -> bool:
         shown = (canon.ring.var_expr[i] for i in canon.generators_in(factor))
