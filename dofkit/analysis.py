@@ -19,10 +19,12 @@ from dofkit.differential import (
     prolong,
     span_at,
 )
+from dofkit.exact.engines import BALLS, BOTH
 from dofkit.exact.field import FieldPoint
-from dofkit.exact.ring import independent_generators
+from dofkit.exact.trust import doubtful, independent_generators
 from dofkit.expr import Expr
 from dofkit.finite import finite_answer
+from dofkit.held import held
 from dofkit.report import weakest
 from dofkit.variety import Variety, find
 
@@ -33,7 +35,14 @@ MAX_HIDDEN_BRANCHES = 6
 
 
 def answer(block: Block, setting: Setting) -> Answer:
-    """All that is asked of one block."""
+    """All that is asked of one block; where its functions may be related in unseen ways, balls have the last word."""
+    found = _answer(block, setting)
+    if found.doubtful and setting.engines == BOTH and setting.tolerance is None:
+        return held(found, _answer(block, replace(setting, engines=BALLS, grows=False, flag=False)))
+    return found
+
+
+def _answer(block: Block, setting: Setting) -> Answer:
     if not block.forms and not block.nonlinear:
         finite = finite_answer(block, setting)
         finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
@@ -53,6 +62,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
     extra = list(given)
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
+        result.doubtful = result.doubtful or doubtful(forms.chart.ring)
         found = find(forms.chart, setting.pose)
         result.reasons = list(found.reasons)
         if not found.consistent or (not found.samples and found.real is None):
@@ -60,7 +70,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
             return result
         new = confined(forms, found)
         if new is None:
-            return _with_spans(block, forms, found, extra, setting)
+            return replace(_with_spans(block, forms, found, extra, setting), doubtful=result.doubtful)
         outcome = prolong(new, setting)
         if not outcome:
             result.consistent, result.verdict, result.hidden = False, "probable", extra

@@ -31,7 +31,8 @@ class Answer:
     """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
 
     ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
-    redundancy; ``hidden`` the finite relations that the differential ones force.
+    redundancy; ``hidden`` the finite relations that the differential ones force; ``doubtful``: functions or numbers
+    occur that may be related in a way that GF(p) does not show.
     """
 
     consistent: bool | None = True
@@ -49,6 +50,7 @@ class Answer:
     dependent: tuple[str, ...] = ()
     growth: tuple[int, ...] | None = None
     derived: tuple[int, ...] | None = None
+    doubtful: bool = False
     method: str = ""
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product as cartesian
 
@@ -16,7 +16,8 @@ from dofkit.charting import make_chart
 from dofkit.exact.balls import BallPoint, OutsideDomainError
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.program import values
-from dofkit.exact.ring import Scalar
+from dofkit.exact.ring import Ring, Scalar
+from dofkit.exact.trust import doubtful
 from dofkit.expr import Expr
 from dofkit.local import ball_matrix, ball_point
 from dofkit.normal import Finite, Normal, Piece
@@ -52,19 +53,29 @@ def _block(pieces: Sequence[Finite]) -> Block:
     return Block(tuple(names), tuple(Row(i, p) for i, p in enumerate(pieces)))
 
 
-def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool:
+def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
     """Does a finite relation hold on every branch of the others?
 
-    It is evaluated at generic points of each branch. False also where no such points were found.
+    It is evaluated at generic points of each branch. None where no such points were found.
     """
     if not _finite(normal) or not all(_finite(o) for o in others):
-        return False
+        return None
     choices = list(cartesian(*(o.branches for o in others)))
     if len(choices) > MAX_CHOICES:
-        return False
-    return all(
+        return None
+    return all_of(
         _vanishes(normal, [p for b in choice for p in b if isinstance(p, Finite)], setting) for choice in choices
     )
+
+
+def all_of(answers: Iterable[bool | None]) -> bool | None:
+    """False where one is, else None where one is, else True."""
+    found: bool | None = True
+    for answer in answers:
+        if answer is False:
+            return False
+        found = found if answer else None
+    return found
 
 
 def algebraic(e: Expr) -> bool:
@@ -76,32 +87,39 @@ def _finite(normal: Normal) -> bool:
     return all(isinstance(p, Finite) for p in normal.pieces)
 
 
-def _vanishes(normal: Normal, pieces: Sequence[Finite], setting: Setting) -> bool:
+def _vanishes(normal: Normal, pieces: Sequence[Finite], setting: Setting) -> bool | None:
     """Does one of the relation's branches hold at generic points of the pieces' set?"""
     extra = [p.expr for p in normal.pieces if isinstance(p, Finite)]
     names = sorted({n for p in (*pieces, *normal.pieces) for n in coordinates_of(p)})
     block = Block(tuple(names), tuple(Row(i, p) for i, p in enumerate(pieces)))
     chart = make_chart(block, replace(setting, reference=None), (), extra)
     nodes: dict[Expr, int] = {e: chart.ring.node(e) for e in extra}
-    seen = 0
+    doubt = doubtful(chart.ring)
+    told: list[bool | None] = []
     for seed in range(SEEDS):
         found = find(chart, {}, 10 * seed)
         if found.consistent is False:
             return True
-        try:
-            for point in _points(found, setting):
-                at = values(chart.ring, point)
-                if not any(all(_zero(at[nodes[p.expr]]) for p in b if isinstance(p, Finite)) for b in normal.branches):
-                    return False
-                seen += 1
-        except (ZeroDivisionError, NoPointError, OutsideDomainError):
-            return False
-    return seen > 0
+        for point in _points(found, doubt):
+            holds = _holds_at(chart.ring, point, normal, nodes)
+            if holds is False:
+                return False
+            told.append(holds)
+    return all_of(told) if told else None
 
 
-def _points(found: Variety, setting: Setting) -> Sequence[FieldPoint | BallPoint]:
-    """Points over GF(p); where those may not be asked for, the real one."""
-    if "field" in setting.engines:
+def _holds_at(ring: Ring, point: FieldPoint | BallPoint, normal: Normal, nodes: Mapping[Expr, int]) -> bool | None:
+    """Does one of the relation's branches hold at a point? None where it has no value there."""
+    try:
+        at = values(ring, point)
+    except (ZeroDivisionError, NoPointError, OutsideDomainError):
+        return None
+    return any(all(_zero(at[nodes[p.expr]]) for p in b if isinstance(p, Finite)) for b in normal.branches)
+
+
+def _points(found: Variety, doubt: bool) -> Sequence[FieldPoint | BallPoint]:
+    """Points over GF(p); the real one where there are none, or where they may mislead."""
+    if found.samples and not doubt:
         return found.samples
     real = found.real
     return [real.point] if real is not None and real.certified and real.consistent else []

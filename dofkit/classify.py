@@ -26,6 +26,7 @@ from dofkit.labelling import entries_of
 from dofkit.lowering import lower
 from dofkit.methods import METHODS, MethodName
 from dofkit.normal import Finite
+from dofkit.redundancy import Redundancies
 from dofkit.report import ConstraintEntry, ForceEntry, Redundancy, Report, weakest
 from dofkit.scene import Scene
 from dofkit.sketch import blank, sketch
@@ -165,9 +166,12 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
     conflicting = conflict(system, reduced, setting, outcome) if outcome.consistent is False else []
     dependent = redundancies(reduced, setting, outcome)
     company = Companionship(setting)
-    entries = entries_of(reduced, setting, outcome, dependent, names, company)
     equations = sum(r.equations for r in reduced)
     dof, velocity_dof = outcome.dof, outcome.velocity_dof
+    redundant_equations = None if velocity_dof is None else max(0, equations - (len(system.coordinates) - velocity_dof))
+    if redundant_equations == 0:
+        dependent = [_all_needed(r, reduced) for r in dependent]
+    entries = entries_of(reduced, setting, outcome, dependent, names, company)
     instantaneous = _instantaneous(system, outcome)
     verdict = weakest(*(e.verdict for e in entries), *(a.verdict for a in outcome.answers))
     if outcome.consistent is None:
@@ -183,7 +187,6 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
             entries,
         ),
     )
-    redundant_equations = None if velocity_dof is None else max(0, equations - (len(system.coordinates) - velocity_dof))
     if redundant_equations == 0:
         dependent = [r for r in dependent if r.redundant]
     return Report(
@@ -212,6 +215,12 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
         modelled=_modelled(system, outcome),
         warnings=_warnings(system, reduced, outcome),
     )
+
+
+def _all_needed(found: Redundancies, reduced: Sequence[Reduced]) -> Redundancies:
+    """With no equation too many, what was left open is needed."""
+    needed = {i: reduced[i].equations for i in found.undecided}
+    return replace(found, independent={**found.independent, **needed}, undecided=())
 
 
 def _all(labels: Sequence[bool | None]) -> bool | None:

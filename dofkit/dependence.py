@@ -10,7 +10,7 @@ import networkx as nx
 from dofkit.analysis import answer
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, Row, split
-from dofkit.branches import algebraic, follows, through_reference
+from dofkit.branches import algebraic, all_of, follows, through_reference
 from dofkit.deadline import OutOfTimeError, check
 from dofkit.exact.sparse import SparseRow
 from dofkit.normal import Finite, Still
@@ -44,28 +44,37 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
         else:
             parts.append(Rows(matrix, owners, finite, a.modulus))
     by_rank = [r for group in _sharing(parts) for r in _analysed(group)]
-    if _only_nearby(reduced, setting, outcome, by_rank):
-        return found + _over_branches(reduced, setting, outcome)
-    return found + by_rank
+    everywhere = _everywhere(reduced, setting, outcome, by_rank)
+    if everywhere:
+        return found + by_rank
+    return found + (
+        _over_branches(reduced, setting, outcome) if everywhere is False else list(map(_left_open, by_rank))
+    )
 
 
-def _only_nearby(
+def _left_open(r: Redundancies) -> Redundancies:
+    """Redundant by rank at a point, and not known to be so elsewhere."""
+    independent = {i: k for i, k in r.independent.items() if i not in r.redundant}
+    return Redundancies(independent, [], [], {}, tuple(r.redundant))
+
+
+def _everywhere(
     reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, by_rank: Sequence[Redundancies]
-) -> bool:
-    """Is a written equation called redundant by its differential that does not hold wherever the others do?
+) -> bool | None:
+    """Does what is redundant by rank hold wherever the others do? False where a written equation does not.
 
     x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
     """
     dropped = {i for r in by_rank for i in r.redundant}
     written = [i for i, r in enumerate(reduced) if r.normals and i not in outcome.copies]
     if not dropped or setting.reference is not None or len(written) > MAX_CHOICES:
-        return False
+        return True
     plain = all(reduced[i].constraint.type in ("equation", "on") for i in written)
     pieces = [p for i in written for n in reduced[i].normals for p in n.pieces]
     if not plain or not all(isinstance(p, Finite) and algebraic(p.expr) for p in pieces):
-        return False
+        return True
     kept = [i for i in written if i not in dropped]
-    return not all(_follows(reduced, i, kept, setting) for i in dropped)
+    return all_of(_follows(reduced, i, kept, setting) for i in dropped)
 
 
 def _analysed(group: list[Rows]) -> list[Redundancies]:
@@ -82,11 +91,15 @@ def _over_branches(reduced: Sequence[Reduced], setting: Setting, outcome: Outcom
     numbers = [i for i, r in enumerate(reduced) if r.normals and i not in outcome.copies]
     independent = {i: reduced[i].equations for i in numbers}
     if len(numbers) > MAX_CHOICES:
-        return [Redundancies(independent, [], [], {})]
-    kept, circuits = list(numbers), {}
+        return [Redundancies({}, [], [], {}, tuple(numbers))]
+    kept, circuits, undecided = list(numbers), {}, []
     for i in reversed(numbers):
         others = [j for j in kept if j != i]
-        if _follows(reduced, i, others, setting):
+        known = _follows(reduced, i, others, setting)
+        if known is None:
+            undecided.append(i)
+            del independent[i]
+        elif known:
             kept = others
             independent[i] = 0
             circuits[i] = _needed(reduced, i, others, setting)
@@ -94,12 +107,12 @@ def _over_branches(reduced: Sequence[Reduced], setting: Setting, outcome: Outcom
     groups = [
         (sum(reduced[i].equations for i in redundant), sorted({*redundant, *(j for c in circuits.values() for j in c)}))
     ]
-    return [Redundancies(independent, redundant, groups if redundant else [], circuits)]
+    return [Redundancies(independent, redundant, groups if redundant else [], circuits, tuple(undecided))]
 
 
-def _follows(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> bool:
+def _follows(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> bool | None:
     known = [through_reference(n, setting) for j in others for n in reduced[j].normals]
-    return all(follows(through_reference(n, setting), known, setting) for n in reduced[i].normals)
+    return all_of(follows(through_reference(n, setting), known, setting) for n in reduced[i].normals)
 
 
 def _needed(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> list[int]:

@@ -41,6 +41,7 @@ def entries_of(
         independent.update(found.independent)
     known = {i for found in dependent for i in found.independent}
     circuits = {i: c for found in dependent for i, c in found.circuits.items()}
+    left_open = {i for found in dependent for i in found.undecided}
     told = _told(len(reduced), outcome)
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
@@ -52,11 +53,18 @@ def entries_of(
         circuit = None if i not in circuits else [names[j] for j in circuits[i]]
         try:
             check()
-            entries.append(_one(i, r, told[i], setting, consistent, number, circuit, constants, told_of,
-                                partial(_with_others, i, told[i], company, names)))  # fmt: skip
+            beside = partial(_with_others, i, told[i], company, names)
+            made = _one(i, r, told[i], setting, consistent, number, circuit, constants, told_of, beside)
+            entries.append(_with_open_dependence(made) if i in left_open else made)
         except OutOfTimeError as error:
             entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
     return entries
+
+
+def _with_open_dependence(made: ConstraintEntry) -> ConstraintEntry:
+    """An entry of which it is not known whether it follows from the others."""
+    reason = f"{made.reason} Whether it follows from the others was not decided."
+    return made.model_copy(update={"verdict": "undecided", "independent": None, "reason": reason})
 
 
 def _one(

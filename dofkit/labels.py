@@ -15,7 +15,8 @@ from dofkit.exact.field import NoPointError
 from dofkit.exact.identity import is_zero, told_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import values
-from dofkit.exact.ring import Ring, independent_generators
+from dofkit.exact.ring import Ring
+from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Inequality, Pfaffian, Piece, velocities_of
 from dofkit.report import VERDICTS, Verdict, weakest

@@ -7,7 +7,8 @@ from itertools import combinations
 
 from dofkit import expr as ex
 from dofkit.exact.identity import told_zero
-from dofkit.exact.ring import Ring, odd_constants
+from dofkit.exact.ring import Ring
+from dofkit.exact.trust import odd_constants
 from dofkit.expr import Expr
 from dofkit.integrals import integrate
 from dofkit.labels import exact

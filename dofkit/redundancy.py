@@ -21,12 +21,13 @@ SEARCHED = 12
 
 @dataclass(frozen=True)
 class Redundancies:
-    """What was found, constraints by their numbers."""
+    """What was found, constraints by their numbers; of those in ``undecided`` it is not known whether they can go."""
 
     independent: dict[int, int]
     redundant: list[int]
     groups: list[tuple[int, list[int]]]
     circuits: dict[int, list[int]]
+    undecided: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

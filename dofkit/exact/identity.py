@@ -10,7 +10,8 @@ from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.field import NoPointError, field_point
 from dofkit.exact.program import values
-from dofkit.exact.ring import Ring, independent_generators
+from dofkit.exact.ring import Ring
+from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.report import Verdict
 

@@ -23,7 +23,8 @@ from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.program import reachable
 from dofkit.exact.rational import Rational
-from dofkit.exact.ring import ADD, MUL, NUM, POW, VAR, Ring, independent_generators
+from dofkit.exact.ring import ADD, MUL, NUM, POW, VAR, Ring
+from dofkit.exact.trust import independent_generators
 
 #: An elimination that makes the program longer than this is given up.
 MAX_CODE = 20_000

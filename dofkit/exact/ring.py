@@ -468,39 +468,3 @@ def _factors(value: int) -> list[tuple[int, int]]:
         if k:
             powers.append((prime, k))
     return [*powers, (rest, 1)] if rest > 1 else powers
-
-
-def odd_constants(ring: Ring) -> bool:
-    """Do constants occur that may be related (nested roots, inverse functions and logarithms of numbers)?"""
-    constant = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
-    return any(
-        v.kind in ("asin", "atan", "atan2", "log", "sign") or (v.kind == "root" and not isinstance(v.key[0], Expr))
-        for v in constant
-    )
-
-
-def _linear_somewhere(e: Expr) -> bool:
-    """Is ``e`` of degree 1 in one of its symbols?"""
-    slopes = ((s, ex.diff(e, s)) for s in e.symbols)
-    return any(not slope.is_zero and s not in slope.symbols for s, slope in slopes)
-
-
-def independent_generators(ring: Ring) -> bool:
-    """True where the generators are algebraically independent up to the relations that the ring knows.
-
-    Symbols, sines, cosines and exponentials of different terms are (Ax 1971), and so are unknown functions, square
-    roots of different primes and one root of what is linear in a symbol, so no power itself. False says that a
-    relation may have been missed: other roots, inverse functions, logarithms, transcendental constants.
-    """
-    roots = 0
-    for var in ring.vars:
-        if var.kind in ("asin", "atan", "atan2", "log", "sign", "pi"):
-            return False
-        constant = not ring.var_expr[var.index].symbols
-        if var.kind == "root" and not isinstance(var.key[0], Expr):
-            roots += 1
-            if not _linear_somewhere(ring.var_expr[var.index].args[0]):
-                return False
-        elif constant and var.kind in ("cos", "sin", "exp") and var.key[0] != ex.PI:
-            return False
-    return roots < 2 and not ring.related

@@ -1,0 +1,70 @@
+"""What both engines say of one block whose functions may be related in ways that the ring does not know.
+
+Over GF(p) what is 0 may look like something else, and a nested root may stand for its conjugate; balls never take
+non-zero for 0 unless it is smaller than their precision. Where both say the same it stands; where they do not, the
+balls' answer does, with their verdict.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from flint import nmod_mat
+
+from dofkit.answers import Answer
+from dofkit.report import weakest
+
+DIFFER = "functions or numbers that occur are related in a way that exact arithmetic modulo primes does not show"
+OPEN = "functions or numbers that occur may be related in a way that exact arithmetic modulo primes does not show"
+
+
+def held(field: Answer, balls: Answer) -> Answer:
+    """The answer of both engines, held against that of balls alone."""
+    if field.consistent is False and balls.consistent is not True:
+        return field
+    if field.consistent is not True and balls.consistent is not True:
+        return field
+    if balls.consistent is not True or balls.dof is None:
+        return _open(field)
+    if field.consistent is True and _same(field, balls):
+        return field
+    return replace(
+        balls,
+        doubtful=True,
+        verdict=weakest(balls.verdict, "numeric"),
+        reasons=[*balls.reasons, DIFFER],
+        growth=None,
+        derived=None,
+    )
+
+
+def _same(a: Answer, b: Answer) -> bool:
+    numbers = (a.dof, a.velocity_dof, a.instantaneous) == (b.dof, b.velocity_dof, b.instantaneous)
+    labels = all(label.holonomic == b.labels[i].holonomic for i, label in a.labels.items() if i in b.labels)
+    return numbers and labels and a.hidden == b.hidden and _first_rows(a) == _first_rows(b)
+
+
+def _first_rows(a: Answer) -> list[int]:
+    """The first independent rows."""
+    if not a.matrix or not a.matrix[0]:
+        return []
+    reduced, rank = nmod_mat([list(column) for column in zip(*a.matrix, strict=True)], a.modulus).rref()
+    found, column = [], 0
+    for r in range(rank):
+        while not reduced[r, column]:
+            column += 1
+        found.append(column)
+        column += 1
+    return found
+
+
+def _open(field: Answer) -> Answer:
+    """Nothing is decided of a block that only one engine answers, and may mistake."""
+    return Answer(
+        None,
+        verdict="undecided",
+        reasons=[*field.reasons, OPEN],
+        hidden=field.hidden,
+        doubtful=True,
+        method=field.method,
+    )
