@@ -21,7 +21,7 @@ from dofkit.differential import (
 )
 from dofkit.exact.engines import BALLS, BOTH
 from dofkit.exact.field import FieldPoint
-from dofkit.exact.trust import doubtful, independent_generators
+from dofkit.exact.trust import doubt, independent_generators
 from dofkit.expr import Expr
 from dofkit.finite import finite_answer
 from dofkit.held import held
@@ -37,7 +37,7 @@ MAX_HIDDEN_BRANCHES = 6
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block; where its functions may be related in unseen ways, balls have the last word."""
     found = _answer(block, setting)
-    if found.doubtful and setting.engines == BOTH and setting.tolerance is None:
+    if found.doubt and setting.engines == BOTH and setting.tolerance is None:
         return held(found, _answer(block, replace(setting, engines=BALLS, grows=False, flag=False)))
     return found
 
@@ -62,7 +62,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
     extra = list(given)
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
-        result.doubtful = result.doubtful or doubtful(forms.chart.ring)
+        result.doubt = result.doubt or doubt(forms.chart.ring)
         found = find(forms.chart, setting.pose)
         result.reasons = list(found.reasons)
         if not found.consistent or (not found.samples and found.real is None):
@@ -70,7 +70,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
             return result
         new = confined(forms, found)
         if new is None:
-            return replace(_with_spans(block, forms, found, extra, setting), doubtful=result.doubtful)
+            return replace(_with_spans(block, forms, found, extra, setting), doubt=result.doubt)
         outcome = prolong(new, setting)
         if not outcome:
             result.consistent, result.verdict, result.hidden = False, "probable", extra

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.sparse import SparseRow
+from dofkit.exact.trust import Doubt
 from dofkit.expr import Expr
 from dofkit.report import Verdict
 from dofkit.system import Coordinate
@@ -31,7 +32,7 @@ class Answer:
     """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
 
     ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
-    redundancy; ``hidden`` the finite relations that the differential ones force; ``doubtful``: functions or numbers
+    redundancy; ``hidden`` the finite relations that the differential ones force; ``doubt``: functions or numbers
     occur that may be related in a way that GF(p) does not show.
     """
 
@@ -50,7 +51,7 @@ class Answer:
     dependent: tuple[str, ...] = ()
     growth: tuple[int, ...] | None = None
     derived: tuple[int, ...] | None = None
-    doubtful: bool = False
+    doubt: Doubt | None = None
     method: str = ""
 
 

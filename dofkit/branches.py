@@ -17,7 +17,7 @@ from dofkit.exact.balls import BallPoint, OutsideDomainError
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring, Scalar
-from dofkit.exact.trust import doubtful
+from dofkit.exact.trust import doubt
 from dofkit.expr import Expr
 from dofkit.local import ball_matrix, ball_point
 from dofkit.normal import Finite, Normal, Piece
@@ -94,13 +94,13 @@ def _vanishes(normal: Normal, pieces: Sequence[Finite], setting: Setting) -> boo
     block = Block(tuple(names), tuple(Row(i, p) for i, p in enumerate(pieces)))
     chart = make_chart(block, replace(setting, reference=None), (), extra)
     nodes: dict[Expr, int] = {e: chart.ring.node(e) for e in extra}
-    doubt = doubtful(chart.ring)
+    doubted = doubt(chart.ring) is not None
     told: list[bool | None] = []
     for seed in range(SEEDS):
         found = find(chart, {}, 10 * seed)
         if found.consistent is False:
             return True
-        for point in _points(found, doubt):
+        for point in _points(found, doubted):
             holds = _holds_at(chart.ring, point, normal, nodes)
             if holds is False:
                 return False
@@ -117,9 +117,9 @@ def _holds_at(ring: Ring, point: FieldPoint | BallPoint, normal: Normal, nodes: 
     return any(all(_zero(at[nodes[p.expr]]) for p in b if isinstance(p, Finite)) for b in normal.branches)
 
 
-def _points(found: Variety, doubt: bool) -> Sequence[FieldPoint | BallPoint]:
+def _points(found: Variety, doubted: bool) -> Sequence[FieldPoint | BallPoint]:
     """Points over GF(p); the real one where there are none, or where they may mislead."""
-    if found.samples and not doubt:
+    if found.samples and not doubted:
         return found.samples
     real = found.real
     return [real.point] if real is not None and real.certified and real.consistent else []

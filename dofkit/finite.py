@@ -12,7 +12,7 @@ from dofkit.charting import make_chart
 from dofkit.exact.balls import RealPoint
 from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.sparse import SparseRow, rank_of_rows, sparse
-from dofkit.exact.trust import doubtful
+from dofkit.exact.trust import doubt
 from dofkit.expr import Expr
 from dofkit.forms import sparse_frame
 from dofkit.local import AtReference, at_reference
@@ -29,7 +29,7 @@ OFF_REFERENCE = (
 def finite_answer(block: Block, setting: Setting) -> Answer:
     chart = make_chart(block, setting)
     result = _finite_answer(chart, setting)
-    result.doubtful = doubtful(chart.ring)
+    result.doubt = doubt(chart.ring)
     return result
 
 

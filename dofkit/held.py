@@ -1,8 +1,8 @@
 """What both engines say of one block whose functions may be related in ways that the ring does not know.
 
 Over GF(p) what is 0 may look like something else, and a nested root may stand for its conjugate; balls never take
-non-zero for 0 unless it is smaller than their precision. Where both say the same it stands; where they do not, the
-balls' answer does, with their verdict.
+non-zero for 0 unless it is smaller than their precision. Where both say the same it stands. Where they do not, the
+balls' answer does if only numbers are in doubt; functions may be 0 in one region and not in another.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ OPEN = "functions or numbers that occur may be related in a way that exact arith
 
 def held(field: Answer, balls: Answer) -> Answer:
     """The answer of both engines, held against that of balls alone."""
-    if field.consistent is False and balls.consistent is not True:
-        return field
-    if field.consistent is not True and balls.consistent is not True:
+    by_rank = field.consistent is False and bool(field.matrix)
+    if field.consistent is not True and balls.consistent is not True and not by_rank:
         return field
     if balls.consistent is not True or balls.dof is None:
         return _open(field)
     if field.consistent is True and _same(field, balls):
         return field
+    if field.doubt == "functions":
+        return _open(field)
     return replace(
         balls,
-        doubtful=True,
         verdict=weakest(balls.verdict, "numeric"),
         reasons=[*balls.reasons, DIFFER],
         growth=None,
@@ -65,6 +65,5 @@ def _open(field: Answer) -> Answer:
         verdict="undecided",
         reasons=[*field.reasons, OPEN],
         hidden=field.hidden,
-        doubtful=True,
         method=field.method,
     )

@@ -230,7 +230,7 @@ class RealSearch:
             if residual == 0 or (residual < 1e-13 and (fast or stands)) or (residual < 1e-11 and stands):
                 return j
             previous = residual
-            step = np.linalg.lstsq(j, -f, rcond=1e-12)[0]
+            step = np.linalg.lstsq(j / scale[:, None], -f / scale, rcond=1e-12)[0]
             length = float(np.linalg.norm(step))
             if length > 4 * reach:
                 step *= 4 * reach / length

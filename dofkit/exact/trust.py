@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
-from typing import Any
+from typing import Any, Literal
 
 from flint import nmod_poly
 from flint.utils.flint_exceptions import DomainError
@@ -15,6 +15,7 @@ from dofkit.exact.program import value_of
 from dofkit.exact.ring import VAR, Ring, Var, reachable
 from dofkit.expr import Expr
 
+Doubt = Literal["numbers", "functions"]
 INVERSE = ("asin", "atan", "atan2")
 
 
@@ -56,23 +57,29 @@ def _linear_somewhere(e: Expr) -> bool:
     return any(not slope.is_zero and s not in slope.symbols for s, slope in slopes)
 
 
-def doubtful(ring: Ring) -> bool:
+def doubt(ring: Ring) -> Doubt | None:
     """May what is 0 look like something else over GF(p), or a root stand there for the other one?
 
-    Less is asked than of `independent_generators`: no proof rests on the answer, but where it is False no relation
-    among the generators is known to be possible. Roots and logarithms of pairwise coprime polynomials have none
-    (Ostrowski 1946), and a square root of what is no square is as good as its negative.
+    Of numbers only, or of functions: these may be 0 in one region and not in another, so that no point decides. Less is
+    asked than of `independent_generators`: no proof rests on the answer, but where it is None no relation among the
+    generators is known to be possible. Roots and logarithms of pairwise coprime polynomials have none (Ostrowski 1946),
+    and a square root of what is no square is as good as its negative.
     """
-    if ring.related or odd_constants(ring):
+    if _related_functions(ring):
+        return "functions"
+    return "numbers" if odd_constants(ring) else None
+
+
+def _related_functions(ring: Ring) -> bool:
+    """May functions of the variables be related?"""
+    moving = [v for v in ring.vars if ring.var_expr[v.index].symbols]
+    kinds = [v.kind for v in moving]
+    if sum(kind in INVERSE for kind in kinds) + kinds.count("sign") > 1:
         return True
-    kinds = [v.kind for v in ring.vars]
-    inverse = sum(kind in INVERSE for kind in kinds)
-    if inverse + kinds.count("sign") > 1 or _odd_arguments(ring):
+    if ring.related or _odd_arguments(moving) or not all(_changes_sign(ring, v) for v in moving if v.kind == "sign"):
         return True
-    if "sign" in kinds and not all(_changes_sign(ring, v) for v in ring.vars if v.kind == "sign"):
-        return True
-    roots = [v for v in ring.vars if _root_of_more(v)]
-    logs = [v for v in ring.vars if v.kind == "log" and not isinstance(v.key, int)]
+    roots = [v for v in moving if _root_of_more(v)]
+    logs = [v for v in moving if v.kind == "log"]
     return not (_apart(ring, roots, squares=True) and (len(logs) < 2 or _apart(ring, logs, squares=False)))
 
 
@@ -82,9 +89,9 @@ def _changes_sign(ring: Ring, var: Var) -> bool:
     return any(_linear_somewhere(node.args[1]) for node in ex.nodes(shown) if node.op == "fn" and node.args[0] == "abs")
 
 
-def _odd_arguments(ring: Ring) -> bool:
+def _odd_arguments(moving: Sequence[Var]) -> bool:
     """Are there several sines or exponentials, one of them of something that is no polynomial?"""
-    angles = [v for v in ring.vars if v.kind in ("cos", "exp")]
+    angles = [v for v in moving if v.kind in ("cos", "exp")]
     if len(angles) < 2:
         return False
     return any(_beyond_polynomials(v.key[0]) for v in angles)
