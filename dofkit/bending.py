@@ -21,8 +21,8 @@ from dofkit.exact.field import FieldPoint
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ranks import ball_part
-from dofkit.exact.sparse import sparse
 from dofkit.exact.ring import Ring
+from dofkit.exact.sparse import sparse
 from dofkit.exact.trust import independent_generators
 from dofkit.forms import Frame, certified_rank, kernel
 from dofkit.normal import Finite, Nonlinear, Pfaffian

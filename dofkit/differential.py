@@ -24,8 +24,8 @@ from dofkit.exact.balls import (
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.program import values
 from dofkit.exact.ranks import ball_part, dependencies
-from dofkit.exact.sparse import sparse
 from dofkit.exact.ring import Scalar
+from dofkit.exact.sparse import sparse
 from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.finite import dependent_names

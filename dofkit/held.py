@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from flint import nmod_mat
-
 from dofkit.answers import Answer
+from dofkit.exact.sparse import echelon
 from dofkit.report import weakest
 
 DIFFER = "functions or numbers that occur are related in a way that exact arithmetic modulo primes does not show"
@@ -41,21 +40,12 @@ def held(field: Answer, balls: Answer) -> Answer:
 def _same(a: Answer, b: Answer) -> bool:
     numbers = (a.dof, a.velocity_dof, a.instantaneous) == (b.dof, b.velocity_dof, b.instantaneous)
     labels = all(label.holonomic == b.labels[i].holonomic for i, label in a.labels.items() if i in b.labels)
-    return numbers and labels and a.hidden == b.hidden and _first_rows(a) == _first_rows(b)
-
-
-def _first_rows(a: Answer) -> list[int]:
-    """The first independent rows."""
-    if not a.matrix or not a.matrix[0]:
-        return []
-    reduced, rank = nmod_mat([list(column) for column in zip(*a.matrix, strict=True)], a.modulus).rref()
-    found, column = [], 0
-    for r in range(rank):
-        while not reduced[r, column]:
-            column += 1
-        found.append(column)
-        column += 1
-    return found
+    return (
+        numbers
+        and labels
+        and a.hidden == b.hidden
+        and echelon(a.matrix, a.modulus).independent == echelon(b.matrix, b.modulus).independent
+    )
 
 
 def _open(field: Answer) -> Answer:

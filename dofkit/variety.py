@@ -22,8 +22,8 @@ from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.identity import excludes_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, value_of, values
-from dofkit.exact.sparse import SparseRow, rank_of_rows
 from dofkit.exact.ring import VAR, Ring, reachable
+from dofkit.exact.sparse import SparseRow, rank_of_rows
 from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.forms import Frame, sparse_frame
