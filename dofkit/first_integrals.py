@@ -24,11 +24,11 @@ from dofkit.deadline import check
 from dofkit.differential import Codistribution
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import FieldPoint, NoPointError
+from dofkit.exact.minors import determinant, polynomials
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.expr import Expr
 from dofkit.forms import field_frame, kernel
-from dofkit.hidden import cleared, determinant
 from dofkit.integrals.shapes import arranged, upright
 from dofkit.rank import free_point, rank_of
 
@@ -329,7 +329,7 @@ def _identically(forms: Codistribution, f: Expr, sample: _Sample) -> bool | None
         canon = Canon(chart.ring)
         relation = canon.quotient(chart.nodes[0])[0] if chart.nodes else None
         n = len(chart.symbols)
-        table = [cleared(canon, row, n) for row in (*forms.rows.entries, slopes)]
+        table = [polynomials(canon, row, n) for row in (*forms.rows.entries, slopes)]
         frame = field_frame(sample.matrix, n, sample.p)
         rows = [*frame.rows, len(table) - 1]
         for j in frame.free:

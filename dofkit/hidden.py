@@ -17,6 +17,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit.deadline import check
 from dofkit.exact.canon import Canon, TooLargeError
+from dofkit.exact.minors import determinant, polynomials
 from dofkit.exact.program import values
 from dofkit.exact.ring import Point, Scalar
 from dofkit.expr import Expr
@@ -45,7 +46,7 @@ def hidden_relation(rows: Rows, n: int, point: Point) -> tuple[tuple[Expr, ...],
     common: Any = None
     minors: list[Any] = []
     try:
-        table = [cleared(canon, rows.entries[r], n + 1) for r in chosen]
+        table = [polynomials(canon, rows.entries[r], n + 1) for r in chosen]
         for columns in islice(combinations(range(n), size - 1), MAX_CHOICES):
             check()
             picked = (*columns, n)
@@ -83,25 +84,3 @@ def _independent(matrix: Sequence[Sequence[Scalar]], columns: Sequence[int] | ra
 def _nonzero(value: Scalar) -> bool:
     """Not 0 in GF(p); or a ball that excludes 0."""
     return not value.contains(0) if isinstance(value, arb) else bool(value != 0)
-
-
-def cleared(canon: Canon, row: dict[int, int], n: int) -> list[Any]:
-    """A row's entries as polynomials, times their common denominator."""
-    quotients = [canon.quotient(row[c]) if c in row else (canon.one * 0, canon.one) for c in range(n)]
-    whole = canon.one
-    for _, bottom in quotients:
-        whole = whole * (bottom / bottom.gcd(whole))
-    return [canon.reduce(top * (whole / bottom)) for top, bottom in quotients]
-
-
-def determinant(canon: Canon, matrix: list[list[Any]]) -> Any:
-    """Expanded along the first row, in the canonical ring."""
-    if len(matrix) == 1:
-        return matrix[0][0]
-    total = canon.one * 0
-    for c, entry in enumerate(matrix[0]):
-        if entry != 0:
-            below = determinant(canon, [[*row[:c], *row[c + 1 :]] for row in matrix[1:]])
-            term = canon.reduce(entry * below)
-            total = total + term if c % 2 == 0 else total - term
-    return canon.reduce(total)

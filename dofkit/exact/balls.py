@@ -190,14 +190,18 @@ class RealSearch:
         return found
 
     def search(
-        self, seed: int = 0, given: Mapping[Expr, float] | None = None, starts: int = STARTS
+        self,
+        seed: int = 0,
+        given: Mapping[Expr, float] | None = None,
+        starts: int = STARTS,
+        steps: int = ITERATIONS,
     ) -> RealPoint | None:
         """The first certified point found, else any; ``given`` values of symbols are where the search begins."""
         singular: RealPoint | None = None
         tries = 0
         for attempt in range(starts):
             symbols = self.start(seed * STARTS + attempt, given or {})
-            found = self.descend(symbols, seed)
+            found = self.descend(symbols, seed, steps)
             refined = None if found is None else self.refine(symbols, found, seed)
             if refined is not None and refined.certified and refined.consistent:
                 return refined
@@ -207,7 +211,7 @@ class RealSearch:
                 break
         return singular
 
-    def descend(self, symbols: dict[Expr, float], seed: int) -> np.ndarray | None:
+    def descend(self, symbols: dict[Expr, float], seed: int, steps: int = ITERATIONS) -> np.ndarray | None:
         """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end.
 
         At a singular point each step only halves the distance: it goes on until the steps are fast, or to the last.
@@ -215,7 +219,7 @@ class RealSearch:
         if not self.nodes:
             return np.zeros((0, len(self.columns)))
         previous, j = math.inf, np.zeros((0, 0))
-        for _ in range(ITERATIONS):
+        for _ in range(steps):
             check()
             try:
                 f, j = self._float_system(symbols, seed)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
@@ -97,11 +98,22 @@ class Canon:
     def reduce(self, poly: Poly) -> Poly:
         """Modulo the generators' algebraic relations."""
         check()
-        for relation in self.relations:
+        for place, degree, relation in self._divisors:
             if len(poly) > MAX_TERMS:
                 raise TooLargeError
-            _, poly = divmod(poly, relation)
+            if poly.degrees()[place] >= degree:
+                _, poly = divmod(poly, relation)
         return poly
+
+    @cached_property
+    def _divisors(self) -> list[tuple[int, int, Poly]]:
+        """The relations with their leading generators' places and degrees."""
+        found = []
+        for relation in self.relations:
+            leading = relation.monomial(0)
+            place = next(i for i, k in enumerate(leading) if k)
+            found.append((place, int(leading[place]), relation))
+        return found
 
     @property
     def relations(self) -> list[Poly]:
