@@ -27,15 +27,13 @@ from dofkit.lowering import lower
 from dofkit.methods import METHODS, MethodName
 from dofkit.normal import Finite
 from dofkit.redundancy import Redundancies
-from dofkit.report import ConstraintEntry, ForceEntry, Redundancy, Report, weakest
+from dofkit.report import BRANCH_WARNING, ConstraintEntry, ForceEntry, Redundancy, Report, weakest
 from dofkit.scene import Scene
 from dofkit.sketch import blank, sketch
 from dofkit.solving import Outcome, Reduced, reduce_all, solve
+from dofkit.special import special_cases
 from dofkit.system import System
 from dofkit.together import Companionship
-
-_BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
-
 
 _UNWATCHED = "No worker process could be started here: the time was watched, but nothing would have been killed."
 
@@ -92,9 +90,17 @@ def _classified(scene: Scene | System, seconds: float, method: MethodName) -> Re
             setting = replace(setting, engines=METHODS[method].engines)
             outcome = solve(system, reduced, setting)
             report = _report(system, reduced, setting, outcome)
+            if method != "auto":
+                return _by_one_engine(report, outcome, method)
+            return report.model_copy(update=special_cases(system, reduced, setting, outcome, report, _generic))
     except OutOfTimeError as error:
         return sketch(system, str(error))
-    return report if method == "auto" else _by_one_engine(report, outcome, method)
+
+
+def _generic(system: System) -> Report:
+    """The report without special cases."""
+    reduced, setting = _prepared(system)
+    return _report(system, reduced, setting, solve(system, reduced, setting))
 
 
 def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int] | None:
@@ -210,6 +216,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
         integrable_part=integrable_part(outcome, entries, company),
         constraints=entries,
         forces=[ForceEntry(name=f.name, reason=f.reason) for f in system.forces],
+        special_cases=[],
         verdict=verdict,
         method="; ".join(dict.fromkeys(a.method for a in outcome.answers if a.method)) or "count",
         modelled=_modelled(system, outcome),
@@ -306,7 +313,7 @@ def _warnings(system: System, reduced: Sequence[Reduced], outcome: Outcome) -> l
         for normal in r.normals:
             found += [f"'{r.constraint.name}': {note}" for note in normal.notes]
             if len(normal.branches) > 1:
-                found.append(_BRANCH_WARNING.format(name=r.constraint.name))
+                found.append(BRANCH_WARNING.format(name=r.constraint.name))
         found += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
     for a in outcome.answers:
         found += a.reasons

@@ -14,6 +14,9 @@ VERDICTS: tuple[Verdict, ...] = ("proved", "probable", "numeric", "undecided")
 #: Of several equations, the last of these that occurs names the constraint's form.
 FORMS: tuple[Form, ...] = ("finite", "pfaffian", "nonlinear", "inequality")
 
+#: Said of a constraint that is a product.
+BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
+
 
 def weakest(*verdicts: Verdict) -> Verdict:
     """The weakest of some verdicts; of none, ``proved``.
@@ -99,12 +102,27 @@ class ForceEntry(Model):
     reason: str
 
 
+class SpecialCase(Model):
+    """Where the answer is another one: values of ``parameters``, or a ``locus`` of configurations.
+
+    ``where`` are the conditions as text (``R = 0``, ``x = 0 and y = 0``), ``what`` says what changes there, and
+    ``constraints`` for which.
+    """
+
+    where: str
+    kind: Literal["parameters", "locus"]
+    what: str
+    constraints: list[str]
+    verdict: Verdict
+
+
 class Report(Model):
     """How a system can move; the fields and their meanings are those of the contract.
 
     ``dof`` is the dimension of the configuration space (hidden finite relations included),
     ``velocity_dof`` the number of independent velocities of finite motions,
     ``instantaneous_dof`` what the constraints allow to first order at the reference configuration.
+    ``special_cases`` are apart: all other fields are the generic answer.
     A number that could not be decided is None, ``verdict`` is then ``undecided`` and ``warnings`` says why.
     """
 
@@ -126,6 +144,7 @@ class Report(Model):
     integrable_part: IntegrablePart | None = None
     constraints: list[ConstraintEntry]
     forces: list[ForceEntry]
+    special_cases: list[SpecialCase]
     verdict: Verdict
     method: str
     modelled: str

@@ -127,6 +127,7 @@ def _report(
         growth_vector=None,
         constraints=list(entries),
         forces=list(forces),
+        special_cases=[],
         verdict="undecided",
         method="none",
         modelled="nothing: there was no time",

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from dofkit.report import ConstraintEntry, Count, ForceEntry, Redundancy, Report
+from dofkit.report import ConstraintEntry, Count, ForceEntry, Redundancy, Report, SpecialCase
 from dofkit.show.terminal import MOST_ROWS, as_text, labels
 
 
@@ -31,7 +31,8 @@ def report(**fields: Any) -> Report:
         "scene": "example", "consistent": True, "dof": 10, "velocity_dof": 9, "instantaneous_dof": None,
         "singular": None, "holonomic": False, "scleronomic": True, "count": count, "redundant_equations": 0,
         "redundant": [], "redundancies": [], "conflicting": [], "generalized_coordinates": ["x", "y"],
-        "growth_vector": None, "constraints": [entry()], "forces": [], "verdict": "proved", "method": "rank",
+        "growth_vector": None, "constraints": [entry()], "forces": [], "special_cases": [],
+        "verdict": "proved", "method": "rank",
         "modelled": "everything", "warnings": [],
     }  # fmt: skip
     return Report(**{**given, **fields})
@@ -55,6 +56,17 @@ def test_it_says_what_is_asked_first() -> None:
 def test_where_the_count_errs_it_says_so() -> None:
     wrong = report().count.model_copy(update={"errs": "one link too many"})
     assert "where it errs       one link too many" in shown(report(count=wrong))
+
+
+def test_special_cases_stand_apart() -> None:
+    cases = [
+        SpecialCase(where="R = 0", kind="parameters", what="dof 2 instead of 4", constraints=["c1"], verdict="proved"),
+        SpecialCase(where="y = 0", kind="locus", what="it is flat", constraints=["c1", "c2"], verdict="probable"),
+    ]
+    text = shown(report(special_cases=cases))
+    assert "Special cases\n  R = 0: dof 2 instead of 4 (c1)\n  y = 0: it is flat (c1, c2) [probable]\n" in text
+    assert "probable: exact arithmetic at random points" in text
+    assert "Special cases" not in shown(report())
 
 
 def test_a_singular_configuration_is_told() -> None:

@@ -9,7 +9,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from dofkit.report import ConstraintEntry, Report
+from dofkit.report import ConstraintEntry, Report, SpecialCase
 from dofkit.show.faults import safe
 
 #: More constraints than this are counted, not listed.
@@ -47,6 +47,7 @@ def _parts(report: Report, title: str | None) -> Iterator[RenderableType]:
         yield from _section("Constraints", [_constraints(report.constraints)])
         yield from _section("Why", _reasons(report.constraints))
     yield from _section("Integrals", _integrals(report.constraints))
+    yield from _section("Special cases", _special(report.special_cases))
     yield from _section("Redundancy", _redundancy(report))
     yield from _section("Forces", [_item(force.name, force.reason) for force in report.forces])
     yield from _section("Warnings", [_item("!", warning) for warning in report.warnings])
@@ -168,6 +169,14 @@ def _integrals(entries: Iterable[ConstraintEntry]) -> list[RenderableType]:
     return found[:MOST_ROWS]
 
 
+def _special(cases: Sequence[SpecialCase]) -> list[RenderableType]:
+    told: list[RenderableType] = []
+    for case in cases:
+        sure = "" if case.verdict == "proved" else f" [{case.verdict}]"
+        told.append(_item(case.where, f"{case.what} ({_names(case.constraints)}){sure}"))
+    return told
+
+
 def _redundancy(report: Report) -> list[RenderableType]:
     told: list[RenderableType] = []
     if report.redundant:
@@ -181,7 +190,7 @@ def _redundancy(report: Report) -> list[RenderableType]:
 
 
 def _verdicts(report: Report) -> list[RenderableType]:
-    used = {report.verdict, *(entry.verdict for entry in report.constraints)}
+    used = {report.verdict, *(e.verdict for e in report.constraints), *(case.verdict for case in report.special_cases)}
     return [_item(verdict, meaning) for verdict, meaning in _VERDICT_MEANS.items() if verdict in used]
 
 
