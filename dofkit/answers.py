@@ -33,7 +33,7 @@ class Answer:
 
     ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
     redundancy; ``hidden`` the finite relations that the differential ones force; ``doubt``: functions or numbers
-    occur that may be related in a way that GF(p) does not show.
+    occur that may be related in a way that GF(p) does not show; ``late``: there was no time for it.
     """
 
     consistent: bool | None = True
@@ -53,6 +53,7 @@ class Answer:
     derived: tuple[int, ...] | None = None
     doubt: Doubt | None = None
     method: str = ""
+    late: bool = False
 
 
 @dataclass(frozen=True)

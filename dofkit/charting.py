@@ -8,6 +8,7 @@ from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.blocks import Block, expressions, uses_time
 from dofkit.chart import Chart
+from dofkit.deadline import check
 from dofkit.exact.ring import Ring
 from dofkit.exact.terms import linear_terms
 from dofkit.expr import Expr
@@ -48,6 +49,7 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
     ring = Ring(everything, setting.positive, alias)
     nodes = tuple(ring.node(g) for g in finite)
     for e in everything:
+        check()
         ring.node(e)
     symbols = tuple(ex.coordinate(c) for c in block.coordinates)
     if uses_time(block) or any(ex.TIME in e.symbols for e in extra):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from flint import ctx
@@ -17,7 +18,7 @@ from dofkit.choice import generalized
 from dofkit.conflicts import conflict
 from dofkit.constancy import about_constants
 from dofkit.count import Facts, count
-from dofkit.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
+from dofkit.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited, part, unless_late
 from dofkit.dependence import merged, redundancies
 from dofkit.exact.balls import PRECISION
 from dofkit.expr import Expr
@@ -26,7 +27,7 @@ from dofkit.labelling import entries_of
 from dofkit.lowering import lower
 from dofkit.methods import METHODS, MethodName
 from dofkit.normal import Finite
-from dofkit.redundancy import Redundancies
+from dofkit.redundancy import Redundancies, left_open
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, ForceEntry, Redundancy, Report, weakest
 from dofkit.scene import Scene
 from dofkit.sketch import blank, sketch
@@ -35,6 +36,9 @@ from dofkit.special import special_cases
 from dofkit.system import System
 from dofkit.together import Companionship
 
+#: Shares of the time: for the blocks of a scene, and of what is left for what depends on what; the rest is for labels.
+SOLVING, DEPENDENCE = 0.75, 0.5
+_NO_SPECIAL_CASES = "There was no time to look for special cases."
 _UNWATCHED = "No worker process could be started here: the time was watched, but nothing would have been killed."
 
 
@@ -88,13 +92,21 @@ def _classified(scene: Scene | System, seconds: float, method: MethodName) -> Re
         with limited(until - time.monotonic()), ctx.workprec(PRECISION):
             reduced, setting = _prepared(system)
             setting = replace(setting, engines=METHODS[method].engines)
-            outcome = solve(system, reduced, setting)
+            with part(SOLVING):
+                outcome = solve(system, reduced, setting)
             report = _report(system, reduced, setting, outcome)
             if method != "auto":
                 return _by_one_engine(report, outcome, method)
-            return report.model_copy(update=special_cases(system, reduced, setting, outcome, report, _generic))
+            return _with_special_cases(system, reduced, setting, outcome, report)
     except OutOfTimeError as error:
         return sketch(system, str(error))
+
+
+def _with_special_cases(
+    system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report
+) -> Report:
+    look = partial(special_cases, system, reduced, setting, outcome, report, _generic)
+    return report.model_copy(update=unless_late(look, {"warnings": [*report.warnings, _NO_SPECIAL_CASES]}))
 
 
 def _generic(system: System) -> Report:
@@ -169,8 +181,13 @@ def _surely_real(block: Block, a: Answer) -> bool:
 
 def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Report:
     names = [c.name for c in system.constraints]
-    conflicting = conflict(system, reduced, setting, outcome) if outcome.consistent is False else []
-    dependent = redundancies(reduced, setting, outcome)
+    impossible = outcome.consistent is False
+    conflicting: list[int] = []
+    nothing = left_open(i for i, r in enumerate(reduced) if r.normals)
+    with part(DEPENDENCE):
+        if impossible:
+            conflicting = unless_late(partial(conflict, system, reduced, setting, outcome), conflicting)
+        dependent = unless_late(partial(redundancies, reduced, setting, outcome), [nothing])
     company = Companionship(setting)
     equations = sum(r.equations for r in reduced)
     dof, velocity_dof = outcome.dof, outcome.velocity_dof
@@ -211,9 +228,9 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
             Redundancy(nullity=nullity, members=[names[i] for i in members]) for nullity, members in merged(dependent)
         ],
         conflicting=[names[i] for i in conflicting],
-        generalized_coordinates=_generalized(system, setting, outcome),
+        generalized_coordinates=unless_late(partial(_generalized, system, setting, outcome), None),
         growth_vector=_growth(outcome, entries),
-        integrable_part=integrable_part(outcome, entries, company),
+        integrable_part=unless_late(partial(integrable_part, outcome, entries, company), None),
         constraints=entries,
         forces=[ForceEntry(name=f.name, reason=f.reason) for f in system.forces],
         special_cases=[],

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from typing import TypeVar
 
 from dofkit.errors import DofkitError
 
@@ -13,8 +14,11 @@ from dofkit.errors import DofkitError
 DEFAULT_SECONDS = 60.0
 #: Past that, work has so many seconds (or that part of the time, if it is more) to see it and to end by itself.
 GRACE_SECONDS, GRACE_PART = 1.0, 0.25
+#: rows * columns * min(rows, columns) of a dense matrix that is still eliminated, and how much of that a second does.
+MAX_WORK, WORK_A_SECOND = 30_000_000_000, 3e9
 OUT_OF_TIME = "the time allowed for the scene was used up"
 
+T = TypeVar("T")
 _until: ContextVar[float] = ContextVar("until", default=float("inf"))
 
 
@@ -37,10 +41,36 @@ def limited(seconds: float) -> Iterator[None]:
         _until.reset(token)
 
 
+def left() -> float:
+    """The seconds that are left."""
+    return max(0.0, _until.get() - time.monotonic())
+
+
+@contextmanager
+def part(share: float) -> Iterator[None]:
+    """Let `check` raise where this share of the time that is left is used up: the rest is for what comes after."""
+    with limited(share * left()):
+        yield
+
+
+def unless_late(work: Callable[[], T], otherwise: T) -> T:
+    """The result of ``work``, or ``otherwise`` where the time is used up before."""
+    try:
+        return work()
+    except OutOfTimeError:
+        return otherwise
+
+
 def check() -> None:
     """Raise OutOfTimeError where the time is used up."""
     if time.monotonic() > _until.get():
         raise OutOfTimeError(OUT_OF_TIME)
+
+
+def affordable(rows: int, columns: int) -> None:
+    """Raise OutOfTimeError for a matrix too large for elimination in the time of a scene, or in what is left of it."""
+    if rows * columns * min(rows, columns) > min(MAX_WORK, WORK_A_SECOND * left()):
+        raise OutOfTimeError(f"a matrix of {rows} rows and {columns} columns is too large here")
 
 
 def expired() -> bool:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
+from functools import partial
 
 import networkx as nx
 
@@ -11,10 +11,10 @@ from dofkit.analysis import answer
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, Row, split
 from dofkit.branches import algebraic, all_of, follows, through_reference
-from dofkit.deadline import OutOfTimeError, check
+from dofkit.deadline import check, limited, unless_late
 from dofkit.exact.sparse import SparseRow
 from dofkit.normal import Finite, Still
-from dofkit.redundancy import Redundancies, Rows, analyse
+from dofkit.redundancy import Redundancies, Rows, analyse, left_open
 from dofkit.solving import Outcome, Reduced
 
 #: Constraints of one set that are tried one by one, and seconds spent on leaving constraints out.
@@ -22,7 +22,10 @@ MAX_CHOICES, LEAVING_SECONDS = 16, 5.0
 
 
 def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
-    """Block by block, by the rank of the rows; where that does not measure dependence, by leaving constraints out."""
+    """Block by block, by the rank of the rows; where that does not measure dependence, by leaving constraints out.
+
+    Where there is no time or no way to tell, the constraints concerned are left open.
+    """
     found = [_void(reduced)]
     if not outcome.consistent:
         return found
@@ -40,19 +43,22 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
         if nullity <= 0 and (a.degenerate or a.hidden):
             found.append(Redundancies({o: owners.count(o) for o in owners}, [], [], {}))
         elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
-            found.append(_by_leaving_out(block, setting, a, nullity))
+            found.append(unless_late(partial(_by_leaving_out, block, setting, a, nullity), left_open(owners)))
         else:
             parts.append(Rows(matrix, owners, finite, a.modulus))
-    by_rank = [r for group in _sharing(parts) for r in _analysed(group)]
-    everywhere = _everywhere(reduced, setting, outcome, by_rank)
+    by_rank = [
+        unless_late(partial(_analysed, group), left_open(o for part in group for o in part.owners))
+        for group in _sharing(parts)
+    ]
+    everywhere = unless_late(partial(_everywhere, reduced, setting, outcome, by_rank), None)
     if everywhere:
         return found + by_rank
     return found + (
-        _over_branches(reduced, setting, outcome) if everywhere is False else list(map(_left_open, by_rank))
+        _over_branches(reduced, setting, outcome) if everywhere is False else list(map(_at_a_point, by_rank))
     )
 
 
-def _left_open(r: Redundancies) -> Redundancies:
+def _at_a_point(r: Redundancies) -> Redundancies:
     """Redundant by rank at a point, and not known to be so elsewhere."""
     independent = {i: k for i, k in r.independent.items() if i not in r.redundant}
     return Redundancies(independent, [], [], {}, tuple(r.redundant))
@@ -77,13 +83,10 @@ def _everywhere(
     return all_of(_follows(reduced, i, kept, setting) for i in dropped)
 
 
-def _analysed(group: list[Rows]) -> list[Redundancies]:
-    """One group's redundancies; none where there is no time left for them."""
-    try:
-        check()
-        return [analyse(group)]
-    except OutOfTimeError:
-        return []
+def _analysed(group: list[Rows]) -> Redundancies:
+    """One group's redundancies."""
+    check()
+    return analyse(group)
 
 
 def _over_branches(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
@@ -91,7 +94,7 @@ def _over_branches(reduced: Sequence[Reduced], setting: Setting, outcome: Outcom
     numbers = [i for i, r in enumerate(reduced) if r.normals and i not in outcome.copies]
     independent = {i: reduced[i].equations for i in numbers}
     if len(numbers) > MAX_CHOICES:
-        return [Redundancies({}, [], [], {}, tuple(numbers))]
+        return [left_open(numbers)]
     kept, circuits, undecided = list(numbers), {}, []
     for i in reversed(numbers):
         others = [j for j in kept if j != i]
@@ -173,13 +176,14 @@ def _by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int) -> 
     integrated = {r.constraint for r in block.rows if _constant(r) is not None}
     order = sorted(owners, key=lambda o: (o in differential) + (o in integrated))
     kept = list(order)
-    until = time.monotonic() + LEAVING_SECONDS
-    for owner in reversed(order):
-        if time.monotonic() > until or len(kept) < 2:
-            break
-        fewer = [r for r in block.rows if r.constraint in kept and r.constraint != owner]
-        if _same_freedom(block, fewer, setting, a):
-            kept.remove(owner)
+    with limited(LEAVING_SECONDS):
+        for owner in reversed(order):
+            if len(kept) < 2:
+                break
+            check()
+            fewer = [r for r in block.rows if r.constraint in kept and r.constraint != owner]
+            if _same_freedom(block, fewer, setting, a):
+                kept.remove(owner)
     redundant = sorted(set(order) - set(kept))
     members = sorted(order) if redundant else []
     groups = [(nullity, members)] if redundant else []

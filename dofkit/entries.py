@@ -147,8 +147,9 @@ def _together(labels: Sequence[bool | None]) -> bool | None:
 
 
 def _labels(in_system: bool | None, own: bool | None, told: Sequence[Told]) -> Labels:
-    undecided = (t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason)
-    return Labels(in_system, own, next(undecided, ""), bool(told))
+    undecided = [t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason]
+    late = [why for t in told if t.answer.late for why in t.answer.reasons]
+    return Labels(in_system, own, next(iter(late + undecided), ""), bool(told))
 
 
 def _in_system(

@@ -18,7 +18,7 @@ from typing import Any
 
 from flint import arb_mat, arb_poly, nmod_mat, nmod_poly
 
-from dofkit.deadline import check
+from dofkit.deadline import affordable, check
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Scalar
 from dofkit.exact.series import Series, SeriesPoint, series_values, zero_poly
@@ -121,6 +121,7 @@ class Flow:
 
     def _pivots(self) -> None:
         first, size = self.matrices[0], len(self.frame.rows)
+        affordable(size, 2 * size)
         self.inverse = picked(first, self.frame.dependent, self.numbers).inv() if size else first
 
     def _velocity(self, k: int) -> None:
@@ -149,6 +150,7 @@ class Flow:
         """The series x with A_d x = right, coefficient by coefficient through the inverse of A_d at s = 0."""
         found: MatrixSeries = []
         for k in range(order):
+            check()
             later = convolved(self.dependent_part, found, k, first=1)
             found.append(self.inverse * (right(k) if later is None else right(k) - later))
         return found
@@ -204,6 +206,7 @@ class Flow:
         self.full_frame = [self.full(m, free if k == 0 else None) for k, m in enumerate(self.frames)]
         self.back = [self.identity(len(self.path))]
         for k in range(self.order - 1):
+            check()
             self.back.append(scaled(convolved(self.back, self.full_slope, k), -1 / self.base.number(k + 1)))
         self.pulled = [convolved(self.back, self.full_frame, k) for k in range(self.order)]
 
@@ -260,6 +263,7 @@ def lie_span(rows: Rows, frame: Frame, base: Any) -> Span:
         vectors: list[tuple[Scalar, ...]] = []
         dimensions: list[int] = []
         for layer in flow.pulled:
+            check()
             vectors += columns_of(layer)
             dimensions.append(rank_over(vectors, flow.sample))
             if dimensions[-1] == n or dimensions[-2:-1] == dimensions[-1:]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from flint import arb, arb_mat, nmod, nmod_mat
 
+from dofkit.deadline import check
 from dofkit.exact.ring import Ring, Scalar
 from dofkit.exact.series import Series
 from dofkit.exact.sparse import SparseRow, echelon, last_columns
@@ -137,6 +138,7 @@ def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
 
 def _eliminate(work: list[list[Any]], n: int) -> list[list[Any]]:
     for c in range(n):
+        check()
         pivot = next((r for r in range(c, n) if _invertible(work[r][c])), None)
         if pivot is None:
             raise ZeroDivisionError("no pivot")

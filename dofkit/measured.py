@@ -17,6 +17,7 @@ import numpy as np
 
 from dofkit import expr as ex
 from dofkit.chart import Chart
+from dofkit.deadline import check
 from dofkit.exact.balls import FloatPoint, jacobian
 from dofkit.exact.floats import dependency_pattern, greedy_pivots
 from dofkit.exact.program import values
@@ -119,6 +120,7 @@ def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:
     for r in range(len(j)):
         if len(kept) == rank:
             break
+        check()
         if float(np.linalg.svd(j[[*kept, r]], compute_uv=False)[-1]) > tolerance * SLACK:
             kept.append(r)
     return kept
@@ -134,6 +136,7 @@ def _moves(scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance
     step = direction
     residual = float("inf")
     for _ in range(ROUNDS):
+        check()
         for s, d, scale in zip(scene.symbols, step, scene.scale, strict=True):
             moved[s] = moved[s] + float(d) * float(scale)
         f, jac = scene.system(moved)

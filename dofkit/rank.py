@@ -8,26 +8,17 @@ from typing import Any
 from flint import nmod_mat
 
 from dofkit.chart import Chart
-from dofkit.deadline import OutOfTimeError
+from dofkit.deadline import affordable
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.program import values
 from dofkit.exact.sparse import SparseRow
-
-#: rows * columns * min(rows, columns) of a matrix that is still eliminated.
-MAX_WORK = 30_000_000_000
-
-
-def bounded(rows: int, columns: int) -> None:
-    """Raise OutOfTimeError for a matrix too large for elimination in the time of one scene."""
-    if rows * columns * min(rows, columns) > MAX_WORK:
-        raise OutOfTimeError(f"a matrix of {rows} rows and {columns} columns is too large here")
 
 
 def rank_of(matrix: list[list[Any]], p: int) -> int:
     """Rank over GF(p)."""
     if not matrix or not matrix[0]:
         return 0
-    bounded(len(matrix), len(matrix[0]))
+    affordable(len(matrix), len(matrix[0]))
     return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())
 
 

@@ -49,7 +49,7 @@ def reason_of(
     if form == "pfaffian":
         reason = _pfaffian(labels, proofs, others)
     elif form == "nonlinear":
-        reason = _nonlinear(labels.in_system)
+        reason = _nonlinear(labels)
     elif form == "inequality":
         reason = "An inequality keeps to one side (unilateral): it is not holonomic and takes no freedom away."
     elif labels.relates:
@@ -63,11 +63,12 @@ def reason_of(
     return reason
 
 
-def _nonlinear(in_system: bool | None) -> str:
-    if in_system:
+def _nonlinear(labels: Labels) -> str:
+    if labels.in_system:
         return "Not linear in the velocities alone; with the other constraints it becomes integrable: holonomic here."
-    if in_system is None:
-        return "Not decided: the velocities it allows may form flat pieces, so that it is linear in disguise."
+    if labels.in_system is None:
+        flat = "the velocities it allows may form flat pieces, so that it is linear in disguise"
+        return f"Not decided: {labels.undecided or flat}."
     return (
         "It is not linear in the velocities and no finite relation gives it: non-holonomic; it limits velocities only."
     )

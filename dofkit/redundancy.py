@@ -7,7 +7,7 @@ because only a finite relation fixes the constant. Dependent sets of constraints
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -28,6 +28,11 @@ class Redundancies:
     groups: list[tuple[int, list[int]]]
     circuits: dict[int, list[int]]
     undecided: tuple[int, ...] = ()
+
+
+def left_open(constraints: Iterable[int]) -> Redundancies:
+    """Nothing is known of these constraints."""
+    return Redundancies({}, [], [], {}, tuple(sorted(set(constraints))))
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, Row, split
 from dofkit.branches import through_reference
 from dofkit.constancy import names_in, with_rows
-from dofkit.deadline import OutOfTimeError, check
+from dofkit.deadline import OUT_OF_TIME, OutOfTimeError, check
 from dofkit.differentials import accelerations_of
 from dofkit.errors import Fault, SceneError, TextError
 from dofkit.exact.field import NoPointError
@@ -27,6 +27,7 @@ from dofkit.zeros import never_holds
 
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16
+_LEFT_OUT = f"of more than {MAX_CHOICES} choices of branches not all were looked at, so the largest is not known"
 
 
 @dataclass(frozen=True)
@@ -92,6 +93,7 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
         normals, inequalities = [], []
         written = constraint.type in ("equation", "on")
         for relation in constraint.relations:
+            check()
             if relation.sense != "=":
                 inequalities.append(Inequality(relation.expr, relation.sense == ">"))
                 continue
@@ -125,10 +127,12 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
     copied = copies(reduced)
     best: Outcome | None = None
+    seen, late, why = 0, False, None
     known = Known(system)
     constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
+            why = _LEFT_OUT
             break
         rows, impossible = list[Row](), list(never)
         for (i, normal), branch in zip(normals, choice, strict=True):
@@ -139,10 +143,13 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
         for way in reduced_velocities(with_rows(rows, constants), positive):
             names = [*(c.name for c in system.coordinates), *names_in(way, constants)]
             outcome = _answered(names, way, impossible, setting, known)
+            seen, late = seen + 1, late or any(a.late for a in outcome.answers)
             if best is None or outcome.size > best.size:
                 best = outcome
     if best is not None:
         best.copies = copied
+        if why or (late and seen > 1):
+            best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     best = best or Outcome([], [], [], [c.name for c in system.coordinates])
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
         best.first_order = _first_order(system, normals, setting, constants)
@@ -167,6 +174,7 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     seen: dict[tuple[object, ...], int] = {}
     found = {}
     for i, r in enumerate(reduced):
+        check()
         if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
             continue
         key = tuple(sorted(repr(_up_to_a_number(normal)) for normal in r.normals))
@@ -230,6 +238,6 @@ def in_time(block: Block, setting: Setting) -> Answer:
         check()
         return answer(block, setting)
     except OutOfTimeError as error:
-        return Answer(None, verdict="undecided", reasons=[str(error)])
+        return Answer(None, verdict="undecided", reasons=[str(error)], late=True)
     except (ArithmeticError, NoPointError):
         return Answer(None, verdict="undecided", reasons=["an expression has no value at the points that were tried"])

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, Protocol
 
 from dofkit.constraints import ConstraintBase, On
 from dofkit.constraints.equations import LETTERS
+from dofkit.deadline import check as out_of_time
 from dofkit.drawing import size_of
 from dofkit.errors import Fault
 from dofkit.expr import Expr
@@ -120,6 +121,7 @@ def _check_repeats(world: World, key: str, given: Sequence[str | None], names: S
 
 
 def _lowered(world: World, index: int, constraint: ConstraintBase, name: str) -> Constraint:
+    out_of_time()
     world.here = ("constraints", index)
     kind = constraint.kind()
     if world.dimension not in constraint.dimensions:

@@ -183,3 +183,21 @@ def test_hidden_relations_are_found_at_real_points_too() -> None:
     )
     report = dofkit.classify(dofkit.load(made))
     assert (report.dof, report.velocity_dof) == (1, 1)
+
+
+def test_branches_that_are_left_out_are_not_passed_over() -> None:
+    """x = 0 solves all of y_i x = 0 and leaves the five y_i free; choices that take some y_i = 0 leave four at most."""
+    made = scene(*(f"y{i} x = 0" for i in range(5)), coordinates=["x", *(f"y{i}" for i in range(5))])
+    assert dofkit.classify(dofkit.load(made)).dof in (None, 5)
+
+
+def test_redundancy_that_was_not_looked_for_is_not_denied() -> None:
+    """Of u = v, v = w, u = w the last follows from the others, whatever else there is."""
+    made = scene(
+        "a b = 0",
+        *(f"x{i} = {i + 1} x{i + 1} + 1" for i in range(15)),
+        *("u = v", "v = w", "u = w"),
+        coordinates=["a", "b", "u", "v", "w", *(f"x{i}" for i in range(16))],
+    )
+    report = dofkit.classify(dofkit.load(made))
+    assert report.redundant == ["c19"] or report.verdict == "undecided"

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dofkit.deadline import check
+
 #: Relative size below which a singular value of a matrix with scaled rows is taken for 0, and above which it is not.
 NOISE, SIGNAL = 1e-9, 1e-6
 
@@ -51,6 +53,7 @@ def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
         if r in place:
             entry[place[r]] = 1
         elif rows:
+            check()
             weights = np.linalg.lstsq(j[list(rows)].T, j[r], rcond=None)[0]
             entry = [int(abs(w) > 1e-3 * max(1e-300, float(np.max(np.abs(weights))))) for w in weights]
         pattern.append(entry)

@@ -208,6 +208,7 @@ class Solver:
 
     def _univariate(self, node: int, unit: Unit, point: FieldPoint) -> Any:
         """The numerator of a relation as a polynomial in one unknown."""
+        check()
         x = nmod_poly([0, 1], point.p)
         one = nmod_poly([1], point.p)
         values: dict[int, Any] = {}

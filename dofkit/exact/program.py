@@ -7,6 +7,7 @@ from math import prod
 
 from flint import arb
 
+from dofkit.deadline import check
 from dofkit.exact.ring import ADD, MUL, NUM, POW, VAR, Point, Ring, Scalar, Var, reachable
 
 
@@ -35,6 +36,7 @@ def values(ring: Ring, point: Point, upto: int | None = None) -> list[Scalar]:
 
     ``upto`` stops after that many instructions.
     """
+    check()
     out: list[Scalar] = []
     push = out.append
     for op, payload in ring.code[:upto]:
@@ -107,6 +109,7 @@ def _derivative(ring: Ring, var: Var, i: int, at: Sequence[Scalar], point: Point
 
 def gradient(ring: Ring, at: Sequence[Scalar], point: Point, seeds: Iterable[tuple[int, Scalar]]) -> dict[int, Scalar]:
     """The gradient of ``sum seed * value(node)`` by every symbol: ``{generator index: value}``."""
+    check()
     adjoint: dict[int, Scalar] = {}
     for node, seed in seeds:
         adjoint[node] = adjoint[node] + seed if node in adjoint else seed
