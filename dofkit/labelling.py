@@ -39,7 +39,7 @@ def entries_of(
     independent: Counter[int] = Counter()
     for found in dependent:
         independent.update(found.independent)
-    known = {i for found in dependent for i in found.independent}
+    known = {i for found in dependent for i in found.independent} - _unmeasured(outcome)
     circuits = {i: c for found in dependent for i, c in found.circuits.items()}
     left_open = {i for found in dependent for i in found.undecided}
     told = _told(len(reduced), outcome)
@@ -65,6 +65,12 @@ def _with_open_dependence(made: ConstraintEntry) -> ConstraintEntry:
     """An entry of which it is not known whether it follows from the others."""
     reason = f"{made.reason} Whether it follows from the others was not decided."
     return made.model_copy(update={"verdict": "undecided", "independent": None, "reason": reason})
+
+
+def _unmeasured(outcome: Outcome) -> set[int]:
+    """The constraints of blocks whose velocities are not known: not all of their equations were looked at."""
+    open_blocks = (b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.velocity_dof is None)
+    return {r.constraint for block in open_blocks for r in block.rows}
 
 
 def _one(

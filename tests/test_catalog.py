@@ -29,7 +29,7 @@ ROOT = Path(__file__).parent.parent
 CATALOG = sorted((ROOT / "catalog").glob("*/*.yaml"))
 SCENES = [
     path
-    for folder in ("textbook", "integrability", "corners", "examples")
+    for folder in ("textbook", "integrability", "mechanisms", "corners", "examples")
     for path in sorted((ROOT / "tests/scenes" / folder).glob("*.yaml"))
 ]
 BAD = ROOT / "tests/scenes/bad"

@@ -25,7 +25,7 @@ PATHS = [
     *sorted((ROOT / "catalog").glob("*/*.yaml")),
     *(
         p
-        for folder in ("textbook", "integrability", "corners", "examples")
+        for folder in ("textbook", "integrability", "mechanisms", "corners", "examples")
         for p in sorted((ROOT / "tests/scenes" / folder).glob("*.yaml"))
     ),
 ]
