@@ -8,24 +8,29 @@ from dataclasses import dataclass
 import networkx as nx
 
 from dofkit import expr as ex
+from dofkit.conditions import Condition
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Inequality, Nonlinear, Pfaffian, Piece
 
 
 @dataclass(frozen=True)
 class Row:
-    """One scalar equation after reduction: which constraint wrote it, and what it says."""
+    """One scalar equation after reduction, or a condition: which constraint wrote it, and what it says."""
 
     constraint: int
-    piece: Finite | Pfaffian | Nonlinear
+    piece: Finite | Pfaffian | Nonlinear | Condition
 
 
 @dataclass(frozen=True)
 class Block:
-    """Coordinates that belong together, and the rows on them (finite ones first, then as written)."""
+    """Coordinates that belong together, and the rows on them (finite ones first, then as written).
+
+    ``conditions``: where the rows say what they say.
+    """
 
     coordinates: tuple[str, ...]
     rows: tuple[Row, ...]
+    conditions: tuple[Condition, ...] = ()
 
     @property
     def finite(self) -> tuple[Row, ...]:
@@ -54,7 +59,7 @@ def coordinates_of(piece: Piece) -> frozenset[str]:
 def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block], list[str]]:
     """(blocks, coordinates that nothing touches). Rows without coordinates are blocks of their own.
 
-    Two rows share a block if they share a coordinate anywhere, coefficients included.
+    Two rows share a block if they share a coordinate anywhere, coefficients included; conditions are rows here.
     """
     graph: nx.Graph = nx.Graph()
     touched = [coordinates_of(row.piece) for row in rows]
@@ -65,11 +70,12 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
     blocks = []
     for component in nx.connected_components(graph):
         numbers = sorted(i for i in component if isinstance(i, int))
-        members = [rows[i] for i in numbers]
+        conditions = tuple(dict.fromkeys(p for i in numbers if isinstance(p := rows[i].piece, Condition)))
+        members = [rows[i] for i in numbers if not isinstance(rows[i].piece, Condition)]
         ordered = [r for r in members if isinstance(r.piece, Finite)]
         ordered += [r for r in members if not isinstance(r.piece, Finite)]
         names = sorted((name for name in component if isinstance(name, str)), key=place.__getitem__)
-        blocks.append((numbers[0], Block(tuple(names), tuple(ordered))))
+        blocks.append((numbers[0], Block(tuple(names), tuple(ordered), conditions)))
     used = frozenset().union(*touched) if touched else frozenset()
     return [b for _, b in sorted(blocks, key=lambda pair: pair[0])], [c for c in coordinates if c not in used]
 

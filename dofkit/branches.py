@@ -13,15 +13,19 @@ from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.blocks import Block, Row, coordinates_of
 from dofkit.charting import make_chart
+from dofkit.conditions import Condition, holds_at
 from dofkit.exact.balls import BallPoint, OutsideDomainError
 from dofkit.exact.field import FieldPoint, NoPointError
+from dofkit.exact.identity import is_zero
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring, Scalar
 from dofkit.exact.trust import doubt
 from dofkit.expr import Expr
 from dofkit.local import ball_matrix, ball_point
 from dofkit.normal import Finite, Normal, Piece
+from dofkit.signs import arguments_of, by_signs
 from dofkit.variety import Variety, find, on_variety, pose_point
+from dofkit.zeros import zero_set
 
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16
@@ -31,10 +35,44 @@ SEEDS = 4
 
 def through_reference(normal: Normal, setting: Setting) -> Normal:
     """The branches that hold at the reference configuration; all of them where none is given, or none holds there."""
-    if setting.reference is None or len(normal.branches) < 2:
+    if setting.reference is None:
+        return normal
+    normal = _at_kinks(normal, {**setting.reference, ex.TIME: ex.ZERO}, setting.positive)
+    if len(normal.branches) < 2:
         return normal
     kept = tuple(b for b in normal.branches if _holds(b, setting))
     return replace(normal, branches=kept) if kept else normal
+
+
+def _at_kinks(normal: Normal, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> Normal:
+    """Finite relations told apart by the signs of what stands in abs() and vanishes at the reference."""
+    branches: list[tuple[Piece, ...]] = []
+    kinked = False
+    for branch in normal.branches:
+        options: list[list[tuple[Piece, ...]]] = []
+        for p in branch:
+            folded = _folded(p.expr, known, positive) if isinstance(p, Finite) else []
+            kinked = kinked or bool(folded)
+            options.append(_by_signs(p.expr, folded, positive) if folded and isinstance(p, Finite) else [(p,)])
+        branches += [tuple(q for part in choice for q in part) for choice in cartesian(*options)]
+    return replace(normal, branches=tuple(branches), kinked=True) if kinked else normal
+
+
+def _folded(e: Expr, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> list[Expr]:
+    """The arguments of absolute values that vanish at the reference."""
+    try:
+        return [u for u in arguments_of(e) if is_zero(ex.substitute(u, known), positive)]
+    except ZeroDivisionError:
+        return []
+
+
+def _by_signs(e: Expr, arguments: Sequence[Expr], positive: frozenset[Expr]) -> list[tuple[Piece, ...]]:
+    found: list[tuple[Piece, ...]] = []
+    for signed, conditions in by_signs(e, arguments, positive):
+        moving = frozenset(s for s in signed.symbols if s.args[0] in ("coordinate", "time"))
+        zeros = ((),) if is_zero(signed, positive) else zero_set(signed, positive, moving)[0]
+        found += [(*map(Finite, conjunction), *conditions) for conjunction in zeros]
+    return found
 
 
 def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
@@ -45,7 +83,9 @@ def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
         ball = ball_point(chart, known, random.Random("dofkit branch"))
         return ball is not None and ball_matrix(chart, ball, True) is not None
     point = pose_point(chart, known, 5)
-    return point is not None and on_variety(chart, point)
+    if point is None or not on_variety(chart, point):
+        return False
+    return all(holds_at(p, known, setting.positive) is not False for p in branch if isinstance(p, Condition))
 
 
 def _block(pieces: Sequence[Finite]) -> Block:
@@ -58,7 +98,7 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
 
     It is evaluated at generic points of each branch. None where no such points were found.
     """
-    if not _finite(normal) or not all(_finite(o) for o in others):
+    if not _finite(normal) or not all(_finite(o) for o in others) or _conditional(normal):
         return None
     choices = list(cartesian(*(o.branches for o in others)))
     if len(choices) > MAX_CHOICES:
@@ -81,6 +121,11 @@ def all_of(answers: Iterable[bool | None]) -> bool | None:
 def algebraic(e: Expr) -> bool:
     """No functions beyond sines and cosines: then what is not 0 over GF(p) is not 0."""
     return all(n.op != "fn" or n.args[0] in ("sin", "cos", "tan") for n in ex.nodes(e))
+
+
+def _conditional(normal: Normal) -> bool:
+    """Does a branch say only where it holds?"""
+    return any(all(isinstance(p, Condition) for p in branch) for branch in normal.branches if branch)
 
 
 def _finite(normal: Normal) -> bool:

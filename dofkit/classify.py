@@ -265,7 +265,7 @@ def _hidden(reduced: Sequence[Reduced], outcome: Outcome) -> int:
 
 
 def _instantaneous(system: System, outcome: Outcome) -> int | None:
-    if system.reference is None or outcome.consistent is not True:
+    if system.reference is None or outcome.consistent is not True or outcome.kinked:
         return None
     if outcome.first_order is not None:
         return outcome.first_order

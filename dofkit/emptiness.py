@@ -56,6 +56,8 @@ def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions
         excluded = _excluded(wanted, dict.fromkeys(positive, NON_NEGATIVE))
         if excluded:
             return True
+        if not _faithful(relations, positive):
+            return False
         try:
             found = _system(relations, positive)
             return found is None or _algebraically(found, excluded is None)
@@ -119,6 +121,22 @@ class System:
 
 def _width(x: Interval) -> float:
     return x[1] - x[0]
+
+
+def _faithful(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
+    """Has every root a value in the ring wherever it has one? There sqrt(u^2 v) is |u| sqrt(v), though u = 0 > v."""
+    ring = Ring((), positive)
+    for node in {n for e in relations for n in ex.nodes(e)}:
+        if node.op == "pow" and node.args[1].op == "num" and node.args[1].args[0].denominator % 2 == 0:
+            base = node.args[0]
+            apart, rest = ring.known_signs(base) if base.op == "mul" else ([], base)
+            if rest != ex.ONE and any(f.symbols and f not in positive and not _is_exp(f) for f in apart):
+                return False
+    return True
+
+
+def _is_exp(e: Expr) -> bool:
+    return e.op == "fn" and e.args[0] in ("exp", "cosh")
 
 
 def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> System | None:

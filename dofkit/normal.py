@@ -8,17 +8,22 @@ Differentials are read through dq = qdot dt: a relation homogeneous of degree k 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from itertools import product as cartesian
 
 from dofkit import expr as ex
+from dofkit.conditions import Condition, conditions_of
 from dofkit.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
+from dofkit.emptiness import no_solution
 from dofkit.errors import TextError
+from dofkit.exact.identity import is_zero
+from dofkit.exact.terms import linear_terms
 from dofkit.expr import Expr
 from dofkit.quadratic import split_quadratic
-from dofkit.signs import holds_on_a_region
-from dofkit.zeros import PRODUCT_NOTE, zero_set
+from dofkit.signs import arguments_of, by_signs, holds_on_a_region, squared
+from dofkit.zeros import PRODUCT_NOTE, Conjunction, zero_set
 
 
 @dataclass(frozen=True)
@@ -66,12 +71,14 @@ class Inequality:
 
 
 REGION_NOTE = (
-    "for one sign of what stands in abs() or under the root it holds on a whole region, and takes nothing away"
+    "for one sign of what stands in abs() or under the root it holds on a whole region, and takes no freedom away there"
 )
+NOWHERE_NOTE = "no real configuration satisfies it: it has no real value anywhere"
+SQUARED_NOTE = "the root was squared away, with the sign of the other side as a condition"
 INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 QUADRATIC_NOTE = "over the reals the quadratic form in the velocities splits into linear ones"
 
-Piece = Finite | Pfaffian | Nonlinear | Inequality
+Piece = Finite | Pfaffian | Nonlinear | Inequality | Condition
 #: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
 Branches = tuple[tuple[Piece, ...], ...]
 
@@ -81,17 +88,19 @@ class Normal:
     """What a relation says, and what was done to see it.
 
     ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
+    ``kinked``: told apart by the signs of what vanishes at the reference configuration: there is no gradient there.
     """
 
     branches: Branches
     notes: tuple[str, ...] = ()
     constants: tuple[str, ...] = ()
     once: str = ""
+    kinked: bool = False
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
-        """Every piece of every branch."""
-        return tuple(piece for branch in self.branches for piece in branch)
+        """Every piece of every branch that is a relation."""
+        return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, Condition))
 
 
 def with_constants(piece: Piece, values: Mapping[str, Expr]) -> Piece:
@@ -161,9 +170,62 @@ def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     if not written:
         return Normal(((Finite(e),),))
     if holds_on_a_region(e, positive):
-        return Normal(((),), (REGION_NOTE,))
-    branches, notes = zero_set(e, positive, frozenset(s for s in e.symbols if s.args[0] in ("coordinate", "time")))
-    return Normal(tuple(tuple(Finite(g) for g in branch) for branch in branches), notes)
+        return _by_signs(e, positive)
+    branches, notes = zero_set(e, positive, _moving(e))
+    if branches == ((e,),):
+        return _squared(e, positive)
+    return _conditioned(e, branches, notes, positive)
+
+
+def _moving(e: Expr) -> frozenset[Expr]:
+    return frozenset(s for s in e.symbols if s.args[0] in ("coordinate", "time"))
+
+
+def _conditioned(
+    e: Expr, branches: Sequence[Conjunction], notes: Sequence[str], positive: frozenset[Expr], *more: Condition
+) -> Normal:
+    """The branches of a relation that was rewritten, where it was one as written: ``e`` has a value there."""
+    conditions = (*conditions_of(e, positive), *more)
+    if any(c.sense != "!=" for c in conditions) and no_solution(
+        (), positive, [c.expr for c in conditions if c.sense != "!="]
+    ):
+        return Normal((), (NOWHERE_NOTE,))
+    return Normal(tuple((*map(Finite, branch), *conditions) for branch in branches), tuple(notes))
+
+
+def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
+    """A relation that holds on a whole region for some signs: every choice of signs is a branch of its own."""
+    always = conditions_of(e, positive)
+    regions, others = list[tuple[Condition, ...]](), list[tuple[Conjunction, tuple[Condition, ...]]]()
+    for signed, conditions in by_signs(e, arguments_of(e), positive):
+        if is_zero(signed, positive):
+            regions.append(conditions)
+        else:
+            others += [(g, conditions) for g in zero_set(signed, positive, _moving(signed))[0]]
+    edges = [_up_to_a_number(c.expr) for region in regions if len(region) == 1 for c in region]
+    branches: list[tuple[Piece, ...]] = [(*region, *always) for region in regions]
+    for conjunction, conditions in others:
+        if not any(_up_to_a_number(g) in edges for g in conjunction):
+            branches.append((*map(Finite, conjunction), *conditions, *always))
+    return Normal(tuple(branches), (REGION_NOTE,))
+
+
+def _up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
+    """Equal for expressions that are multiples of each other."""
+    terms = linear_terms(e)
+    first = terms[min(terms, key=repr)] if terms else 1
+    return frozenset((s, c / first) for s, c in terms.items())
+
+
+def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
+    """A relation with one square root, squared where that shows more than a single regular relation."""
+    found = squared(e, positive)
+    if found is not None:
+        norm, condition = found
+        branches, notes = zero_set(norm, positive, _moving(norm))
+        if notes:
+            return _conditioned(e, branches, (SQUARED_NOTE, *notes), positive, condition)
+    return Normal(((Finite(e),),))
 
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:

@@ -55,7 +55,7 @@ def reason_of(
     elif labels.relates:
         reason = "A relation between coordinates (and time): holonomic."
     else:
-        reason = "It relates no coordinates and holds always."
+        reason = "It relates no coordinates: it holds always, or everywhere within a region."
     if circuit:
         reason += f" It follows from {', '.join(circuit)}."
     elif circuit is not None:

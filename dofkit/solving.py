@@ -19,6 +19,7 @@ from dofkit.differentials import accelerations_of
 from dofkit.errors import Fault, SceneError, TextError
 from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
+from dofkit.holding import within
 from dofkit.normal import Finite, Inequality, Normal, Still, normalise, without_instants
 from dofkit.system import Constraint, System
 from dofkit.twins import alike, retold
@@ -58,6 +59,7 @@ class Outcome:
     untouched: list[str]
     impossible: list[int] = field(default_factory=list)
     first_order: int | None = None
+    kinked: bool = False
     copies: dict[int, int] = field(default_factory=dict)
 
     @property
@@ -153,6 +155,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     best = best or Outcome([], [], [], [c.name for c in system.coordinates])
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
         best.first_order = _first_order(system, normals, setting, constants)
+        best.kinked = any(normal.kinked for _, normal in normals)
     return best
 
 
@@ -217,7 +220,7 @@ class Known:
 
     def answer(self, block: Block, setting: Setting, many: bool) -> Answer:
         """The block's answer; ``many`` blocks are compared with each other."""
-        same = tuple(id(row.piece) for row in block.rows)
+        same = tuple(id(p) for p in (*(row.piece for row in block.rows), *block.conditions))
         if same not in self._answers:
             self._answers[same] = block, self._twin(block, setting) if many else in_time(block, setting)
         return self._answers[same][1]
@@ -236,7 +239,7 @@ def in_time(block: Block, setting: Setting) -> Answer:
     """The block's answer; undecided where the time is used up."""
     try:
         check()
-        return answer(block, setting)
+        return within(block, answer(block, setting), setting)
     except OutOfTimeError as error:
         return Answer(None, verdict="undecided", reasons=[str(error)], late=True)
     except (ArithmeticError, NoPointError):

@@ -18,7 +18,8 @@ def alike(block: Block, setting: Setting, roles: Mapping[str, tuple[str | None, 
     What the engines know of a block goes in: its rows, and its coordinates' places in the drawing, values and roles.
     """
     symbols = [ex.coordinate(c) for c in block.coordinates]
-    mentioned = frozenset().union(*(e.symbols for e in expressions(block))) if block.rows else frozenset()
+    everything = [*expressions(block), *(c.expr for c in block.conditions)]
+    mentioned = frozenset[Expr]().union(*(e.symbols for e in everything))
     generic = [p for p in setting.generic if p in mentioned]
     names = {s: ex.coordinate(f"_{i}") for i, s in enumerate(symbols)}
     names |= {p: ex.parameter(f"_{i}") for i, p in enumerate(generic)}
@@ -26,6 +27,7 @@ def alike(block: Block, setting: Setting, roles: Mapping[str, tuple[str | None, 
     owners: dict[str | None, int] = {}
     return (
         tuple(_renamed(row.piece, names) for row in block.rows),
+        tuple((c.sense, ex.substitute(c.expr, names)) for c in block.conditions),
         tuple(_value(setting.pose, s) for s in (*symbols, *generic)),
         None if setting.reference is None else tuple(_value(setting.reference, s) for s in (*symbols, *generic)),
         tuple(_role(roles.get(c), owners) for c in block.coordinates),

@@ -72,11 +72,13 @@ def _linear_near(row: Row, rows: Sequence[Row]) -> list[Expr]:
         growing = bool(new)
         found += new
         names |= {n for r in new for n in coordinates_of(r.piece)}
-    return [
-        rate(r.piece.expr) if isinstance(r.piece, Finite) else form_rate(r.piece)
-        for r in found
-        if not isinstance(r.piece, Nonlinear)
-    ]
+    rates = []
+    for r in found:
+        if isinstance(r.piece, Finite):
+            rates.append(rate(r.piece.expr))
+        elif isinstance(r.piece, Pfaffian):
+            rates.append(form_rate(r.piece))
+    return rates
 
 
 def eliminated(e: Expr, linear: Sequence[Expr]) -> Expr:

@@ -102,8 +102,10 @@ class _Zeros:
     def _product(self, e: Expr) -> Zeros | None:
         branches: list[Conjunction] = []
         notes: list[str] = []
+        if any(_below(factor) and self._may_vanish(factor.args[0]) for factor in e.args):
+            return None
         for factor in e.args:
-            if factor.op == "num" or (factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0):
+            if factor.op == "num" or _below(factor):
                 continue
             if self.variables.isdisjoint(factor.symbols):
                 if self._is_zero(factor):
@@ -122,6 +124,9 @@ class _Zeros:
         if zero and sure != "proved":
             raise HiddenZeroError
         return bool(zero)
+
+    def _may_vanish(self, e: Expr) -> bool:
+        return not self.variables.isdisjoint(e.symbols) and bool(self.of(e)[0])
 
     def _union(self, branches: list[Conjunction], notes: list[str]) -> Zeros:
         if len(branches) > MAX_BRANCHES:
@@ -288,6 +293,11 @@ class _Zeros:
                 return []
             linear.append(ex.add(*(ex.mul(ex.num(_fraction(v)), s) for v, s in zip(entries, shown, strict=True))))
         return linear
+
+
+def _below(factor: Expr) -> bool:
+    """A factor that stands below the line."""
+    return factor.op == "pow" and factor.args[1].op == "num" and bool(factor.args[1].args[0] < 0)
 
 
 class Signs:

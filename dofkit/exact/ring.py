@@ -213,7 +213,7 @@ class Ring:
     def _root(self, radicand: Expr, degree: int) -> int:
         """The real ``degree``-th root; of a product, the product of the roots; of an integer, over its primes."""
         if radicand.op == "mul":
-            apart, rest = self._known_signs(radicand)
+            apart, rest = self.known_signs(radicand)
             if degree % 2:
                 apart, rest = list(radicand.args), ex.ONE
             if rest.op != "mul" or apart:
@@ -228,7 +228,7 @@ class Ring:
                 return self._mul(self._root_of_number(number, degree), self._root(rest, degree))
         return self._new_root((sorted_sum(radicand), degree), radicand, self.node(radicand))
 
-    def _known_signs(self, product: Expr) -> tuple[list[Expr], Expr]:
+    def known_signs(self, product: Expr) -> tuple[list[Expr], Expr]:
         """(factors that are never negative, the product of the others): only those have roots and logs of their own."""
         apart: list[Expr] = []
         rest: list[Expr] = []
@@ -263,6 +263,8 @@ class Ring:
             power = self._pow(self.node(base), int(whole))
             return self._mul(power, self._pow(self._sign(base), int(whole))) if even_inside else power
         reduced = Fraction(exponent, degree)
+        if even_inside and reduced.denominator % 2 == 0 and not self._never_negative(base):
+            base = ex.fn("abs", base)
         return self._pow(self._root(base, reduced.denominator), reduced.numerator)
 
     def _root_of_number(self, value: Fraction, degree: int) -> int:
@@ -325,7 +327,7 @@ class Ring:
     def _log(self, u: Expr) -> int:
         """log of a product as the sum of logs, of a power as a multiple, of an integer over its primes."""
         if u.op == "mul":
-            apart, rest = self._known_signs(u)
+            apart, rest = self.known_signs(u)
             if apart:
                 return self._add(*(self._log(part) for part in [*apart, *([rest] if rest != ex.ONE else [])]))
         if u.op == "pow" and (self._never_negative(u.args[0]) or u.args[1].op != "num" or u.args[1].args[0] % 2):

@@ -1,0 +1,205 @@
+"""Degenerate finite equations: the answers by hand, each with the line that gives it.
+
+A number may be left open only where a row says None; `consistent` None is an honest "not known".
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import dofkit
+
+#: (coordinates, constraints, why, answer)
+Row = tuple[str, list[str], str, dict[str, Any]]
+
+EMPTY = {"consistent": False, "dof": None, "velocity_dof": None, "verdict": "proved"}
+
+
+def answer(dof: int | None, **more: Any) -> dict[str, Any]:
+    return {"consistent": True, "dof": dof, "velocity_dof": dof, **more}
+
+
+def at(**values: Any) -> dict[str, Any]:
+    return {"configuration": values}
+
+
+POWERS: list[Row] = [
+    ("x y", ["(x - y)^3 = 0"], "x = y", answer(1, verdict="proved")),
+    ("x y", ["x^2 = 2 x y - y^2"], "(x - y)^2 = 0", answer(1, verdict="proved")),
+    ("x y", ["x^2 + y^2 = 0"], "both vanish", answer(0, verdict="proved")),
+    ("x y z", ["x^4 + y^4 + z^2 = 0"], "all vanish", answer(0, verdict="proved")),
+    ("x y", ["1e30 x^2 + 1e-30 y^2 = 0"], "both vanish, whatever the size", answer(0, verdict="proved")),
+    ("x y z", ["x^2 + y^2 + z^2 = x y + y z + z x"], "x = y = z: half the sum of squares of differences", answer(1)),
+    ("x", ["(x - 1)^2 + (sqrt(x) - 1)^2 = 0"], "x = 1 satisfies both", answer(0)),
+    ("x y", ["sqrt((x - 1)^2) + abs(y) = 0"], "both terms are >= 0: x = 1, y = 0", answer(0, verdict="proved")),
+    ("x y", ["sqrt(x) + sqrt(y) = 0"], "both roots vanish", answer(0, verdict="proved")),
+    ("x y", ["sqrt(x^2 + y^2) = 0"], "the origin", answer(0, verdict="proved")),
+    ("x y", ["sin(x)^2 + sin(y)^2 = 0"], "both sines vanish", answer(0, verdict="proved")),
+    ("x y", ["cos(x) + cos(y) = 2"], "both are 1", answer(0, verdict="proved")),
+    ("x y", ["x^3 + y^3 = 0"], "x = -y, for the other factor is definite", answer(1, verdict="proved")),
+    ("x y", ["x^3 = 0", "y^2 = 0"], "the origin", answer(0, verdict="proved")),
+    ("x y z", ["x^2 + y^2 = 0", "z = x"], "the origin", answer(0, verdict="proved")),
+    ("x y z", ["x^2 = 0", "dz = x dy"], "x = 0, so dz = 0", answer(1, holonomic=True)),
+    ("x y z", ["(x - 1)^2 = 0", "dz = x dy"], "x = 1, so dz = dy", answer(1, holonomic=True)),
+    ("x y z", ["x^2 + y^2 = 0", "dz = y dx"], "x = y = 0, so dz = 0", answer(0, holonomic=True)),
+]
+
+PRODUCTS: list[Row] = [
+    ("x y", ["x^2 y = 0"], "two lines", answer(1, verdict="proved")),
+    ("x y", ["x y = 0", "x + y = 0"], "both lines meet the third in the origin", answer(0, verdict="proved")),
+    ("x y", ["(x^2 + y^2) (x - 1) = 0"], "the line x = 1 and the origin", answer(1, verdict="proved")),
+    ("x y z", ["z (x^2 + y^2) = 0"], "the plane z = 0 and the z axis", answer(2, verdict="proved")),
+    ("x y", ["x^2 - y^2 = 0", "x^2 + y^2 = 0"], "the origin", answer(0)),
+    ("x y", ["abs(x) = x^2"], "x = 0, 1, -1", answer(1, verdict="proved")),
+    ("x y z", ["x y = 0", "dz = y dx"], "on x = 0 dz = 0, on y = 0 dz = 0", answer(1, holonomic=True)),
+    ("x y", ["x y = 0", "x = 1"], "y = 0", answer(0)),
+    (
+        "x y",
+        ["x (x - 1) (x - 2) = 0", "x = 3"],
+        "none of the three",
+        {"consistent": False, "conflicting": ["c1", "c2"]},
+    ),
+]
+
+NOTHING: list[Row] = [
+    ("x", ["x^4 + 1 = 0"], "positive", EMPTY),
+    ("x", ["x^2 + x + 1 = 0"], "discriminant -3", EMPTY),
+    ("x y", ["x^2 - 2 x y + 2 y^2 = -1"], "(x - y)^2 + y^2 >= 0", EMPTY),
+    ("x y", ["x^4 + y^4 - x^2 y^2 + 1 = 0"], "(x^2 - y^2/2)^2 + 3 y^4/4 >= 0", EMPTY),
+    ("x y", ["1e-30 x^2 + y^2 = -1e-30"], "however small", EMPTY),
+    ("x", ["sin(x) = 2"], "1 at most", EMPTY),
+    ("x y", ["cos(x) + sin(y) = 3"], "2 at most", EMPTY),
+    ("x y", ["cos(x) cos(y) = 2"], "1 at most", EMPTY),
+    ("x", ["x^2 + cos(x) = -2"], "-1 at least", EMPTY),
+    ("x", ["exp(x) = 0"], "positive", EMPTY),
+    ("x", ["exp(x) = x"], "1 apart at least", EMPTY),
+    ("x", ["sqrt(x) = -1"], "not negative", EMPTY),
+    ("x", ["abs(x) = -1"], "not negative", EMPTY),
+    ("x", ["asin(x) = 2"], "pi/2 at most", EMPTY),
+    ("x", ["acos(x) = -1"], "not negative", EMPTY),
+    ("x", ["atan(x) = 2"], "pi/2 at most", EMPTY),
+    ("x", ["log(x^2 + 1) = -1"], "not negative", EMPTY),
+    ("x y", ["atan(y/x) = 2"], "pi/2 at most", EMPTY),
+    ("x y", ["log(-x^2) = y"], "no logarithm", EMPTY),
+    ("x y", ["sqrt(-1 - x^2) y = 0"], "no root anywhere, so no product", EMPTY),
+    ("x", ["1 = 2"], "in no coordinate", EMPTY),
+    ("x", ["asin(x^2 + 1) = 0"], "the argument is 1 at most, where asin is pi/2", EMPTY),
+    ("x y", ["x^2 + y^2 = 1", "(x - 5)^2 + y^2 = 1"], "two circles apart", EMPTY | {"conflicting": ["c1", "c2"]}),
+    ("x y", ["x^2 + y^2 = 9", "(x - 1)^2 + y^2 = 1"], "one inside the other", EMPTY | {"conflicting": ["c1", "c2"]}),
+    ("x y z", ["x^2 + y^2 + z^2 = 1", "x + y + z = 2"], "the plane misses the sphere", EMPTY),
+    ("x y", ["x y = 1", "x + y = 1"], "discriminant -3", EMPTY),
+    ("x", ["x^2 = 2", "x^3 = 3"], "8 is not 9", {"consistent": False, "conflicting": ["c1", "c2"]}),
+    ("x y", ["abs(x) = y", "y = -1"], "not negative", EMPTY | {"conflicting": ["c1", "c2"]}),
+]
+
+WHERE_IT_HAS_A_VALUE: list[Row] = [
+    ("x y", ["sqrt(x) y = 0", "x = -1"], "no root of -1, though y = 0", {"consistent": False}),
+    ("x y", ["log(x) y = 0", "x = -1"], "no logarithm of -1, though y = 0", EMPTY),
+    ("x y", ["log(x) y = 0"], "x = 1, or y = 0 with x > 0", answer(1)),
+    ("x y", ["y/x = 0", "x = 0"], "0/0 is no value", {"consistent": False}),
+    ("x y", ["(x^2 + y^2)/x = 0"], "only 0/0 would do", {"consistent": False}),
+    ("x y", ["(x^2 - 1)/(x - 1) = y"], "y = x + 1", answer(1, verdict="proved")),
+    ("x y", ["(x^2 - 1)/(x - 1) = 0"], "x = -1, not 1", answer(1, verdict="proved")),
+    ("x y", ["(x^2 - 1)/(x - 1) = 0", "x = 1"], "2 is not 0", {"consistent": False}),
+    ("x", ["(x - 1) (x^2 + 1)/(x - 1) = 0"], "x^2 + 1", EMPTY),
+    ("x", ["x/x = 1"], "always", answer(1)),
+    ("x y", ["x/x = y"], "y = 1", answer(1)),
+    ("x y", ["x + abs(x) = 0"], "x <= 0, a half plane", answer(2)),
+    ("x", ["sqrt(x^2) = x"], "x >= 0", answer(1)),
+    ("x y", ["x + abs(x) = 0", "x = 1"], "x <= 0", {"consistent": False, "conflicting": ["c1", "c2"]}),
+    ("x y", ["x + abs(x) = 0", "x = -1"], "x <= 0 holds", answer(1)),
+    ("x y", ["x + abs(x) = 0", "x = y^2 + 1"], "x <= 0", {"consistent": False}),
+    ("x y", ["x + abs(x) = 0", "y = x^3"], "half a cubic", answer(1)),
+    ("x y", ["y (x + abs(x)) = 0"], "the half plane x <= 0 and the line y = 0", answer(2, redundant=[])),
+    ("x y", ["y (x + abs(x)) = 0", "x = 1"], "y = 0", answer(0)),
+    ("x y", ["sqrt(x^2 + y^2) = x"], "y = 0 where x >= 0", answer(1, verdict="proved")),
+    ("x y", ["sqrt(x^2 + y^2) = x", "x = -2"], "not negative", {"consistent": False}),
+    ("x y", ["sqrt(x^2 + y^2) = x", "x = 2"], "y = 0", answer(0)),
+    ("x y", ["(x^2)^(1/4) = y", "x = -4"], "y = sqrt(2)", answer(0)),
+    ("x y", ["abs(x) + abs(y) = 1"], "a square", answer(1)),
+    ("x y", ["abs(x) + abs(y) = 0"], "the origin", answer(0, verdict="proved")),
+    ("x y z", ["dz = x dy", "x + abs(x) = 0"], "a contact form where x < 0", {"dof": 3, "velocity_dof": 2}),
+]
+
+#: Numbers that are 0 by an identity that may be missed: the true freedom, or an honest None.
+HIDDEN_NUMBERS = [
+    ("x", "atan(1) = pi/4", 1),
+    ("x y", "(atan(1) - pi/4) x = 0", 2),
+    ("x y", "(4 atan(1/5) - atan(1/239) - pi/4) x y = 0", 2),
+    ("x y", "(sqrt(5 + 2 sqrt(6)) - sqrt(2) - sqrt(3)) (x^2 + 1) = 0", 2),
+]
+
+#: The same with a reference configuration.
+AT_A_POINT: list[tuple[str, list[str], dict[str, Any], str, dict[str, Any]]] = [
+    ("x y", ["y^2 = x^2 (x + 1)"], at(x=0, y=0), "a node", answer(1, instantaneous_dof=2, singular=True)),
+    ("x y", ["y^2 = x^2 (x - 1)"], at(x=0, y=0), "an isolated point", answer(0, instantaneous_dof=2, singular=True)),
+    ("x y", ["x^3 + y^3 = 3 x y"], at(x=0, y=0), "a node", answer(1, instantaneous_dof=2, singular=True)),
+    ("x y", ["(x^2 + y^2)^2 = x^2 - y^2"], at(x=0, y=0), "a node", answer(1, instantaneous_dof=2, singular=True)),
+    ("x y", ["x^2 y = 0"], at(x=0, y=1), "on the double line", answer(1)),
+    ("x y", ["(x^2 + y^2) (x - 1) = 0"], at(x=0, y=0), "an isolated point", answer(0)),
+    ("x y z", ["z (x^2 + y^2) = 0"], at(x=0, y=0, z=1), "on the axis", answer(1)),
+    ("x y z", ["z (x^2 + y^2) = 0"], at(x=0, y=0, z=0), "the plane is larger", answer(2, singular=True)),
+    ("x y", ["sqrt(x^2 + y^2) = 5"], at(x=3, y=4), "a circle", answer(1, instantaneous_dof=1, singular=False)),
+    ("x y", ["sqrt(x^2 + y^2) = x"], at(x=1, y=0), "a half line", answer(1, instantaneous_dof=1)),
+    ("x y", ["y (x + abs(x)) = 0"], at(x=1, y=0), "on the line", answer(1, instantaneous_dof=1)),
+    ("x y", ["y (x + abs(x)) = 0"], at(x=-1, y=1), "within the half plane", answer(2, instantaneous_dof=2)),
+    ("x y", ["x + abs(x) = 0"], at(x=0, y=1), "on the edge of the half plane", answer(2)),
+    ("x y", ["abs(x) = y"], at(x=0, y=0), "at the kink", answer(1, instantaneous_dof=None)),
+    ("x y", ["abs(x) = abs(y)"], at(x=0, y=0), "where four rays meet", answer(1, instantaneous_dof=None)),
+    ("x y", ["sin(x) = sin(y)"], at(x="pi/2", y="pi/2"), "x = y and x + y = pi cross", answer(1, instantaneous_dof=2)),
+    ("x y z", ["y^2 = x^3", "dz = y dx"], at(x=0, y=0, z=0), "the cusp", answer(1, instantaneous_dof=2)),
+]
+
+
+def check(made: dict[str, Any], expected: dict[str, Any]) -> None:
+    report = dofkit.classify(dofkit.load(made)).model_dump(mode="json")
+    assert {key: report[key] for key in expected} == expected
+
+
+TABLES = {
+    "powers": POWERS,
+    "products": PRODUCTS,
+    "nothing": NOTHING,
+    "where it has a value": WHERE_IT_HAS_A_VALUE,
+}
+ROWS = [pytest.param(*row, id=f"{name}: {'; '.join(row[1])}") for name, rows in TABLES.items() for row in rows]
+
+
+@pytest.mark.parametrize(("coordinates", "constraints", "why", "expected"), ROWS)
+def test_degenerate_equations(coordinates: str, constraints: list[str], why: str, expected: dict[str, Any]) -> None:
+    assert why
+    check({"coordinates": coordinates.split(), "constraints": constraints}, expected)
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "constraints", "reference", "why", "expected"),
+    [pytest.param(*row, id=f"{'; '.join(row[1])} at {row[2]['configuration']}") for row in AT_A_POINT],
+)
+def test_degenerate_configurations(
+    coordinates: str, constraints: list[str], reference: dict[str, Any], why: str, expected: dict[str, Any]
+) -> None:
+    assert why
+    check({"coordinates": coordinates.split(), "constraints": constraints, **reference}, expected)
+
+
+@pytest.mark.parametrize(("coordinates", "text", "dof"), HIDDEN_NUMBERS)
+def test_numbers_that_are_zero_unseen(coordinates: str, text: str, dof: int) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": coordinates.split(), "constraints": [text]}))
+    assert report.dof in (dof, None)
+    assert report.consistent is not False
+
+
+def test_what_was_done_is_said() -> None:
+    def said(*constraints: str) -> str:
+        return " ".join(dofkit.classify(dofkit.load({"coordinates": ["x", "y"], "constraints": constraints})).warnings)
+
+    assert "a power is zero where its base is" in said("(x - y)^3 = 0")
+    assert "a sum of squares" in said("x^2 + y^2 = 0")
+    assert "several branches" in said("x y = 0")
+    assert "whole region" in said("x + abs(x) = 0")
+    assert "squared away" in said("sqrt(x^2 + y^2) = x")
+    assert "no real configuration" in said("x^2 + y^2 = 1", "(x - 5)^2 + y^2 = 1")
+    assert "-x >= 0" in said("x + abs(x) = 0", "x = 1")
+    assert "it has no real value anywhere" in said("sqrt(-1 - x^2) y = 0")
