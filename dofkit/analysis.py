@@ -20,11 +20,11 @@ from dofkit.differential import (
     span_at,
 )
 from dofkit.exact.engines import BALLS, BOTH
-from dofkit.exact.field import FieldPoint
+from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.trust import doubt, independent_generators
 from dofkit.expr import Expr
 from dofkit.finite import finite_answer
-from dofkit.held import held
+from dofkit.held import held, numeric
 from dofkit.report import weakest
 from dofkit.variety import Variety, find
 
@@ -36,9 +36,15 @@ MAX_HIDDEN_BRANCHES = 6
 
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block; where its functions may be related in unseen ways, balls have the last word."""
-    found = _answer(block, setting)
+    alone = replace(setting, engines=BALLS, grows=False, flag=False)
+    try:
+        found = _answer(block, setting)
+    except NoPointError:
+        if setting.engines != BOTH:
+            raise
+        return numeric(_answer(block, alone))
     if found.doubt and setting.engines == BOTH and setting.tolerance is None:
-        return held(found, _answer(block, replace(setting, engines=BALLS, grows=False, flag=False)))
+        return held(found, _answer(block, alone))
     return found
 
 

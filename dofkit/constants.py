@@ -31,7 +31,7 @@ def has_call(e: Expr) -> bool:
     return any(has_call(child) for child in (e.args[1:] if e.op == "fn" else e.args))
 
 
-def interval(e: Expr, values: Mapping[Expr, Fraction] | None = None) -> arb | None:
+def interval(e: Expr, values: Mapping[Expr, Fraction] | None = None, bits: int = BITS) -> arb | None:
     """A ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
     from flint import arb, ctx, fmpq
 
@@ -57,7 +57,7 @@ def interval(e: Expr, values: Mapping[Expr, Fraction] | None = None) -> arb | No
         raise KeyError(node)
 
     before = ctx.prec
-    ctx.prec = BITS
+    ctx.prec = bits
     try:
         found = go(e)
     except (KeyError, ZeroDivisionError, RecursionError, OverflowError):

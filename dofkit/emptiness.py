@@ -23,6 +23,7 @@ from dofkit.deadline import check
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.contract import Box, Relations, contract
 from dofkit.exact.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, constant, middle
+from dofkit.exact.radicals import known_signs
 from dofkit.exact.ring import Ring, Var
 from dofkit.expr import Expr
 from dofkit.zeros import never_vanishes
@@ -129,7 +130,7 @@ def _faithful(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
     for node in {n for e in relations for n in ex.nodes(e)}:
         if node.op == "pow" and node.args[1].op == "num" and node.args[1].args[0].denominator % 2 == 0:
             base = node.args[0]
-            apart, rest = ring.known_signs(base) if base.op == "mul" else ([], base)
+            apart, rest = known_signs(ring, base) if base.op == "mul" else ([], base)
             if rest != ex.ONE and any(f.symbols and f not in positive and not _is_exp(f) for f in apart):
                 return False
     return True

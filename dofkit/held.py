@@ -28,13 +28,12 @@ def held(field: Answer, balls: Answer) -> Answer:
         return field
     if field.doubt == "functions":
         return _open(field)
-    return replace(
-        balls,
-        verdict=weakest(balls.verdict, "numeric"),
-        reasons=[*balls.reasons, DIFFER],
-        growth=None,
-        derived=None,
-    )
+    return replace(numeric(balls), reasons=[*balls.reasons, DIFFER])
+
+
+def numeric(balls: Answer) -> Answer:
+    """What balls alone say, as a number that was measured: no proof of zero, no growth."""
+    return replace(balls, verdict=weakest(balls.verdict, "numeric"), growth=None, derived=None)
 
 
 def _same(a: Answer, b: Answer) -> bool:

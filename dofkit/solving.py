@@ -82,9 +82,23 @@ class Outcome:
         return len(self.untouched) + sum(p for p in parts if p is not None)
 
     @property
+    def most(self) -> int:
+        """No branch has more freedom than this, as far as is known; -1 where the freedom itself is known."""
+        if self.dof is not None:
+            return -1
+        return len(self.untouched) + sum(_most(b, a) for b, a in zip(self.blocks, self.answers, strict=True))
+
+    @property
     def size(self) -> tuple[int, int, int]:
         """What makes one choice of branches larger than another."""
         return (int(self.consistent is not False), -1 if self.dof is None else self.dof, self.velocity_dof or 0)
+
+
+def _most(block: Block, a: Answer) -> int:
+    """A bound of a block's freedom: a relation takes at least one away, unless it may hold always unseen."""
+    if a.consistent and a.dof is not None:
+        return a.dof
+    return len(block.coordinates) - (a.doubt is None and bool(block.finite))
 
 
 def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
@@ -128,8 +142,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     positive = setting.positive
     never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
     copied = copies(reduced)
-    best: Outcome | None = None
-    seen, late, why = 0, False, None
+    outcomes, why = list[Outcome](), None
     known = Known(system)
     constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
     for number, choice in enumerate(cartesian(*options)):
@@ -144,18 +157,24 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
         for way in reduced_velocities(with_rows(rows, constants), positive):
             names = [*(c.name for c in system.coordinates), *names_in(way, constants)]
-            outcome = _answered(names, way, impossible, setting, known)
-            seen, late = seen + 1, late or any(a.late for a in outcome.answers)
-            if best is None or outcome.size > best.size:
-                best = outcome
-    if best is not None:
-        best.copies = copied
-        if why or (late and seen > 1):
-            best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
-    best = best or Outcome([], [], [], [c.name for c in system.coordinates])
+            outcomes.append(_answered(names, way, impossible, setting, known))
+    best = _largest(outcomes, why) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
+    best.copies = copied if outcomes else {}
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
         best.first_order = _first_order(system, normals, setting, constants)
         best.kinked = any(normal.kinked for _, normal in normals)
+    return best
+
+
+def _largest(outcomes: Sequence[Outcome], why: str | None) -> Outcome:
+    """The largest of the branches; one that is open where it may be larger, and undecided where not all were seen."""
+    best = max(outcomes, key=lambda o: o.size)
+    left = [o for o in outcomes if o.consistent is not False]
+    most = max(left, key=lambda o: o.most, default=None)
+    if best.dof is not None and most is not None and most.most > best.dof:
+        best = most
+    if why or (len(outcomes) > 1 and any(a.late for o in outcomes for a in o.answers)):
+        best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     return best
 
 

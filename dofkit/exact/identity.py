@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from flint import ctx
 from flint.utils.flint_exceptions import DomainError
 
+from dofkit import expr as ex
+from dofkit.exact.algebraic import proved_zero
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.engines import BOTH, Engines
@@ -27,9 +31,9 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
 def told_zero(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
     """(zero?, how sure); None only where one engine alone cannot tell.
 
-    Zero in the canonical ring is a proof; so is not zero there where the generators are independent, or where a
-    ball at some real point excludes 0. What is 0 at random points over GF(p) is probably zero; what no ball tells
-    from 0 is so numerically.
+    Zero in the canonical ring is a proof, and so is zero of every coefficient there (`proved_zero`); so is not zero
+    there where the generators are independent, or where a ball at some real point excludes 0. What is 0 at random
+    points over GF(p) is probably zero; what no ball tells from 0 is so numerically.
     """
     if e.op == "num":
         return e.is_zero, "proved"
@@ -37,8 +41,9 @@ def told_zero(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tu
     node = ring.node(e)
     if engines != BOTH:
         return _told_by_one(ring, node, positive, engines)
+    canon = Canon(ring)
     try:
-        if Canon(ring).is_zero(node):
+        if canon.is_zero(node):
             return True, "proved"
         if independent_generators(ring):
             return False, "proved"
@@ -46,7 +51,23 @@ def told_zero(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tu
         pass
     if excludes_zero(ring, node, positive):
         return False, "proved"
+    if _coefficients_vanish(canon, node):
+        return True, "proved"
     return True, "probable" if _zero_at_points(ring, node) else "numeric"
+
+
+def _coefficients_vanish(canon: Canon, node: int) -> bool:
+    """Is every coefficient, a number, proved to be 0, by the monomials of what varies?"""
+    shown = list(reversed(canon.ring.var_expr))
+    groups: dict[tuple[int, ...], list[Expr]] = {}
+    try:
+        for exponents, value in canon.quotient(node)[0].to_dict().items():
+            moving = tuple(int(k) if shown[i].symbols else 0 for i, k in enumerate(exponents))
+            fixed = [ex.power(shown[i], ex.num(int(k))) for i, k in enumerate(exponents) if k and not moving[i]]
+            groups.setdefault(moving, []).append(ex.mul(ex.num(Fraction(int(value.p), int(value.q))), *fixed))
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return False
+    return all(proved_zero(ex.add(*terms)) for terms in groups.values())
 
 
 def _told_by_one(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
