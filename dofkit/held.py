@@ -54,5 +54,6 @@ def _open(field: Answer) -> Answer:
         verdict="undecided",
         reasons=[*field.reasons, OPEN],
         hidden=field.hidden,
+        doubt=field.doubt,
         method=field.method,
     )
