@@ -1,4 +1,4 @@
-"""Jobs for the tests of the workers: what answers, what hangs, and what dies."""
+"""Jobs for the tests of the workers: what answers, what hangs, and what dies. Nothing heavy is imported for all."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
-
-import flint
 
 
 def same(payload: Any) -> Any:
@@ -48,6 +46,14 @@ def stuck(path: str = "") -> None:
     re.match("(a+)+$", "a" * 60 + "b")
 
 
+def sketched(payload: Any) -> Iterator[Any]:
+    """What a scene is asked for, hanging inside a library after the sketch."""
+    from dofkit.jobs import classified
+
+    yield next(classified(payload))
+    stuck()
+
+
 def busy(path: str = "") -> None:
     """Hang in Python."""
     told(path)
@@ -79,6 +85,8 @@ def keep(size: int) -> int:
 
 def hog_in_c(_: Any) -> int:
     """The same inside a library, which knows no MemoryError."""
+    import flint
+
     return int((flint.fmpz(3) ** (1 << 33)).bit_length())
 
 

@@ -24,6 +24,8 @@ MAX_TERMS = 3000
 MAX_POWER = 80
 #: Polynomials are factored up to this many terms times degrees.
 FACTORED = 4000
+#: And up to this product of the two highest degrees: x^30 + y^24 - x^15 y^12 = 1 takes minutes.
+FACTORED_DEGREES = 400
 
 Poly = Any
 Quotient = tuple[Poly, Poly]
@@ -152,9 +154,9 @@ class Canon:
     def factors(self, poly: Poly) -> list[tuple[Poly, int]]:
         """Irreducible factors over the rationals, with multiplicities; constants left out.
 
-        Raises TooLargeError past `FACTORED` terms times degrees.
+        Raises TooLargeError past `FACTORED` terms times degrees, or `FACTORED_DEGREES`.
         """
-        if len(poly) * max(1, int(poly.total_degree())) > FACTORED:
+        if len(poly) * max(1, int(poly.total_degree())) > FACTORED or not soon_factored(poly):
             raise TooLargeError
         return [(f, int(k)) for f, k in poly.factor()[1] if not f.is_constant()]
 
@@ -162,6 +164,12 @@ class Canon:
         """The indices of the generators that occur."""
         n = len(self.ring.vars)
         return [n - 1 - i for i, k in enumerate(poly.degrees()) if k] if n else []
+
+
+def soon_factored(poly: Poly) -> bool:
+    """Are the degrees low enough for flint's factorisation, which hears no deadline?"""
+    *_, second, first = 0, 0, *sorted(int(k) for k in poly.degrees())
+    return first * second <= FACTORED_DEGREES
 
 
 def canonical(ring: Ring) -> Canon:

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
-from dofkit.exact.canon import Canon, TooLargeError
+from dofkit.exact.canon import Canon, TooLargeError, soon_factored
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
 
@@ -125,7 +125,7 @@ class Algebra:
 
 def bounded(poly: Poly) -> bool:
     """Small enough to be factored or divided in a moment."""
-    return len(poly) <= MAX_TERMS and sum(int(k) for k in poly.degrees()) <= MAX_DEGREE * 4
+    return len(poly) <= MAX_TERMS and sum(int(k) for k in poly.degrees()) <= MAX_DEGREE * 4 and soon_factored(poly)
 
 
 def in_lowest_terms(top: Poly, bottom: Poly) -> Quotient:
