@@ -109,6 +109,13 @@ def holds_at(c: Condition, known: Mapping[Expr, Expr], positive: frozenset[Expr]
     return sign != 0 if c.sense == "!=" else sign > 0 or (sign == 0 and c.sense == ">=")
 
 
+def constantly(c: Condition, positive: frozenset[Expr]) -> bool | None:
+    """Whether a condition holds everywhere (True) or nowhere (False), as far as that is known."""
+    if any(s.args[0] != "parameter" for s in c.expr.symbols):
+        return True if _always(c, positive) else None
+    return holds_at(c, {}, positive)
+
+
 def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
     """The sign of a constant, for generic parameters that of some values of them."""
     ring = Ring([e], positive)

@@ -22,7 +22,8 @@ from dofkit.exact.identity import is_zero
 from dofkit.exact.terms import linear_terms
 from dofkit.expr import Expr
 from dofkit.quadratic import split_quadratic
-from dofkit.signs import arguments_of, by_signs, holds_on_a_region, squared
+from dofkit.rates import in_one_rate, solved
+from dofkit.signs import MAX_ARGUMENTS, arguments_of, by_signs, holds_on_a_region, squared
 from dofkit.zeros import PRODUCT_NOTE, Conjunction, zero_set
 
 
@@ -75,6 +76,12 @@ REGION_NOTE = (
 )
 NOWHERE_NOTE = "no real configuration satisfies it: it has no real value anywhere"
 SQUARED_NOTE = "the root was squared away, with the sign of the other side as a condition"
+RATE_NOTE = "it holds one combination of velocities only and was solved for that: each root is linear in the velocities"
+ROOTS_NOTE = (
+    "it holds one combination of velocities only, which takes one of its roots: each would be a branch linear in the "
+    "velocities, but they were not written down, because there are infinitely many or no formula gives them"
+)
+SIGNS_NOTE = "what stands in abs() may have either sign"
 INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 QUADRATIC_NOTE = "over the reals the quadratic form in the velocities splits into linear ones"
 
@@ -229,29 +236,64 @@ def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
+    folds = [u for u in arguments_of(e) if velocities_of(u)]
+    if 0 < len(folds) <= MAX_ARGUMENTS and solved(e, positive) is None:
+        return _by_signs_of_rates(e, folds, positive)
     moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
     branches, notes = zero_set(e, positive, moving)
     found: list[tuple[Piece, ...]] = []
     said = list(notes)
     for branch in branches:
-        options = [_velocity_pieces(g, positive) for g in branch]
-        if any(len(option) > 1 or len(option[0]) > 1 for option in options):
-            said.append(QUADRATIC_NOTE)
-        found += [tuple(p for part in choice for p in part) for choice in cartesian(*options)]
+        told = [_velocity_pieces(g, positive) for g in branch]
+        said += [note for _, note in told if note]
+        found += [tuple(p for part in choice for p in part) for choice in cartesian(*(pieces for pieces, _ in told))]
     return Normal(tuple(found), tuple(dict.fromkeys(said)))
 
 
-def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> list[tuple[Piece, ...]]:
-    """The branches of one irreducible relation in velocities."""
+def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]) -> Normal:
+    """The only choice of signs of what stands in abs() and holds velocities that does not contradict itself.
+
+    Where there are several, a motion may pass from one to the other: the relation stays as it is.
+    """
+    branches: list[tuple[Piece, ...]] = []
+    notes: list[str] = [SIGNS_NOTE]
+    for signed, conditions in by_signs(e, folds, positive):
+        if no_solution([signed], positive, [c.expr for c in conditions]):
+            continue
+        if is_zero(signed, positive) or branches:
+            return Normal(((Nonlinear(e),),), (SIGNS_NOTE,))
+        normal = normalise(signed, positive, True)
+        notes += normal.notes
+        branches += [(*branch, *_still(conditions, branch)) for branch in normal.branches]
+    return Normal(tuple(branches), tuple(dict.fromkeys(notes)))
+
+
+def _still(conditions: Sequence[Condition], branch: Sequence[Piece]) -> list[Condition]:
+    """What the signs ask of positions, once velocities that the forms of the branch give are put in."""
+    found = [c.expr for c in conditions]
+    for form in (p for p in branch if isinstance(p, Pfaffian)):
+        name = next((n for n, a in form.coefficients.items() if a.op == "num"), next(iter(form.coefficients), None))
+        if name is not None:
+            others = ex.add(*(a * ex.velocity(n) for n, a in form.coefficients.items() if n != name), form.dt)
+            found = [ex.substitute(c, {ex.velocity(name): -others / form.coefficients[name]}) for c in found]
+    return [Condition(c, ">=") for c in found if not velocities_of(c) and _moving(c)]
+
+
+def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:
+    """The branches of one irreducible relation in velocities, and what was done."""
     if not velocities_of(e):
-        return [(Finite(e),)]
+        return [(Finite(e),)], ""
     form = linear_form(e)
     if form is not None:
-        return [(form,)]
+        return [(form,)], ""
     split = split_quadratic(e, velocities_of(e), positive)
-    if split is None:
-        return [(Nonlinear(e),)]
-    return [tuple(f for g in branch if (f := linear_form(g)) is not None) for branch in split]
+    if split is not None:
+        return [tuple(f for g in branch if (f := linear_form(g)) is not None) for branch in split], QUADRATIC_NOTE
+    found = solved(e, positive)
+    if found is None:
+        return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
+    forms = [(linear_form(relation), conditions) for relation, conditions in found]
+    return [(form, *conditions) for form, conditions in forms if form is not None], RATE_NOTE
 
 
 def without_instants(normal: Normal) -> Normal:
