@@ -104,11 +104,11 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
         good = _spans(forms, found)
         if good:
             field_labels(block, forms, found, good, result, setting)
-            bend(block, forms, setting, result)
+            bend(block, setting, result)
             return result
     if found.real is not None and found.real.certified:
         ball_labels(block, forms, found.real, result)
-        bend(block, forms, setting, result)
+        bend(block, setting, result)
         return result
     result.verdict, result.consistent = "undecided", None
     result.reasons.append("no regular point was found to look at the differential constraints")

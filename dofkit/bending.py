@@ -1,144 +1,144 @@
-"""Relations nonlinear in the velocities: the velocity freedom, and whether the allowed velocities bend."""
+"""Relations nonlinear in the velocities: the velocity freedom, and whether the allowed velocities bend.
+
+At a configuration the allowed velocities are a set C inside the solutions D of the linear relations. What they
+generate by brackets is what the smallest affine space around C generates: where that is all of D, the Lie algebra of D
+tells what integrates, and no relation in use is linear in disguise, because C would then lie in less.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from flint import arb
 
-from dofkit import expr as ex
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer, Label, Setting
 from dofkit.blocks import Block
-from dofkit.charting import aliases
-from dofkit.differential import Codistribution
-from dofkit.exact.balls import (
-    BallPoint,
-    OutsideDomainError,
-    RealSearch,
-)
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint
 from dofkit.exact.field import FieldPoint
-from dofkit.exact.points import Solver
-from dofkit.exact.program import gradient, values
 from dofkit.exact.ranks import ball_part
-from dofkit.exact.ring import Ring
-from dofkit.exact.sparse import sparse
-from dofkit.exact.trust import independent_generators
 from dofkit.forms import Frame, certified_rank, kernel
-from dofkit.normal import Finite, Nonlinear, Pfaffian
-from dofkit.rank import rank_of
+from dofkit.motion import Manifold
 from dofkit.report import weakest
-from dofkit.velocities import form_rate, rate
+from dofkit.states import States
+
+#: Derivatives of curves are taken up to this order.
+MAX_ORDER = 8
+#: Real states that are looked for, until one agrees with that over GF(p).
+SEEDS = 4
+
+NO_VELOCITIES = "no velocities were found that satisfy the constraints"
+SINGULAR = "the velocities that satisfy the constraints are singular"
+PARTS = "real velocities and those over GF(p) disagree about the rank: the set of them has several parts"
+HIDDEN = "the constraints that are nonlinear in the velocities force a relation that could not be written down"
+FLAT = "the velocities that are allowed form flat pieces, which were not written as linear forms"
 
 
-def bend(block: Block, forms: Codistribution, setting: Setting, result: Answer) -> None:
-    """The velocity freedom: a Jacobian's rank by the velocities, at points of the whole set."""
+def bend(block: Block, setting: Setting, result: Answer) -> None:
+    """The velocity freedom: a Jacobian's rank by the velocities, at states of motion."""
     if not block.nonlinear or result.velocity_dof is None:
         return
-    finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + result.hidden
-    symbols = [ex.coordinate(c) for c in block.coordinates]
-    rates = [ex.velocity(c) for c in block.coordinates]
-    linear = [rate(g) for g in finite]
-    linear += [form_rate(r.piece) for r in block.forms if isinstance(r.piece, Pfaffian)]
-    nonlinear = [r.piece.expr for r in block.nonlinear if isinstance(r.piece, Nonlinear)]
-    everything = [*finite, *linear, *nonlinear]
-    hessians = [[[ex.diff(ex.diff(f, v), w) for w in rates] for v in rates] for f in nonlinear]
-    ring = Ring(
-        [*everything, *(e for h in hessians for row in h for e in row)], setting.positive, aliases(block, finite)
-    )
-    nodes = [ring.node(e) for e in everything]
-    curvature = [[[ring.node(e) for e in row] for row in h] for h in hessians]
-    columns = [ring.var_index(v) for v in rates]
-    solver = Solver(ring, [n for n in nodes if ring.code[n] != (0, 0)], seed=5)
-    point = solver.draw(7) if "field" in setting.engines else None
+    states = States(block.coordinates, block.rows, result.hidden, setting)
+    point = states.draw(7)
     if "balls" not in setting.engines:
-        _by_field_alone(ring, nodes[len(finite) :], columns, point, result, len(linear))
+        _by_field_alone(states, point, result)
         return
-    real = RealSearch(ring, nodes, [*symbols, *rates, *setting.generic], setting.positive).search(3)
-    sample: Any = point if point is not None else (real.point if real is not None and real.certified else None)
+    real = _real(states, point, result)
+    sample = point if point is not None else None if real is None or not real.certified else real.point
     if real is None or sample is None:
-        result.velocity_dof, result.consistent, result.verdict = None, None, "undecided"
-        result.reasons.append("no velocities were found that satisfy the constraints")
+        _undecided(result, NO_VELOCITIES)
         return
-    _nonlinear_rank(ring, nodes[len(finite) :], columns, sample, result, len(linear))
-    if not real.certified:
-        result.verdict, result.velocity_dof, result.dof = "undecided", None, None
-        result.reasons.append("the velocities that satisfy the constraints are singular")
-        return
-    if not _curved(ring, nodes[len(finite) :], columns, curvature, real.point):
-        result.verdict, result.velocity_dof, result.dof = "undecided", None, None
-        result.reasons.append(
-            "the velocities that are allowed form flat pieces, which were not written as linear forms"
-        )
-        return
-    result.curved = True
-    if len(nonlinear) > 1:
+    whole, moving, finite = states.ranks(sample)
+    if not real.certified or not real.consistent:
+        _undecided(result, SINGULAR)
+    elif states.ranks(real.point) != (whole, moving, finite):
+        _undecided(result, PARTS)
+    elif whole - moving != finite:
+        _undecided(result, HIDDEN)
+    elif not _bends(states, real.point):
+        _undecided(result, FLAT)
+    else:
+        result.curved = True
+        result.velocity_dof = len(block.coordinates) - moving
+        full = certified_rank(states.by_velocity(real.point, states.moving)) == len(block.rows)
+        result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
+
+
+def _real(states: States, point: FieldPoint | None, result: Answer) -> RealPoint | None:
+    """A real state, on the same part of the set as the one over GF(p) where one is found.
+
+    Unknown functions may be chosen so that there is one.
+    """
+    calls = any(v.kind == "call" for v in states.ring.vars)
+    ranks = None if point is None else states.ranks(point)
+    best: RealPoint | None = None
+    for seed in range(SEEDS):
+        found = states.real(3 + seed)
+        if found is None and not calls:
+            break
+        if found is not None and (best is None or not best.certified):
+            best = found
+        if found is not None and found.certified and ranks in (None, states.ranks(found.point)):
+            best = found
+            break
+    if calls and best is not None:
         result.verdict = weakest(result.verdict, "probable")
+        result.reasons.append("for an unknown function that allows real velocities")
+    return best
 
 
-def _by_field_alone(
-    ring: Ring,
-    nodes: Sequence[int],
-    columns: Sequence[int | None],
-    point: FieldPoint | None,
-    result: Answer,
-    linear: int,
-) -> None:
+def _undecided(result: Answer, why: str) -> None:
+    result.velocity_dof, result.dof, result.consistent, result.verdict = None, None, None, "undecided"
+    result.reasons.append(why)
+    _open_labels(result, why)
+
+
+def _open_labels(result: Answer, why: str) -> None:
+    """Allowed velocities that may lie in less than the linear relations leave may make more integrable, never less."""
+    for i, label in result.labels.items():
+        if label.holonomic is False:
+            result.labels[i] = Label(None, "undecided", why)
+
+
+def _by_field_alone(states: States, point: FieldPoint | None, result: Answer) -> None:
     """The velocity freedom over the complex numbers; whether the allowed velocities bend is left open."""
     result.dof = None
-    if point is None or not independent_generators(ring):
+    _open_labels(result, "whether the allowed velocities bend takes real ones")
+    if point is None or not states.independent:
         result.velocity_dof, result.verdict = None, "undecided"
         return
-    _nonlinear_rank(ring, nodes, columns, point, result, linear)
+    whole, moving, finite = states.ranks(point)
+    result.velocity_dof = len(states.rates) - moving if whole - moving == finite else None
+    result.verdict = weakest(result.verdict, "probable" if result.velocity_dof is not None else "undecided")
 
 
-def _nonlinear_rank(
-    ring: Ring, nodes: Sequence[int], columns: Sequence[int | None], point: Any, result: Answer, linear: int
-) -> None:
-    at = values(ring, point)
-    zero = at[0] * 0
-    rows = []
-    for node in nodes:
-        g = gradient(ring, at, point, [(node, zero + 1)])
-        rows.append([g.get(c, zero) if c is not None else zero for c in columns])
-    if isinstance(point, FieldPoint):
-        rank = rank_of(rows, point.p)
-        result.matrix += sparse(rows[linear:])
-        result.verdict = weakest(result.verdict, "proved" if rank == len(rows) else "probable")
-    else:
-        rank = certified_rank(rows)
-        result.verdict = weakest(result.verdict, "numeric")
-    result.velocity_dof = len(columns) - rank
+def _bends(states: States, point: BallPoint) -> bool:
+    """Does no affine space hold the allowed velocities but the one that the linear relations cut out?
 
-
-def _curved(
-    ring: Ring,
-    nodes: Sequence[int],
-    columns: Sequence[int | None],
-    hessians: Sequence[list[list[int]]],
-    point: BallPoint,
-) -> bool:
-    """Is the set of allowed velocities curved at the point: a second fundamental form that a ball proves not to be 0?
-
-    A curved set is no union of hyperplanes, so the relation is no Pfaffian form in disguise.
+    The derivatives of curves through a velocity lie in the smallest affine space around them; balls prove how many are
+    independent.
     """
     try:
-        at = values(ring, point)
-        rows = []
-        for node in nodes:
-            g = gradient(ring, at, point, [(node, arb(1))])
-            rows.append([g.get(c, arb(0)) if c is not None else arb(0) for c in columns])
-        part = ball_part(rows)
-        free = tuple(c for c in range(len(columns)) if c not in set(part.columns))
-        tangent = kernel(rows, Frame(tuple(part.rows), tuple(part.columns), free), arb(0))
-        return any(_bends(at, h, u, v) for h in hessians for i, u in enumerate(tangent) for v in tangent[: i + 1])
+        rows = states.by_velocity(point, states.moving)
+        wanted = len(states.velocities) - certified_rank(rows[: len(states.linear)])
+        return certified_rank(_derivatives(states, rows, point, wanted)) == wanted
     except (OutsideDomainError, ZeroDivisionError):
         return False
 
 
-def _bends(at: Sequence[arb], hessian: list[list[int]], u: Sequence[arb], v: Sequence[arb]) -> bool:
-    total = arb(0)
-    for a, row in zip(u, hessian, strict=True):
-        for node, b in zip(row, v, strict=True):
-            total = total + a * at[node] * b
-    return not total.contains(0)
+def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted: int) -> list[list[arb]]:
+    """Tangents, and higher derivatives of curves in random directions, at the allowed velocity of a state."""
+    part = ball_part(rows)
+    columns = [-1 if c is None else c for c in states.velocities]
+    frame = Frame(
+        tuple(part.rows), tuple(part.columns), tuple(c for c in range(len(columns)) if c not in set(part.columns))
+    )
+    free, zero = len(frame.free), arb(0)
+    found: list[list[arb]] = kernel(rows, frame, zero)
+    missing = wanted - free
+    if not free or missing <= 0:
+        return found
+    manifold = Manifold(states.ring, states.moving, columns, frame, point)
+    order = min(missing + 2, MAX_ORDER)
+    for _ in range(min(free, missing) + 1):
+        direction = [arb(point.rng.randrange(64, 512)) / 256 for _ in range(free)]
+        path = manifold.curve(direction, order)
+        found += [[s.coefficient(k) for s in path] for k in range(2, order)]
+    return found

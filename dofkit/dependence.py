@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from functools import partial
+from itertools import combinations
 
 import networkx as nx
 
 from dofkit.analysis import answer
 from dofkit.answers import Answer, Setting
-from dofkit.blocks import Block, Row, split
-from dofkit.branches import algebraic, all_of, follows, through_reference
+from dofkit.blocks import Block, Row, coordinates_of, split
+from dofkit.branches import algebraic, all_of, through_reference
 from dofkit.deadline import check, limited, unless_late
 from dofkit.exact.sparse import SparseRow
-from dofkit.normal import Finite, Still
+from dofkit.implication import follows
+from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Still
 from dofkit.redundancy import Redundancies, Rows, analyse, left_open
 from dofkit.solving import Outcome, Reduced
 
 #: Constraints of one set that are tried one by one, and seconds spent on leaving constraints out.
-MAX_CHOICES, LEAVING_SECONDS = 16, 5.0
+MAX_CHOICES, LEAVING_SECONDS = 40, 5.0
 
 
 def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
-    """Block by block, by the rank of the rows; where that does not measure dependence, by leaving constraints out.
+    """Part by part, by the rank of the rows; where that does not measure dependence, by what follows from what.
 
     Where there is no time or no way to tell, the constraints concerned are left open.
     """
@@ -30,11 +33,44 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     if not outcome.consistent:
         return found
     found += copied(reduced, outcome)
-    if any(len(through_reference(n, setting).branches) > 1 for r in reduced for n in r.normals):
-        return found + _over_branches(reduced, setting, outcome)
+    for numbers in _parts(reduced, outcome):
+        found += unless_late(partial(_of_part, reduced, setting, outcome, numbers), [left_open(numbers)])
+    return found
+
+
+def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:
+    """The constraints in use, those together that share coordinates."""
+    graph: nx.Graph = nx.Graph()
+    for i, r in enumerate(reduced):
+        pieces = [p for n in r.normals for p in n.pieces if not isinstance(p, Inequality)]
+        if pieces and i not in outcome.copies:
+            graph.add_node(i)
+            graph.add_edges_from((i, c) for p in pieces for c in coordinates_of(p))
+    return sorted(sorted(i for i in c if isinstance(i, int)) for c in nx.connected_components(graph))
+
+
+def _of_part(
+    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, numbers: Sequence[int]
+) -> list[Redundancies]:
+    own = set(numbers)
+    blocks = [
+        (block, a)
+        for block, a in zip(outcome.blocks, outcome.answers, strict=True)
+        if any(r.constraint in own for r in block.rows)
+    ]
+    normals = [n for i in numbers for n in reduced[i].normals]
+    constants = any(reduced[i].constants for i in numbers)
+    several = any(len(through_reference(n, setting).branches) > 1 for n in normals)
+    bent = any(isinstance(p, Nonlinear) for n in normals for p in n.pieces)
+    hidden = any(a.hidden for _, a in blocks) and len(numbers) <= MAX_CHOICES
+    if several or ((bent or hidden) and not constants):
+        if _each_takes_one(normals, blocks):
+            return [Redundancies({i: reduced[i].equations for i in numbers}, [], [], {})]
+        return [_implied(reduced, setting, numbers)]
+    found: list[Redundancies] = []
     parts: list[Rows] = []
-    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
-        if not block.rows or a.velocity_dof is None:
+    for block, a in blocks:
+        if a.velocity_dof is None:
             continue
         nullity = len(block.rows) - (len(block.coordinates) - a.velocity_dof)
         owners = owners_of(block)
@@ -50,12 +86,23 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
         unless_late(partial(_analysed, group), left_open(o for part in group for o in part.owners))
         for group in _sharing(parts)
     ]
-    everywhere = unless_late(partial(_everywhere, reduced, setting, outcome, by_rank), None)
+    everywhere = unless_late(partial(_everywhere, reduced, setting, numbers, by_rank), None)
     if everywhere:
         return found + by_rank
-    return found + (
-        _over_branches(reduced, setting, outcome) if everywhere is False else list(map(_at_a_point, by_rank))
-    )
+    if everywhere is False:
+        return [*found, _implied(reduced, setting, numbers)]
+    return [*found, *map(_at_a_point, by_rank)]
+
+
+def _each_takes_one(normals: Sequence[Normal], blocks: Sequence[tuple[Block, Answer]]) -> bool:
+    """Is the freedom less by as many as there are equations, one row each? Then none follows from the others.
+
+    What k equations leave has no part of which the freedom is less by more than k.
+    """
+    one = all(len(b) == 1 for n in normals for b in n.branches)
+    plain = all(a.velocity_dof is not None and not a.hidden and not a.degenerate for _, a in blocks)
+    taken = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
+    return one and plain and taken == len(normals) == sum(len(block.rows) for block, _ in blocks)
 
 
 def _at_a_point(r: Redundancies) -> Redundancies:
@@ -65,21 +112,20 @@ def _at_a_point(r: Redundancies) -> Redundancies:
 
 
 def _everywhere(
-    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, by_rank: Sequence[Redundancies]
+    reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], by_rank: Sequence[Redundancies]
 ) -> bool | None:
     """Does what is redundant by rank hold wherever the others do? False where a written equation does not.
 
     x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
     """
     dropped = {i for r in by_rank for i in r.redundant}
-    written = [i for i, r in enumerate(reduced) if r.normals and i not in outcome.copies]
-    if not dropped or setting.reference is not None or len(written) > MAX_CHOICES:
+    if not dropped or setting.reference is not None or len(numbers) > MAX_CHOICES:
         return True
-    plain = all(reduced[i].constraint.type in ("equation", "on") for i in written)
-    pieces = [p for i in written for n in reduced[i].normals for p in n.pieces]
+    plain = all(reduced[i].constraint.type in ("equation", "on") for i in numbers)
+    pieces = [p for i in numbers for n in reduced[i].normals for p in n.pieces]
     if not plain or not all(isinstance(p, Finite) and algebraic(p.expr) for p in pieces):
         return True
-    kept = [i for i in written if i not in dropped]
+    kept = [i for i in numbers if i not in dropped]
     return all_of(_follows(reduced, i, kept, setting) for i in dropped)
 
 
@@ -89,40 +135,103 @@ def _analysed(group: list[Rows]) -> Redundancies:
     return analyse(group)
 
 
-def _over_branches(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
-    """With several branches a constraint is redundant where it holds on every branch of the others."""
-    numbers = [i for i, r in enumerate(reduced) if r.normals and i not in outcome.copies]
-    independent = {i: reduced[i].equations for i in numbers}
+def _implied(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
+    """By implication; left open where the constraints are too many or there is no time left for them."""
     if len(numbers) > MAX_CHOICES:
-        return [left_open(numbers)]
-    kept, circuits, undecided = list(numbers), {}, []
+        return left_open(numbers)
+    return unless_late(partial(_by_implication, reduced, setting, numbers), left_open(numbers))
+
+
+def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
+    """A constraint is redundant where it holds at every state of motion that the others leave, on all their branches.
+
+    The last in the order goes first; where more can go together in its place, they do.
+    """
+    until = time.process_time() + LEAVING_SECONDS
+    kept, unknown = list(numbers), list[int]()
     for i in reversed(numbers):
-        others = [j for j in kept if j != i]
-        known = _follows(reduced, i, others, setting)
-        if known is None:
-            undecided.append(i)
-            del independent[i]
-        elif known:
-            kept = others
-            independent[i] = 0
-            circuits[i] = _needed(reduced, i, others, setting)
-    redundant = sorted(circuits)
-    groups = [
-        (sum(reduced[i].equations for i in redundant), sorted({*redundant, *(j for c in circuits.values() for j in c)}))
-    ]
-    return [Redundancies(independent, redundant, groups if redundant else [], circuits, tuple(undecided))]
+        told = None if time.process_time() > until else _follows(reduced, i, [j for j in kept if j != i], setting)
+        if told:
+            kept.remove(i)
+        elif told is None:
+            unknown.append(i)
+    dropped = _more(reduced, setting, numbers, [i for i in numbers if i not in kept], until)
+    kept = [i for i in numbers if i not in dropped]
+    circuits = {i: _needed(reduced, reduced[i].normals, kept, setting) for i in dropped}
+    groups = [(reduced[i].equations, sorted({i, *circuits[i]})) for i in dropped]
+    undecided = [i for i in unknown if i in kept]
+    independent, more = _equation_by_equation(reduced, setting, numbers, kept)
+    known = {i: n for i, n in independent.items() if i not in undecided}
+    return Redundancies(known, dropped, [*groups, *more], circuits, tuple(undecided))
+
+
+def _equation_by_equation(
+    reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], kept: Sequence[int]
+) -> tuple[dict[int, int], list[tuple[int, list[int]]]]:
+    """(equations of each that are independent of all before it, groups of equations within what is kept).
+
+    What is finite comes before what is differential.
+    """
+    order = sorted(numbers, key=lambda i: any(not isinstance(p, Finite) for n in reduced[i].normals for p in n.pieces))
+    independent: dict[int, int] = {}
+    groups: list[tuple[int, list[int]]] = []
+    for k, i in enumerate(order):
+        before = [j for j in order[:k] if j in kept]
+        single = reduced[i].equations == 1
+        known_not_to = single and i in kept and before == order[:k]
+        said = [] if known_not_to else _said_before(reduced, i, order[:k], setting)
+        independent[i] = reduced[i].equations - len(said)
+        if i in kept and not single:
+            said = said if before == order[:k] else _said_before(reduced, i, before, setting)
+            groups += [(len(said), sorted({i, *_needed(reduced, said, before, setting)}))] if said else []
+    return independent, groups
+
+
+def _more(
+    reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], dropped: list[int], until: float
+) -> list[int]:
+    """More constraints that can go together than ``dropped``, where there are: x = 0 and y = 0 beside x^2 + y^2 = 0.
+
+    Where every constraint is one row there are none (the exchange of bases).
+    """
+    rows = [b for i in numbers for n in reduced[i].normals for b in n.branches]
+    if not dropped or (len(rows) == len(numbers) and all(len(b) == 1 for b in rows)):
+        return dropped
+    single = [i for i in numbers if _follows(reduced, i, [j for j in numbers if j != i], setting)]
+    for choice in combinations(reversed(single), len(dropped) + 1):
+        if time.process_time() > until:
+            break
+        kept = [j for j in numbers if j not in choice]
+        if all(_follows(reduced, i, kept, setting) for i in choice):
+            return _more(reduced, setting, numbers, sorted(choice), until)
+    return dropped
+
+
+def _said_before(reduced: Sequence[Reduced], i: int, before: Sequence[int], setting: Setting) -> list[Normal]:
+    """The equations of a constraint that follow from those before it and from its own first ones."""
+    known = [n for j in before for n in reduced[j].normals]
+    said = []
+    for n in reduced[i].normals:
+        if follows(n, known, setting):
+            said.append(n)
+        else:
+            known.append(n)
+    return said
 
 
 def _follows(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> bool | None:
-    known = [through_reference(n, setting) for j in others for n in reduced[j].normals]
-    return all_of(follows(through_reference(n, setting), known, setting) for n in reduced[i].normals)
+    known = [n for j in others for n in reduced[j].normals]
+    return all_of(follows(n, known, setting) for n in reduced[i].normals)
 
 
-def _needed(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> list[int]:
-    """A minimal set of the others that is enough."""
+def _needed(
+    reduced: Sequence[Reduced], normals: Sequence[Normal], others: Sequence[int], setting: Setting
+) -> list[int]:
+    """A minimal set of the others that some equations follow from."""
     kept = list(others)
     for j in reversed(others):
-        if _follows(reduced, i, [k for k in kept if k != j], setting):
+        fewer = [n for k in kept if k != j for n in reduced[k].normals]
+        if all(follows(n, fewer, setting) for n in normals):
             kept.remove(j)
     return kept
 

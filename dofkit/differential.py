@@ -60,15 +60,15 @@ class Codistribution:
         return self.chart.coordinates
 
 
-def codistribution(block: Block, setting: Setting, extra: Sequence[Expr]) -> Codistribution:
-    """dg for every finite relation (those ``extra`` included), then the Pfaffian forms."""
+def codistribution(block: Block, setting: Setting, extra: Sequence[Expr], more: Sequence[Expr] = ()) -> Codistribution:
+    """dg for every finite relation (those ``extra`` included), then the Pfaffian forms; ``more`` is evaluated too."""
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(extra)
     timed = uses_time(block) or any(ex.TIME in e.symbols for e in extra)
     symbols = [ex.coordinate(c) for c in block.coordinates] + ([ex.TIME] if timed else [])
     gradients = [{i: ex.diff(g, s) for i, s in enumerate(symbols) if s in g.symbols} for g in finite]
     place = {s: i for i, s in enumerate(symbols)}
     forms = [{place[s]: e for s, e in r.piece.items()} for r in block.forms if isinstance(r.piece, Pfaffian)]
-    chart = make_chart(block, setting, extra, [e for g in gradients for e in g.values()])
+    chart = make_chart(block, setting, extra, [*(e for g in gradients for e in g.values()), *more])
     entries = tuple({c: chart.ring.node(e) for c, e in row.items() if not e.is_zero} for row in (*gradients, *forms))
     return Codistribution(chart, Rows(chart.ring, entries, chart.columns), len(finite))
 
@@ -162,7 +162,7 @@ def span_at(forms: Codistribution, point: FieldPoint) -> Sampled | None:
         return None
 
 
-def _ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span, list[list[arb]]] | None:
+def ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span, list[list[arb]]] | None:
     """The Lie algebra with balls; None where the point is no regular one, or has another rank than over GF(p)."""
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
@@ -238,7 +238,7 @@ def certificate(
         return sampled.span, sampled.matrix
     if len(forms.chart.symbols) > CERTIFIED_COLUMNS:
         return None
-    return _ball_span(forms, len(sampled.frame.rows), real.point)
+    return ball_span(forms, len(sampled.frame.rows), real.point)
 
 
 def _nonzero(value: Scalar) -> bool:
@@ -323,7 +323,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
     part = ball_part(matrix)
     rank = part.rank
     total, n = len(forms.chart.symbols), forms.n
-    found = _ball_span(forms, rank, real.point)
+    found = ball_span(forms, rank, real.point)
     if found is None or part.gap < CLEAR:
         result.verdict, result.consistent = "undecided", None
         result.reasons.append("the only points found are singular")

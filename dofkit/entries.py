@@ -20,12 +20,16 @@ from dofkit.system import Constraint
 
 @dataclass(frozen=True)
 class Told:
-    """A row, its label in the system (None: finite or nonlinear), and its block's answer."""
+    """A row, its label in the system (None: finite or nonlinear), and its block's answer.
+
+    ``reduced``: a nonlinear row that the others make linear, or imply.
+    """
 
     row: Row
     label: Label | None
     answer: Answer
     block: Block | None = None
+    reduced: bool = False
 
 
 def form_of(piece: Piece) -> Form:
@@ -149,7 +153,8 @@ def _together(labels: Sequence[bool | None]) -> bool | None:
 def _labels(in_system: bool | None, own: bool | None, told: Sequence[Told]) -> Labels:
     undecided = [t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason]
     late = [why for t in told if t.answer.late for why in t.answer.reasons]
-    return Labels(in_system, own, next(iter(late + undecided), ""), bool(told))
+    reduced = (t.label.reason for t in told if t.reduced and t.label and t.label.holonomic is False)
+    return Labels(in_system, own, next(iter(late + undecided), ""), bool(told), next(reduced, ""))
 
 
 def _in_system(
@@ -164,7 +169,7 @@ def _in_system(
     for t in told:
         if isinstance(t.row.piece, (Finite, Still)) or id(t.row.piece) in proved:
             labels.append(True)
-        elif isinstance(t.row.piece, Nonlinear):
+        elif isinstance(t.row.piece, Nonlinear) and not t.reduced:
             labels.append(False if t.answer.curved else None)
             verdicts.append("proved" if t.answer.curved else "undecided")
         elif t.label is None:

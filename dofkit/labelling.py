@@ -15,6 +15,7 @@ from dofkit.entries import Told, entry, unfinished
 from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
 from dofkit.labels import Traits, traits
+from dofkit.modulo import label
 from dofkit.normal import Inequality, Nonlinear, Pfaffian, Piece, Still
 from dofkit.reasons import Others
 from dofkit.redundancy import Redundancies
@@ -42,7 +43,7 @@ def entries_of(
     known = {i for found in dependent for i in found.independent} - _unmeasured(outcome)
     circuits = {i: c for found in dependent for i, c in found.circuits.items()}
     left_open = {i for found in dependent for i in found.undecided}
-    told = _told(len(reduced), outcome)
+    told = _told(len(reduced), outcome, setting)
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
@@ -136,18 +137,26 @@ class _Remembered:
         return found
 
 
-def _told(number: int, outcome: Outcome) -> list[list[Told]]:
-    """Every constraint's rows with their labels; a copy has those of its original."""
+def _told(number: int, outcome: Outcome, setting: Setting) -> list[list[Told]]:
+    """Every constraint's rows with their labels; a copy has those of its original.
+
+    What the other constraints reduce is labelled as it was written.
+    """
     told: list[list[Told]] = [[] for _ in range(number)]
+    replaced = {id(row) for slot in outcome.reduced for row in slot.rows}
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         linear = [r for r in block.rows if not isinstance(r.piece, Nonlinear)]
         for i, row in enumerate(linear):
-            told[row.constraint].append(Told(row, a.labels.get(i), a, block))
+            if id(row) not in replaced:
+                told[row.constraint].append(Told(row, a.labels.get(i), a, block))
         for row in block.rows:
             if isinstance(row.piece, Nonlinear):
                 told[row.constraint].append(Told(row, None, a, block))
+    for slot in outcome.reduced:
+        found, a = label(slot, outcome.blocks, outcome.answers, setting)
+        told[slot.written.constraint].append(Told(slot.written, found, a, reduced=True))
     for i, original in outcome.copies.items():
-        told[i] = [Told(Row(i, t.row.piece), t.label, t.answer, t.block) for t in told[original]]
+        told[i] = [Told(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in told[original]]
     return told
 
 

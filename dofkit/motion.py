@@ -53,6 +53,11 @@ class Manifold:
 
     def follow(self, direction: Sequence[Scalar], order: int) -> list[Series]:
         """The other relations along q(s), whose free columns are start + s direction."""
+        _, at = self._evaluate(self.curve(direction, order), order)
+        return [at[n] for n in self.others]
+
+    def curve(self, direction: Sequence[Scalar], order: int) -> list[Series]:
+        """The columns along q(s), whose free ones are start + s direction."""
         path = [Series(self.like + value, order) for value in self.start]
         step = Series(monomial(self.like), order)
         for value, c in zip(direction, self.frame.free, strict=True):
@@ -64,8 +69,7 @@ class Manifold:
             moved = self._velocity(at, point, direction, order)
             for i, c in enumerate(self.frame.dependent):
                 path[c] = moved[i][0].integral(self.start[c])
-        _, at = self._evaluate(path, order)
-        return [at[n] for n in self.others]
+        return path
 
     def _evaluate(self, path: list[Series], order: int) -> tuple[SeriesPoint, list[Series]]:
         point = SeriesPoint(self.base, {c: path[i] for i, c in enumerate(self.columns) if c >= 0}, order, self.like)

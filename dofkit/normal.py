@@ -21,7 +21,7 @@ from dofkit.errors import TextError
 from dofkit.exact.identity import is_zero
 from dofkit.exact.terms import linear_terms
 from dofkit.expr import Expr
-from dofkit.quadratic import split_quadratic
+from dofkit.quadratic import split_power, split_quadratic
 from dofkit.rates import in_one_rate, solved
 from dofkit.signs import MAX_ARGUMENTS, arguments_of, by_signs, holds_on_a_region, squared
 from dofkit.zeros import PRODUCT_NOTE, Conjunction, zero_set
@@ -83,7 +83,7 @@ ROOTS_NOTE = (
 )
 SIGNS_NOTE = "what stands in abs() may have either sign"
 INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
-QUADRATIC_NOTE = "over the reals the quadratic form in the velocities splits into linear ones"
+QUADRATIC_NOTE = "over the reals the relation between velocities splits into linear ones"
 
 Piece = Finite | Pfaffian | Nonlinear | Inequality | Condition
 #: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
@@ -286,7 +286,7 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     form = linear_form(e)
     if form is not None:
         return [(form,)], ""
-    split = split_quadratic(e, velocities_of(e), positive)
+    split = split_quadratic(e, velocities_of(e), positive) or split_power(e, positive)
     if split is not None:
         return [tuple(f for g in branch if (f := linear_form(g)) is not None) for branch in split], QUADRATIC_NOTE
     found = solved(e, positive)

@@ -1,4 +1,4 @@
-"""Quadratic forms in the velocities that split into linear ones over the reals.
+"""Quadratic forms, and sums of two powers, in the velocities that split into linear forms over the reals.
 
 Q(v) = v^T S v with v = (velocities, 1). Of rank 1 it is a square: one linear form. Of rank 2, with S_ii not 0 and
 D = S_ii S - S_i^T S_i (then of rank 1, D_jj not 0): S_ii Q = (S_i v)^2 + (D_j v)^2 / D_jj, so Q = 0 means both forms
@@ -9,11 +9,13 @@ is a sum of squares where it is semidefinite (seen before, for constant coeffici
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from itertools import combinations
 
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
+from dofkit.combining import by_velocities
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
@@ -47,6 +49,35 @@ def split_quadratic(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
         return [(first, other)]
     root = ex.sqrt(-square)
     return [(first * root - other,), (first * root + other,)]
+
+
+def split_power(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, ...]] | None:
+    """Branches of linear forms of a v^k + b w^k = 0, v and w velocities, or of a v^k + b = 0, for k > 2; else None.
+
+    For odd k that is v = (-b/a)^(1/k) w over the reals; for even k v = +-(-b/a)^(1/k) w, or v = w = 0 where b/a > 0.
+    """
+    ring = Ring([e], positive)
+    node = ring.node(e)
+    try:
+        canon = Canon(ring)
+        terms = by_velocities(canon, canon.quotient(node)[0])
+    except (TooLargeError, DomainError, ZeroDivisionError):
+        return None
+    if len(terms) != 2 or any(len(moving) > 1 for moving in terms):
+        return None
+    (first, b), (second, a) = sorted(terms.items(), key=lambda item: len(item[0]))
+    degrees = {k for _, k in (*first, *second)}
+    if len(degrees) > 1 or any(ring.vars[i].kind != "symbol" for i, _ in (*first, *second)):
+        return None
+    v, k = ring.var_expr[second[0][0]], second[0][1]
+    w = ring.var_expr[first[0][0]] if first else ex.ONE
+    if k < 3:
+        return None
+    ratio = -(canon.to_expr(b) / canon.to_expr(a))
+    root = ex.power(ratio, ex.num(Fraction(1, k)))
+    if k % 2:
+        return [(v - root * w,)]
+    return [(v, w)] if _sign(ratio, positive) == -1 else [(v - root * w,), (v + root * w,)]
 
 
 def _matrix(e: Expr, velocities: Sequence[Expr]) -> Matrix | None:
@@ -88,7 +119,7 @@ def _zero(e: Expr) -> bool:
 
 
 def _sign(e: Expr, positive: frozenset[Expr]) -> int:
-    """1 where all terms of the canonical form are >= 0, -1 where all are <= 0, else 0."""
+    """1 where all terms of the canonical form, or one that outweighs the others, are >= 0, -1 where <= 0, else 0."""
     ring = Ring([e], positive)
     node = ring.node(e)
     try:
@@ -96,7 +127,10 @@ def _sign(e: Expr, positive: frozenset[Expr]) -> int:
         top, bottom = canon.quotient(node)
     except (TooLargeError, DomainError, ZeroDivisionError):
         return 0
-    if not bottom.is_constant() or sum_of_even(top, Signs(canon, positive)) is None:
+    signs = Signs(canon, positive)
+    if not bottom.is_constant() or sum_of_even(top, signs) is None:
         return 0
-    value = next(iter(top.to_dict().values()))
+    terms = top.to_dict()
+    constant = terms.get((0,) * len(ring.vars)) if signs.bounded_away(top) else None
+    value = next(iter(terms.values())) if constant is None else constant
     return 1 if (value > 0) == (bottom.leading_coefficient() > 0) else -1

@@ -28,12 +28,16 @@ class Others:
 
 @dataclass(frozen=True)
 class Labels:
-    """What is said of a constraint: in the system, alone, and why it was left open where it was."""
+    """What is said of a constraint: in the system, alone, and why it was left open where it was.
+
+    ``beside``: what the others make of one that is nonlinear in the velocities.
+    """
 
     in_system: bool | None
     alone: bool | None
     undecided: str = ""
     relates: bool = True
+    beside: str = ""
 
 
 def joined(parts: Sequence[str | None]) -> str | None:
@@ -69,9 +73,8 @@ def _nonlinear(labels: Labels) -> str:
     if labels.in_system is None:
         flat = "the velocities it allows may form flat pieces, so that it is linear in disguise"
         return f"Not decided: {labels.undecided or flat}."
-    return (
-        "It is not linear in the velocities and no finite relation gives it: non-holonomic; it limits velocities only."
-    )
+    why = labels.beside or "It is not linear in the velocities and no finite relation gives it"
+    return f"{why}: non-holonomic; it limits velocities only."
 
 
 def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -> str:

@@ -20,9 +20,11 @@ from dofkit.errors import Fault, SceneError, TextError
 from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
 from dofkit.holding import within
+from dofkit.modulo import verified
 from dofkit.normal import Finite, Inequality, Normal, Still, normalise, without_instants
 from dofkit.system import Constraint, System
 from dofkit.twins import alike, retold
+from dofkit.velocities import MAX_WAYS, Slot
 from dofkit.velocities import reduced as reduced_velocities
 from dofkit.zeros import never_holds
 
@@ -51,7 +53,10 @@ class Reduced:
 
 @dataclass
 class Outcome:
-    """The blocks of one choice of branches and their answers."""
+    """The blocks of one choice of branches and their answers.
+
+    ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows.
+    """
 
     rows: list[Row]
     blocks: list[Block]
@@ -61,6 +66,7 @@ class Outcome:
     first_order: int | None = None
     kinked: bool = False
     copies: dict[int, int] = field(default_factory=dict)
+    reduced: tuple[Slot, ...] = ()
 
     @property
     def consistent(self) -> bool | None:
@@ -155,10 +161,14 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 impossible.append(i)
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
-        for way in reduced_velocities(with_rows(rows, constants), positive):
-            names = [*(c.name for c in system.coordinates), *names_in(way, constants)]
-            outcomes.append(_answered(names, way, impossible, setting, known))
-    best = _largest(outcomes, why) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
+        ways = reduced_velocities(with_rows(rows, constants), positive)
+        why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
+        for way in ways:
+            names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
+            outcome = _answered(names, way.rows, impossible, setting, known)
+            outcome.reduced = way.reduced
+            outcomes.append(outcome)
+    best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
     best.copies = copied if outcomes else {}
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
         best.first_order = _first_order(system, normals, setting, constants)
@@ -166,7 +176,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     return best
 
 
-def _largest(outcomes: Sequence[Outcome], why: str | None) -> Outcome:
+def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> Outcome:
     """The largest of the branches; one that is open where it may be larger, and undecided where not all were seen."""
     best = max(outcomes, key=lambda o: o.size)
     left = [o for o in outcomes if o.consistent is not False]
@@ -175,6 +185,8 @@ def _largest(outcomes: Sequence[Outcome], why: str | None) -> Outcome:
         best = most
     if why or (len(outcomes) > 1 and any(a.late for o in outcomes for a in o.answers)):
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
+    elif best.consistent is not False:
+        best.answers = verified(best.reduced, best.blocks, best.answers, setting)
     return best
 
 

@@ -150,6 +150,37 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
     ("no angle has both", scene("cos(x)=1", "cos(x)=-1"), {"consistent": False, "conflicting": ["c1", "c2"]}),
     ("sin = cos = 1 at no angle", scene("sin(x)+cos(x)=2"), {"consistent": False, "conflicting": ["c1"]}),
     (
+        "what rolls obeys the quadratic relation, which no finite relation gives",
+        scene(
+            "dx = cos(theta) dphi",
+            "dy = sin(theta) dphi",
+            "dz = dphi",
+            "xdot^2 + ydot^2 = zdot^2",
+            coordinates=["x", "y", "z", "theta", "phi"],
+        ),
+        {"dof": 4, "velocity_dof": 2, "holonomic": False, "redundant": ["c4"], "redundant_equations": 1},
+    ),
+    (
+        "a branch of c2 is c1",
+        scene("zdot = y xdot", "zdot^2 = y^2 xdot^2"),
+        {"redundant": ["c2"], "redundancies": [{"nullity": 1, "members": ["c1", "c2"]}]},
+    ),
+    (
+        "c3 takes c1 and c2 together",
+        scene("zdot = y xdot", "xdot^2 + udot^2 = 1", "zdot^2 + y^2 udot^2 = y^2", coordinates=["x", "y", "z", "u"]),
+        {"redundant": ["c3"], "redundancies": [{"nullity": 1, "members": ["c1", "c2", "c3"]}]},
+    ),
+    ("zdot = 0 by difference", scene("xdot^2+ydot^2+zdot=1", "xdot^2+ydot^2=1"), {"dof": 2, "velocity_dof": 1}),
+    (
+        "z = 1 by difference",
+        scene("xdot^2+ydot^2=1", "xdot^2+ydot^2=z"),
+        {"dof": 2, "velocity_dof": 1, "redundant": []},
+    ),
+    ("2 - cos(t)^2 > 0", scene("xdot^2 = 2 - cos(t)^2"), {"consistent": True, "dof": 2, "holonomic": True}),
+    ("y = z = 0 is hidden in c1 and c2", scene("x=0", "xdot=y^2+z^2", "y=0"), {"dof": 0, "redundant": ["c3"]}),
+    ("flat beside bent", scene("xdot^2+ydot^2=z", "zdot^3=z*wdot^3", coordinates=[*XYZ, "w"]), {"dof": 3}),
+    ("x = 0, y = 2 pi is no solution of c3", scene("cos(x)=1", "cos(y)=1", "x=y"), {"redundant": ["c2"]}),
+    (
         "ten equations in twenty unknowns",
         scene(
             *(" + ".join(f"{pow(i + 2, k + 1, 101)} q{i}" for i in range(20)) + f" = {k}" for k in range(10)),

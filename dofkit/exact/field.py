@@ -77,6 +77,13 @@ class FieldPoint:
         """Give a generator its value."""
         self.given[var.kind, var.key] = value
 
+    def copy(self) -> FieldPoint:
+        """A point with the same values so far; what is drawn later differs."""
+        other = FieldPoint(self.p, self.rng, self.order)
+        other.given = dict(self.given)
+        other._zeta, other._imaginary = self._zeta, self._imaginary
+        return other
+
     def number(self, value: Fraction) -> Scalar:
         if value.denominator == 1:
             return nmod(value.numerator, self.p)

@@ -192,9 +192,9 @@ class Solver:
         var = self.ring.vars[unit[1]]
         if var.kind == "symbol":
             kind, name = var.key.args
-            order = 0 if name.startswith("_") else 1 if kind == "coordinate" else 3
+            order = 0 if name.startswith("_") else {"velocity": 1, "coordinate": 2}.get(kind, 4)
         else:
-            order = 2
+            order = 3
         return (order, -unit[1])
 
     def degree(self, node: int, unit: Unit) -> int:
@@ -395,13 +395,29 @@ class Solver:
         for attempt in range(DRAWS):
             try:
                 point = field_point([self.ring], seed * DRAWS + attempt)
-                self._preset_roots(point)
-                for node, unit in self.plan.steps:
-                    self._solve(node, unit, point)
+                self._complete(point)
             except (NoPointError, ZeroDivisionError):
                 continue
             return point
         return None
+
+    def completed(self, base: FieldPoint) -> FieldPoint | None:
+        """A point on the zero set with the values that ``base`` gives, or None where none was found."""
+        if self.plan.stuck or self.plan.contradictory:
+            return None
+        for _ in range(DRAWS // 4):
+            point = base.copy()
+            try:
+                self._complete(point)
+            except (NoPointError, ZeroDivisionError):
+                continue
+            return point
+        return None
+
+    def _complete(self, point: FieldPoint) -> None:
+        self._preset_roots(point)
+        for node, unit in self.plan.steps:
+            self._solve(node, unit, point)
 
     def _preset_roots(self, point: FieldPoint) -> None:
         """Roots that are free unknowns are drawn here, so that their radicands are solved for them."""

@@ -1,0 +1,127 @@
+"""What follows from what: does a relation hold at every state of motion that other constraints leave?
+
+Asked on every choice of the others' branches, at generic states over GF(p); where one of those does not satisfy the
+relation and complex solutions may be meant, at real states with balls. What is finite follows from finite relations
+only, the hidden ones included: a rate does not fix the constant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product as cartesian
+
+from dofkit.answers import Setting
+from dofkit.blocks import Row, coordinates_of, split
+from dofkit.branches import all_of, conditional, through_reference
+from dofkit.conditions import Condition
+from dofkit.deadline import OutOfTimeError, check
+from dofkit.exact.balls import BallPoint
+from dofkit.exact.field import FieldPoint, NoPointError
+from dofkit.expr import Expr
+from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian
+from dofkit.solving import in_time
+from dofkit.states import States, value_at, vanishes
+from dofkit.velocities import MAX_WAYS, Way, form_rate, reduced
+
+RELATIONS = (Finite, Pfaffian, Nonlinear)
+#: Choices of branches that are looked at, and states on each: each may lie on another part of the set.
+MAX_CHOICES, STATES = 16, 4
+
+
+def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
+    """Does a relation hold on every branch of the others? None where that was not decided."""
+    here = replace(setting, reference=None, pose={}, grows=False, flag=False)
+    relation = through_reference(normal, setting)
+    if conditional(relation):
+        return None
+    choices = list(cartesian(*(through_reference(o, setting).branches for o in others)))
+    if len(choices) > MAX_CHOICES:
+        return None
+    told: list[bool | None] = []
+    for choice in choices:
+        rows = [Row(k, p) for k, b in enumerate(choice) for p in b if not isinstance(p, Inequality)]
+        ways = reduced(rows, setting.positive)
+        if len(ways) >= MAX_WAYS:
+            return None
+        for way in ways:
+            check()
+            told.append(_on(way, relation, here))
+            if told[-1] is False:
+                return False
+    return all_of(told)
+
+
+def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
+    """Does one of the relation's branches hold wherever the rows do?"""
+    names = sorted({n for r in way.rows for n in coordinates_of(r.piece)})
+    blocks, _ = split(names, way.rows)
+    answers = [in_time(b, setting) for b in blocks]
+    if any(a.consistent is False for a in answers):
+        return True
+    hidden = [g for a in answers for g in a.hidden]
+    known = all(a.consistent for a in answers)
+    given = [r.piece for r in way.rows if isinstance(r.piece, Condition)]
+    asked = [p for b in relation.branches for p in b if isinstance(p, Condition) and p not in given]
+    branches = [[at_state(p) for p in b if isinstance(p, RELATIONS)] for b in relation.branches]
+    still = all(isinstance(p, Finite) for p in relation.pieces)
+    written = [s.written.piece.expr for s in way.slots if isinstance(s.written.piece, Nonlinear) and not still]
+    more = [*(e for b in branches for e in b), *(c.expr for c in (*given, *asked))]
+    moving = {str(s.args[1]) for e in more for s in e.symbols if s.args[0] in ("coordinate", "velocity")}
+    try:
+        states = States(sorted({*names, *moving}), way.rows, hidden, setting, [*more, *written], still)
+        held = _held(states, branches, written, given, asked)
+    except (OutOfTimeError, ArithmeticError, NoPointError):
+        return None
+    return held if held or known else None
+
+
+def at_state(piece: Finite | Pfaffian | Nonlinear) -> Expr:
+    """What is 0 at a state that satisfies a piece."""
+    return form_rate(piece) if isinstance(piece, Pfaffian) else piece.expr
+
+
+def _held(
+    states: States,
+    branches: Sequence[Sequence[Expr]],
+    written: Sequence[Expr],
+    given: Sequence[Condition],
+    asked: Sequence[Condition],
+) -> bool | None:
+    """Does a branch vanish at every state that is drawn? ``given`` conditions hold there, those ``asked`` have to."""
+    drawn = [p for k in range(STATES) if (p := states.draw(k)) is not None]
+    seen = [_some_vanish(states, p, branches) for p in drawn if _all_vanish(states, p, written)]
+    plain = not written and not given and states.independent
+    if plain and False in seen:
+        return False
+    if seen and all(seen) and not asked:
+        return True
+    told = [
+        all_of((_some_vanish(states, p, branches), *(_satisfied(states, p, c) for c in asked)))
+        for p in states.certain(STATES)
+        if _all_vanish(states, p, written) and all(_satisfied(states, p, c) is not False for c in given)
+    ]
+    if False in told:
+        return False
+    sure = bool(seen) and all(seen)
+    return True if told and all(told) and (sure or len(told) > 1 or not seen) else None
+
+
+def _some_vanish(states: States, point: FieldPoint | BallPoint, branches: Sequence[Sequence[Expr]]) -> bool | None:
+    """Does one of the branches vanish? None where some expression has no value."""
+    found = [_all_vanish(states, point, branch) for branch in branches]
+    return True if True in found else None if None in found else False
+
+
+def _all_vanish(states: States, point: FieldPoint | BallPoint, expressions: Sequence[Expr]) -> bool | None:
+    """Are the expressions 0 at a state (where a ball does not tell)? None where one has no value."""
+    found = [value_at(states.ring, point, states.extra[e]) for e in expressions]
+    return all_of(None if v is None else vanishes(v) for v in found)
+
+
+def _satisfied(states: States, point: BallPoint, condition: Condition) -> bool | None:
+    """Does a condition hold at a real state? None where a ball does not tell."""
+    value = value_at(states.ring, point, states.extra[condition.expr])
+    if value is None or value.contains(0):
+        return None
+    return condition.sense == "!=" or bool(value > 0)
