@@ -45,6 +45,9 @@ def bend(block: Block, setting: Setting, result: Answer) -> None:
     if real is None or sample is None:
         _undecided(result, NO_VELOCITIES)
         return
+    if states.kinked:
+        _undecided(result, FLAT)
+        return
     whole, moving, finite = states.ranks(sample)
     if not real.certified or not real.consistent:
         _undecided(result, SINGULAR)
@@ -85,7 +88,9 @@ def _real(states: States, point: FieldPoint | None, result: Answer) -> RealPoint
 
 
 def _undecided(result: Answer, why: str) -> None:
-    result.velocity_dof, result.dof, result.consistent, result.verdict = None, None, None, "undecided"
+    """Nothing is known of the freedom; of the constraints, only that real velocities satisfy them where they do."""
+    result.velocity_dof, result.dof, result.verdict = None, None, "undecided"
+    result.consistent = result.consistent if why == FLAT else None
     result.reasons.append(why)
     _open_labels(result, why)
 

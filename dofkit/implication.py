@@ -94,7 +94,7 @@ def _held(
     plain = not written and not given and states.independent
     if plain and False in seen:
         return False
-    if seen and all(seen) and not asked:
+    if seen and all(seen) and not asked and not states.chosen:
         return True
     told = [
         all_of((_some_vanish(states, p, branches), *(_satisfied(states, p, c) for c in asked)))
@@ -103,7 +103,7 @@ def _held(
     ]
     if False in told:
         return False
-    sure = bool(seen) and all(seen)
+    sure = bool(seen) and all(seen) and not states.chosen
     return True if told and all(told) and (sure or len(told) > 1 or not seen) else None
 
 

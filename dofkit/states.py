@@ -82,6 +82,17 @@ class States:
         """Is what is not 0 over GF(p) certainly not 0?"""
         return independent_generators(self.ring)
 
+    @property
+    def chosen(self) -> bool:
+        """Are there signs that a point over GF(p) chooses at random? What holds for one need not for the other."""
+        return any(v.kind == "sign" and self.ring.var_expr[v.index].symbols for v in self.ring.vars)
+
+    @property
+    def kinked(self) -> bool:
+        """Do velocities stand in abs()?"""
+        signs = (self.ring.var_expr[v.index] for v in self.ring.vars if v.kind == "sign")
+        return any(s.args[0] == "velocity" for e in signs for s in e.symbols)
+
     def draw(self, seed: int) -> FieldPoint | None:
         """A generic state over GF(p): velocities at a generic configuration where they can be solved for."""
         if "field" not in self.setting.engines:
