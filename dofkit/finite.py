@@ -20,6 +20,7 @@ from dofkit.measured import measure
 from dofkit.rank import without_time
 from dofkit.variety import Variety, field_jacobian, find
 
+INSTANT = "the relations are singular at the reference configuration: whether motion goes on in time was not decided"
 OFF_REFERENCE = (
     "the reference configuration does not satisfy all finite relations: the answer is for configurations that do, "
     "and nothing is said of the reference itself"
@@ -83,13 +84,32 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         result.method = "balls at the given configuration"
         result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
     n = chart.coordinates
-    if found.confined:
+    timed = len(chart.columns) > n
+    if timed and (found.confined or found.rank < len(found.matrix)) and not _as_elsewhere(chart, found, result):
+        result.consistent, result.dof, result.velocity_dof, result.verdict = None, None, None, "undecided"
+        result.reasons.append(INSTANT)
+    elif found.confined:
         result.consistent, result.dof, result.velocity_dof, result.verdict = False, None, None, "probable"
         result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
     elif found.rank < len(found.matrix):
         result.reasons.append(found.local.reason)
         result.degenerate = found.local.dimension != n - (found.rank if not found.confined else 0)
     return result
+
+
+def _as_elsewhere(chart: Chart, found: AtReference, result: Answer) -> bool:
+    """Do the relations treat the time at the reference as they do at generic points?
+
+    What they say of it to first order at a special configuration need not hold beside it (x^2 = t at x = 0).
+    """
+    generic = find(chart, {})
+    if generic.consistent is False:
+        return found.confined
+    if not generic.samples:
+        return False
+    beside = Answer(True, generic.dimension, generic.dimension)
+    _finite_matrix(chart, generic, beside)
+    return (beside.consistent is False) == found.confined and (found.confined or beside.dof == result.dof)
 
 
 def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answer:

@@ -28,8 +28,8 @@ from dofkit.forms import Frame, Rows, kernel, rank_over
 Matrix = Any
 MatrixSeries = list[Matrix]
 
-#: The first order to which the curve is followed, and the largest; with two fields a flag is long or stops at once.
-FIRST_ORDER, MAX_ORDER, SHORT = 3, 42, 12
+#: The first order to which the curve is followed; with two fields a flag is long or stops at once.
+FIRST_ORDER, SHORT = 3, 12
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class Flow:
         self.numbers = Numbers(self.like.modulus() if isinstance(self.like, nmod_poly) else None)
         zero = self.sample * 0
         self.path = [[at[rows.ring.var_node[c]] if c >= 0 else zero] for c in rows.columns]
-        self.controls = [self._random_control() for _ in frame.free]
+        self.controls: list[list[Scalar]] = [[] for _ in frame.free]
         self.matrices: MatrixSeries = []
         self.solved: list[Matrix] = []
         self.slope: MatrixSeries = []
@@ -80,9 +80,6 @@ class Flow:
         self.pulled: MatrixSeries = []
         self.back: MatrixSeries = []
         self.order = 0
-
-    def _random_control(self) -> list[Scalar]:
-        return [self.base.number(self.base.rng.randrange(1, 1 << 12)) for _ in range(MAX_ORDER)]
 
     def follow(self, order: int) -> None:
         """Bring everything to ``order`` coefficients; what reaches further stays."""
@@ -125,7 +122,9 @@ class Flow:
         self.inverse = picked(first, self.frame.dependent, self.numbers).inv() if size else first
 
     def _velocity(self, k: int) -> None:
-        """The k-th coefficient of q', the controls given: A_d v_d = -A_f u."""
+        """The k-th coefficient of q', one more random coefficient of the controls given: A_d v_d = -A_f u."""
+        for u in self.controls:
+            u.append(self.base.number(self.base.rng.randrange(1, 1 << 12)))
         controls = [self.numbers.matrix(len(self.frame.free), 1, [u[j] for u in self.controls]) for j in range(k + 1)]
         self.parted()
         right = convolved(self.free_part, controls, k)
@@ -256,7 +255,7 @@ def lie_span(rows: Rows, frame: Frame, base: Any) -> Span:
         basis = kernel(rows.matrix(at, zero), frame, zero) if free else []
         return Span(tuple(tuple(v) for v in basis), (free,))
     flow = Flow(rows, frame, base)
-    enough = min(n - free + 2, MAX_ORDER)
+    enough = n - free + 2
     first = enough if free <= 2 and enough <= SHORT else min(FIRST_ORDER, enough)
     for order in dict.fromkeys((first, enough)):
         flow.follow(order)

@@ -21,14 +21,16 @@ from typing import Any
 from flint import arb
 
 from dofkit.deadline import check
-from dofkit.exact.program import gradient, values
-from dofkit.exact.ring import Ring, Scalar
+from dofkit.exact.program import gradient, reachable, values
+from dofkit.exact.ring import ADD, MUL, POW, VAR, Ring, Scalar
 from dofkit.exact.series import Series, SeriesPoint, monomial, series_values, zero_poly
 from dofkit.forms import Frame, solve
 from dofkit.report import Verdict
 
 #: Orders to which the other relations are followed; the second where one motion is in question.
 ORDER, LONG_ORDER = 8, 16
+#: Relations of this degree are not followed: their series may begin later.
+LONGEST = 64
 
 
 @dataclass(frozen=True)
@@ -110,6 +112,22 @@ class Manifold:
         return [s.coefficient(2) for s in self.follow(direction, 3)]
 
 
+def _degree(ring: Ring, nodes: Sequence[int]) -> int:
+    """A bound on the degree of some expressions in the generators."""
+    degrees: dict[int, int] = {}
+    for i in reversed(reachable(ring, nodes, through_generators=False)):
+        op, payload = ring.code[i]
+        if op == MUL:
+            degrees[i] = sum(degrees[j] for j in payload)
+        elif op == ADD:
+            degrees[i] = max(degrees[j] for j in payload)
+        elif op == POW:
+            degrees[i] = abs(payload[1]) * degrees[payload[0]]
+        else:
+            degrees[i] = int(op == VAR)
+    return max((degrees[n] for n in nodes), default=0)
+
+
 def local_dimension(field: Manifold, ball: Manifold | None, rigid: int) -> Local:
     """The local dimension at the point; ``rigid`` is the dimension of the motions that move everything as one body.
 
@@ -121,7 +139,12 @@ def local_dimension(field: Manifold, ball: Manifold | None, rigid: int) -> Local
         return Local(m, "proved", "all relations are independent here (implicit function theorem)")
     if m == rigid:
         return Local(m, "proved", "nothing but motions of the whole is possible to first order")
-    order = LONG_ORDER if m - rigid <= 1 else ORDER
+    degree = _degree(field.ring, field.others)
+    if degree >= LONGEST:
+        return Local(
+            None, "undecided", f"a relation of degree {degree} may be flat here to a higher order than is followed"
+        )
+    order = max(LONG_ORDER if m - rigid <= 1 else ORDER, degree + 1)
     direction = [field.base.random() for _ in range(m)]
     along = field.follow(direction, order)
     if all(s.poly.degree() < 0 for s in along):
@@ -141,9 +164,12 @@ def numeric_dimension(ball: Manifold, rigid: int) -> Local:
     m = len(ball.frame.free)
     if not ball.others or m == rigid:
         return Local(m, "numeric", "the relations kept are independent within the precision")
+    order = max(ORDER, _degree(ball.ring, ball.others) + 1)
+    if order > LONG_ORDER:
+        return Local(None, "undecided", "a relation may be flat here to a higher order than is followed")
     direction = [arb(ball.base.rng.randrange(64, 512)) / 256 for _ in range(m)]
-    along = ball.follow(direction, ORDER)
-    if all(s.coefficient(k).contains(0) for s in along for k in range(ORDER)):
+    along = ball.follow(direction, order)
+    if all(s.coefficient(k).contains(0) for s in along for k in range(order)):
         return Local(m, "numeric", "the dependent relations hold along a random curve within the precision")
     if m - rigid == 1:
         return Local(rigid, "numeric", "the one motion left to first order breaks a relation")

@@ -134,8 +134,8 @@ def test_balls_alone_do_not_tell_a_contradiction() -> None:
 
 
 def test_a_field_alone_answers_nothing_where_functions_may_be_related() -> None:
-    """cbrt(2 + sqrt 5) + cbrt(2 - sqrt 5) = 1: the cubes of (1 +- sqrt 5)/2."""
-    hidden = "((2 + sqrt(5))^(1/3) - (sqrt(5) - 2)^(1/3) - 1) y dx + dz - dy = 0"
+    """4 atan(1/5) - atan(1/239) = pi/4 (Machin 1706): no canonical form shows it."""
+    hidden = "(4 atan(1/5) - atan(1/239) - pi/4) y dx + dz - dy = 0"
     report = told("field", hidden)
     assert (report.dof, report.constraints[0].holonomic, report.verdict) == (None, None, "undecided")
 

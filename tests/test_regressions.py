@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -238,3 +239,41 @@ def test_redundancy_that_was_not_looked_for_is_not_denied() -> None:
     )
     report = dofkit.classify(dofkit.load(made))
     assert report.redundant == ["c19"] or report.verdict == "undecided"
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "constraints", "dof"),
+    [
+        # flat to order 20: the set is the point
+        ("x y", ["y = 0", "y = x^20"], 0),
+        # x^9 + z^9 = 0 is the line z = -x
+        ("x y z", ["y = 0", "y = x^9 + z^9"], 1),
+        # a motion for t >= 0
+        ("x", ["x^2 = t"], 0),
+    ],
+)
+def test_what_is_flat_or_starts_at_the_reference_is_not_guessed(
+    coordinates: str, constraints: list[str], dof: int
+) -> None:
+    names = coordinates.split()
+    report = dofkit.classify(dofkit.load(scene(*constraints, coordinates=names, configuration=dict.fromkeys(names, 0))))
+    assert report.dof in (dof, None)
+    assert report.dof == dof or report.verdict == "undecided"
+    assert report.consistent is not False
+
+
+@pytest.mark.parametrize("constraints", [["x = t", "x = t + t^2"], ["y = t", "y = t + x^2 + t^2"]])
+def test_time_that_stands_still_is_not_a_proved_motion(constraints: list[str]) -> None:
+    """t^2 = 0 and x^2 + t^2 = 0 hold at one instant only."""
+    made = scene(*constraints, coordinates=["x", "y"], configuration={"x": 0, "y": 0})
+    report = dofkit.classify(dofkit.load(made))
+    assert report.consistent is False or report.verdict == "undecided"
+
+
+def test_a_long_flag_is_followed_to_its_end() -> None:
+    """Fifty chained forms: 51 brackets, more than the orders that a curve was followed to."""
+    names = [f"z{i}" for i in range(52)]
+    made = scene(*(f"d{a} = {b} du" for a, b in pairwise(names)), coordinates=[*names, "u"])
+    report = dofkit.classify(dofkit.load(made))
+    assert (report.dof, report.velocity_dof) == (53, 2)
+    assert report.growth_vector == list(range(2, 54))
