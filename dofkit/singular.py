@@ -61,11 +61,14 @@ def _look(chart: Chart, real: RealPoint) -> Local | None:
 
 
 def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
-    """Gauss-Newton with minimal steps in high precision; at a singular point each step halves the error."""
+    """Gauss-Newton with minimal steps in high precision; at a singular point each step halves the error.
+
+    None where the last step does better: the point is a regular one, on something very small.
+    """
     symbols: dict[Any, arb] = {s: arb(v.mid()) if isinstance(v, arb) else arb(v) for s, v in real.point.symbols.items()}
     moved = [s for s in chart.unknowns if chart.ring.var_index(s) is not None]
     indices = [chart.ring.var_index(s) or 0 for s in moved]
-    size = arb(1)
+    size = before = arb(1)
     for _ in range(STEPS):
         point = BallPoint(symbols, 0)
         at = values(chart.ring, point)
@@ -75,7 +78,9 @@ def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
         step = _minimal_step(jacobian(chart.ring, at, point, chart.nodes, indices, arb(0)), f)
         for s, d in zip(moved, step, strict=True):
             symbols[s] = (symbols[s] - d).mid()
-        size = max(abs(d) for d in step)
+        before, size = size, max(abs(d) for d in step)
+    if 16 * size < before:
+        return None
     if not size < arb(2) ** (-RADIUS_BITS - 8) or not _on_the_set(chart, BallPoint(symbols, 0)):
         return None
     radius = arb(0, arb(2) ** -RADIUS_BITS)

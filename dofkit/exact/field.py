@@ -17,11 +17,14 @@ from flint import fmpz, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
+from dofkit.exact.program import value_of
 from dofkit.exact.ring import Ring, Scalar, Var
 
 PRIME_BITS = 61
 #: Tries for a prime modulo which every root of a number exists.
 PRIME_TRIES = 4000
+#: Primes that are tried where roots of roots must exist: each does modulo every other prime or so.
+NESTED_TRIES = 12
 
 
 class NoPointError(Exception):
@@ -174,10 +177,27 @@ class FieldPoint:
 
 
 def field_point(rings: Sequence[Ring], seed: int, given: Mapping[Var, Scalar] | None = None) -> FieldPoint:
-    """A fresh random point for programs that share their symbols."""
-    order = circle_order(rings)
-    p = prime_for(order, number_roots(rings), seed % 3)
-    point = FieldPoint(p, random.Random(f"dofkit point {seed}"), order)
-    for var, value in (given or {}).items():
-        point.set(var, value)
+    """A fresh random point for programs that share their symbols, modulo a prime where roots of roots exist."""
+    order, roots = circle_order(rings), number_roots(rings)
+    nested = [(ring, var) for ring in rings for var in ring.vars if _nested(ring, var)]
+    for attempt in range(NESTED_TRIES if nested else 1):
+        p = prime_for(order, roots, seed % 3 + 3 * attempt)
+        point = FieldPoint(p, random.Random(f"dofkit point {seed}"), order)
+        for var, value in (given or {}).items():
+            point.set(var, value)
+        if all(_exists(ring, var, point) for ring, var in nested):
+            break
     return point
+
+
+def _nested(ring: Ring, var: Var) -> bool:
+    """A root of a number that is no integer itself."""
+    return var.kind == "root" and not isinstance(var.key[0], ex.Expr) and not ring.var_expr[var.index].symbols
+
+
+def _exists(ring: Ring, var: Var, point: FieldPoint) -> bool:
+    try:
+        value_of(ring, point, ring.var_node[var.index])
+    except (NoPointError, ZeroDivisionError):
+        return False
+    return True
