@@ -9,6 +9,7 @@ import statistics
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import combinations
 
@@ -84,6 +85,20 @@ def rolling_disc() -> object:
     return dofkit.classify(dofkit.load(DISC))
 
 
+def stability() -> None:
+    """Of every family of scenes with known truth: how many trials, and the share right, undecided and wrong."""
+    from families import FAMILIES
+    from trials import outcome
+
+    print(f"{'family':<40} {'trials':>7} {'right':>9} {'undecided':>10} {'wrong':>9} {'seconds':>9}")
+    for name, family in FAMILIES.items():
+        start = time.process_time()
+        found = Counter(outcome(t, dofkit.classify(dofkit.load(dict(t.scene)))) for t in family.trials())
+        spent, total = time.process_time() - start, sum(found.values())
+        shares = [found[kind] / total for kind in ("right", "undecided", "wrong")]
+        print(f"{name:<40} {total:7d} {shares[0]:9.2%} {shares[1]:10.2%} {shares[2]:9.2%} {spent:9.1f}")
+
+
 def main() -> None:
     """Print everything."""
     imports(["-c", "import dofkit"])
@@ -96,6 +111,7 @@ def main() -> None:
     told(f"the whole catalog ({len(catalog) - 4}), cold, against the same", everything, sympy, "at most 6")
     report, wedge = medians(rolling_disc, wedges, rounds=10 * ROUNDS)
     told("rolling disc, warm: whole report against wedge, simplify", report, wedge, "below 1")
+    stability()
 
 
 if __name__ == "__main__":
