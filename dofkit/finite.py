@@ -85,7 +85,7 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
     n = chart.coordinates
     timed = len(chart.columns) > n
-    if timed and (found.confined or found.rank < len(found.matrix)) and not _as_elsewhere(chart, found, result):
+    if timed and found.confined and not _fix_time_elsewhere(chart):
         result.consistent, result.dof, result.velocity_dof, result.verdict = None, None, None, "undecided"
         result.reasons.append(INSTANT)
     elif found.confined:
@@ -97,19 +97,19 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
     return result
 
 
-def _as_elsewhere(chart: Chart, found: AtReference, result: Answer) -> bool:
-    """Do the relations treat the time at the reference as they do at generic points?
+def _fix_time_elsewhere(chart: Chart) -> bool:
+    """Do the relations fix the time at generic points too?
 
     What they say of it to first order at a special configuration need not hold beside it (x^2 = t at x = 0).
     """
     generic = find(chart, {})
     if generic.consistent is False:
-        return found.confined
+        return True
     if not generic.samples:
         return False
     beside = Answer(True, generic.dimension, generic.dimension)
     _finite_matrix(chart, generic, beside)
-    return (beside.consistent is False) == found.confined and (found.confined or beside.dof == result.dof)
+    return beside.consistent is False
 
 
 def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answer:

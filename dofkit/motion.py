@@ -128,16 +128,16 @@ def _degree(ring: Ring, nodes: Sequence[int]) -> int:
     return max((degrees[n] for n in nodes), default=0)
 
 
-def local_dimension(field: Manifold, ball: Manifold | None, rigid: int) -> Local:
+def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, timed: bool = False) -> Local:
     """The local dimension at the point; ``rigid`` is the dimension of the motions that move everything as one body.
 
     ``field`` is over GF(p), where a coefficient that is not 0 proves that the function is not; ``ball`` at the
-    same point decides signs.
+    same point decides signs. ``timed``: time is one of the columns, and counted in ``rigid``.
     """
     m = len(field.frame.free)
     if not field.others:
         return Local(m, "proved", "all relations are independent here (implicit function theorem)")
-    if m == rigid:
+    if m == rigid and not timed:
         return Local(m, "proved", "nothing but motions of the whole is possible to first order")
     degree = _degree(field.ring, field.others)
     if degree >= LONGEST:
@@ -153,6 +153,8 @@ def local_dimension(field: Manifold, ball: Manifold | None, rigid: int) -> Local
             "probable",
             f"the dependent relations hold along a random curve to order {order - 1}: the motion is finite",
         )
+    if timed:
+        return Local(None, "undecided", "a dependent relation breaks along a random curve in which time goes on")
     if m - rigid == 1:
         first = min(k for s in along for k in range(order) if s.coefficient(k) != 0)
         return Local(rigid, "proved", f"the one motion left to first order breaks a relation at order {first}")

@@ -369,6 +369,6 @@ def local_at(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int
     try:
         field_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
         ball_manifold = None if ball is None else Manifold(chart.ring, chart.nodes, chart.columns, frame, ball)
-        return local_dimension(field_manifold, ball_manifold, rigid)
+        return local_dimension(field_manifold, ball_manifold, rigid, len(chart.columns) > chart.coordinates)
     except (ZeroDivisionError, OutsideDomainError, NoPointError):
         return Local(None, "undecided", "the relations could not be followed along a curve through this configuration")
