@@ -193,7 +193,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
     dof, velocity_dof = outcome.dof, outcome.velocity_dof
     redundant_equations = None if velocity_dof is None else max(0, equations - (len(system.coordinates) - velocity_dof))
     if redundant_equations == 0:
-        dependent = [_all_needed(r, reduced) for r in dependent]
+        dependent = [_all_needed(r, reduced, outcome) for r in dependent]
     entries = entries_of(reduced, setting, outcome, dependent, names, company)
     instantaneous = _instantaneous(system, outcome)
     verdict = weakest(*(e.verdict for e in entries), *(a.verdict for a in outcome.answers))
@@ -241,8 +241,14 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
     )
 
 
-def _all_needed(found: Redundancies, reduced: Sequence[Reduced]) -> Redundancies:
-    """With no equation too many, what was left open is needed."""
+def _all_needed(found: Redundancies, reduced: Sequence[Reduced], outcome: Outcome) -> Redundancies:
+    """With no equation too many, what was left open is needed, where every equation takes one freedom at most.
+
+    One that says several things (a sum of squares), or hidden relations, may hide that another follows.
+    """
+    several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
+    if several or any(a.hidden for a in outcome.answers):
+        return found
     needed = {i: reduced[i].equations for i in found.undecided}
     return replace(found, independent={**found.independent, **needed}, undecided=())
 
