@@ -53,7 +53,7 @@ def taken(work: Callable[[], object]) -> float:
 
 def script(code: str, *arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:
     """Run ``code`` as a program of its own that has no guard."""
-    paths = os.pathsep.join([str(HERE), str(HERE.parent), os.environ.get("PYTHONPATH", "")])
+    paths = os.pathsep.join(filter(None, [str(HERE), str(HERE.parent), os.environ.get("PYTHONPATH")]))
     command = [sys.executable, *(arguments or ("-c", code))]
     settings: dict[str, Any] = {"capture_output": True, "text": True, "timeout": 60, **options}
     return subprocess.run(command, check=False, env={**os.environ, "PYTHONPATH": paths}, **settings)
