@@ -27,6 +27,8 @@ from dofkit.velocities import MAX_WAYS, Way, form_rate, reduced
 RELATIONS = (Finite, Pfaffian, Nonlinear)
 #: Choices of branches that are looked at, and states on each: each may lie on another part of the set.
 MAX_CHOICES, STATES = 16, 4
+#: Real states that are looked at where a relation may hold on one part of the set and fail on another.
+MANY_STATES = 16
 
 
 def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
@@ -98,7 +100,7 @@ def _held(
         return True
     told = [
         all_of((_some_vanish(states, p, branches), *(_satisfied(states, p, c) for c in asked)))
-        for p in states.certain(STATES)
+        for p in states.certain(MANY_STATES if asked or False in seen else STATES)
         if _all_vanish(states, p, written) and all(_satisfied(states, p, c) is not False for c in given)
     ]
     if False in told:
