@@ -10,7 +10,6 @@ from typing import Any
 
 from flint import ctx
 
-from dofkit import expr as ex
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, uses_time
 from dofkit.bounded import checked, in_worker
@@ -27,11 +26,12 @@ from dofkit.labelling import entries_of
 from dofkit.lowering import lower
 from dofkit.methods import METHODS, MethodName
 from dofkit.normal import Finite
+from dofkit.preparing import prepared
 from dofkit.redundancy import Redundancies, left_open
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, ForceEntry, Redundancy, Report, weakest
 from dofkit.scene import Scene
 from dofkit.sketch import blank, sketch
-from dofkit.solving import Outcome, Reduced, reduce_all, solve
+from dofkit.solving import Outcome, Reduced, solve
 from dofkit.special import special_cases
 from dofkit.system import System
 from dofkit.together import Companionship
@@ -90,7 +90,7 @@ def _classified(scene: Scene | System, seconds: float, method: MethodName) -> Re
         return system
     try:
         with limited(until - time.monotonic()), ctx.workprec(PRECISION):
-            reduced, setting = _prepared(system)
+            reduced, setting = prepared(system)
             setting = replace(setting, engines=METHODS[method].engines)
             with part(SOLVING):
                 outcome = solve(system, reduced, setting)
@@ -111,7 +111,7 @@ def _with_special_cases(
 
 def _generic(system: System) -> Report:
     """The report without special cases."""
-    reduced, setting = _prepared(system)
+    reduced, setting = prepared(system)
     return _report(system, reduced, setting, solve(system, reduced, setting))
 
 
@@ -126,7 +126,7 @@ def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int
     system = scene if isinstance(scene, System) else lower(scene)
     try:
         with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
-            reduced, setting = _prepared(system)
+            reduced, setting = prepared(system)
             outcome = solve(system, reduced, replace(setting, flag=True))
     except OutOfTimeError:
         return None
@@ -137,23 +137,6 @@ def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int
     if len(known) < len(ranks):
         return None
     return [sum(r[min(k, len(r) - 1)] for r in known) for k in range(max(map(len, known), default=0))]
-
-
-def _prepared(system: System) -> tuple[list[Reduced], Setting]:
-    """Each relation as what it says, and what may be assumed of the symbols."""
-    positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
-    positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
-    reduced = reduce_all(system, positive)
-    setting = Setting(
-        positive,
-        tuple(ex.parameter(p) for p in system.generic),
-        system.pose,
-        system.reference,
-        system.coordinates,
-        system.tolerance,
-        system.size,
-    )
-    return reduced, setting
 
 
 def _by_one_engine(report: Report, outcome: Outcome, method: MethodName) -> Report:

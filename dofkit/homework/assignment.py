@@ -1,0 +1,184 @@
+"""Assignments: problems over scenes, and the questions asked of each."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, ValidationError, ValidatorFunctionWrapHandler, WrapValidator
+
+from dofkit.documents import Document, read_document
+from dofkit.errors import DofkitError, Fault, SceneError
+from dofkit.homework.key import Convention, Key
+from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
+from dofkit.reading import find, load
+from dofkit.scene import Scene
+from dofkit.values import Model, fault_at, fault_error, faults_of, retold, suggestion
+
+FeedbackLevel = Literal["hint", "full"]
+
+
+class AssignmentError(DofkitError):
+    """What is no assignment: all its faults at once."""
+
+    def __init__(self, faults: tuple[Fault, ...], source: str | None = None) -> None:
+        self.faults = faults
+        self.source = source
+        super().__init__("\n".join(str(fault) for fault in faults))
+
+    def __reduce__(self) -> tuple[type[AssignmentError], tuple[tuple[Fault, ...], str | None]]:
+        return (AssignmentError, (self.faults, self.source))
+
+
+def _question(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
+    """A question, its faults at paths free of the tag."""
+    if isinstance(value, Mapping):
+        asked = value.get("ask")
+        if asked is None:
+            raise fault_error("a question needs its `ask`", "what can be asked: " + ", ".join(KINDS))
+        if not isinstance(asked, str) or asked not in KINDS:
+            raise fault_at(("ask",), f"'{asked}' cannot be asked", suggestion(asked, list(KINDS), "questions"))
+    elif not isinstance(value, QuestionBase):
+        raise fault_error("a question is a mapping with `id` and `ask`")
+    try:
+        return handler(value)
+    except ValidationError as error:
+        raise retold(error, "a question", (), lambda loc: loc[1:]) from None
+
+
+class Problem(Model):
+    """A scene and what is asked of it."""
+
+    id: Identifier = Field(description="its name, unique within the assignment")
+    title: str | None = Field(None, description="one line about it")
+    scene: str | dict[str, Any] = Field(description="a catalog name, a path beside the assignment, or a scene in place")
+    questions: Annotated[tuple[Annotated[AnyQuestion, WrapValidator(_question)], ...], Field(min_length=1)] = Field(
+        description="what is asked"
+    )
+
+
+class Assignment(Model):
+    """What a lecturer hands out."""
+
+    title: str = Field(description="its title")
+    convention: Convention = Field("configuration", description='which freedom a bare "degrees of freedom" means')
+    feedback: FeedbackLevel = Field("hint", description="`hint` says what went wrong, `full` also what is right")
+    problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """An assignment with its scenes: everything that grading needs. ``keys`` by problem."""
+
+    assignment: Assignment
+    keys: Mapping[str, Key]
+
+    def questions(self) -> Iterator[tuple[Problem, QuestionBase]]:
+        """Every question with its problem, in order."""
+        for problem in self.assignment.problems:
+            for question in problem.questions:
+                yield problem, question
+
+
+def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Path | None = None) -> Prepared:
+    """The assignment of a YAML or JSON file, or of a mapping, with its scenes.
+
+    Paths of scenes are meant from the assignment's folder (``base`` for a mapping). Raises AssignmentError with every
+    fault at once: of its form, of its scenes, and of questions that its scenes cannot be asked.
+    """
+    if isinstance(source, Mapping):
+        return _prepared(source, base or Path(), None)
+    shown = os.fspath(source)
+    try:
+        found = find(shown)
+    except SceneError as error:
+        raise AssignmentError(tuple(_as_file(f) for f in error.faults), shown) from None
+    document = read_document(found.data, found.name)
+    if document.faults or not isinstance(document.value, dict):
+        hint = "begin with 'title:' and 'problems:'"
+        faults = document.faults or (Fault("an assignment is a mapping of keys to values", hint=hint),)
+        raise AssignmentError(faults, shown)
+    return _prepared(document.value, Path(shown).parent, document)
+
+
+def _as_file(fault: Fault) -> Fault:
+    message = fault.message.replace("not a scene", "not an assignment").replace(
+        ", and no scene of that name in the catalog", ""
+    )
+    return replace(fault, message=message)
+
+
+def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -> Prepared:
+    try:
+        assignment = Assignment.model_validate(value)
+    except ValidationError as error:
+        raise _error(faults_of(error), document) from None
+    faults: list[Fault] = list(_repeats(assignment))
+    keys: dict[str, Key] = {}
+    for i, problem in enumerate(assignment.problems):
+        try:
+            key = Key(_scene(problem, base), assignment.convention)
+        except SceneError as error:
+            faults += [_within(fault, i, problem) for fault in error.faults]
+            continue
+        keys.setdefault(problem.id, key)
+        faults += _scene_faults(i, problem, key)
+    if faults:
+        raise _error(tuple(faults), document)
+    return Prepared(assignment, keys)
+
+
+def _scene(problem: Problem, base: Path) -> Scene:
+    if isinstance(problem.scene, dict):
+        return load(problem.scene, name=problem.id)
+    path = base / problem.scene
+    return load(path if path.is_file() else problem.scene)
+
+
+def _within(fault: Fault, i: int, problem: Problem) -> Fault:
+    """A fault of a scene as a fault of the assignment; one of a file says which."""
+    where = ("problems", i, "scene")
+    if isinstance(problem.scene, dict):
+        return replace(fault, where=(*where, *fault.where), line=None, column=fault.column)
+    place = "" if fault.line is None else f" (line {fault.line}, column {fault.column} of {problem.scene})"
+    return Fault(fault.message + place, where, hint=fault.hint)
+
+
+def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
+    if key.report.consistent is False:
+        message = f"the scene of problem '{problem.id}' is inconsistent: {', '.join(key.report.conflicting)}"
+        yield Fault(message, ("problems", i, "scene"), hint="no motion satisfies its constraints; mend the scene")
+        return
+    for j, question in enumerate(problem.questions):
+        for fault in question.faults(key):
+            yield replace(fault, where=("problems", i, "questions", j, *fault.where))
+
+
+def _repeats(assignment: Assignment) -> Iterator[Fault]:
+    seen: set[str] = set()
+    for i, problem in enumerate(assignment.problems):
+        if problem.id in seen:
+            yield Fault(f"the problem '{problem.id}' is given twice", ("problems", i, "id"), hint="rename one of them")
+        seen.add(problem.id)
+        asked: set[str] = set()
+        for j, question in enumerate(problem.questions):
+            if question.id in asked:
+                where = ("problems", i, "questions", j, "id")
+                yield Fault(f"the question '{question.id}' is given twice", where, hint="rename one of them")
+            asked.add(question.id)
+
+
+def _error(faults: tuple[Fault, ...], document: Document | None) -> AssignmentError:
+    if document is None:
+        return AssignmentError(faults)
+    placed = []
+    for fault in faults:
+        if fault.line is None:
+            key = fault.message.startswith("unknown key")
+            line, column = document.place(fault.where, key=key, column=fault.column)
+            fault = replace(fault, line=line, column=column)
+        placed.append(fault)
+    return AssignmentError(tuple(sorted(placed, key=lambda f: (f.line or 0, f.column or 0))), document.name)

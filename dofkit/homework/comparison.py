@@ -1,0 +1,251 @@
+"""Is an answer the same constraint as the one that was asked for, in the presence of the scene's others?
+
+With O the other constraints, F those asked for and G the answer: they say the same where G follows from O and F, and F
+from O and G. What else there is, is told apart: the same set, but irregular there (the gradient vanishes on it), one
+branch, weaker, stronger, different, empty, differentiated, integrated with or without its constant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from itertools import chain
+
+from dofkit import expr as ex
+from dofkit.answers import Setting
+from dofkit.blocks import Row, split
+from dofkit.charting import make_chart
+from dofkit.exact.field import NoPointError
+from dofkit.exact.sparse import rank_of_rows
+from dofkit.expr import Expr
+from dofkit.homework.sides import same_side
+from dofkit.implication import follows
+from dofkit.lowering import lower
+from dofkit.normal import Finite, Normal, Pfaffian
+from dofkit.preparing import prepared
+from dofkit.scene import Scene
+from dofkit.solving import Outcome, Reduced, solve
+from dofkit.system import System
+from dofkit.variety import field_jacobian, find
+
+#: Constraints of a scene with the answer in the place of those that were asked for are named so.
+ANSWER = "the answer"
+
+
+class Sameness(Enum):
+    """How an answer compares with the constraints that were asked for; the value is a stable code."""
+
+    SAME = "SAME"
+    IRREGULAR = "IRREGULAR"
+    BRANCH = "ONE_BRANCH"
+    DIFFERENTIATED = "DIFFERENTIATED"
+    INTEGRATED = "INTEGRATED"
+    WITHOUT_CONSTANT = "INTEGRATED_NO_CONSTANT"
+    WEAKER = "WEAKER"
+    STRONGER = "STRONGER"
+    DIFFERENT = "DIFFERENT"
+    EMPTY = "EMPTY"
+    UNDECIDED = "UNDECIDED"
+
+
+@dataclass(frozen=True)
+class Compared:
+    """What was found; ``met``: for every constraint asked for, does it follow from what is right in the answer?"""
+
+    sameness: Sameness
+    met: tuple[bool, ...] = ()
+
+
+def compare(scene: Scene, asked: Sequence[str], constants: frozenset[str] = frozenset()) -> Compared:
+    """Compare the constraints of ``scene`` called `ANSWER` with those called ``asked``.
+
+    ``constants``: parameters that the answer brought with it, as constants of integration.
+    """
+    system = lower(scene)
+    reduced, setting = prepared(system)
+    return Comparison(system, tuple(reduced), setting, tuple(asked), constants).result()
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """An answer beside the constraints that it should be."""
+
+    system: System
+    reduced: tuple[Reduced, ...]
+    setting: Setting
+    asked: tuple[str, ...]
+    constants: frozenset[str]
+
+    def result(self) -> Compared:
+        """What the answer is."""
+        if any(r.inequalities for r in (*self._wanted, *self._given)):
+            return self._unilateral()
+        sound = [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
+        kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
+        met = [self._follow(r.normals, kept) for r in self._wanted]
+        if None in sound or None in met:
+            return self._open(sound, met)
+        told = tuple(bool(m) for m in met)
+        if all(told) and all(sound):
+            return Compared(self._regularity(), told)
+        if all(told):
+            return Compared(self._too_strong(), told)
+        if all(sound) and not any(told) and self._differentiated():
+            return Compared(Sameness.DIFFERENTIATED, told)
+        if not self._possible:
+            return Compared(Sameness.EMPTY, tuple(False for _ in told))
+        integrated = self._integrated()
+        if integrated is not None:
+            return Compared(integrated, told)
+        if not all(sound) and self._follow(self._all_wanted, self._answer):
+            return Compared(self._too_strong(), told)
+        return Compared(Sameness.WEAKER if all(sound) else Sameness.DIFFERENT, told)
+
+    @cached_property
+    def _given(self) -> list[Reduced]:
+        return [r for r in self.reduced if r.constraint.name.startswith(ANSWER)]
+
+    @cached_property
+    def _wanted(self) -> list[Reduced]:
+        return [r for name in self.asked for r in self.reduced if r.constraint.name == name]
+
+    @cached_property
+    def _answer(self) -> list[Normal]:
+        return [n for r in self._given for n in r.normals]
+
+    @cached_property
+    def _all_wanted(self) -> list[Normal]:
+        return [n for r in self._wanted for n in r.normals]
+
+    @cached_property
+    def _rest(self) -> list[Reduced]:
+        return [r for r in self.reduced if r not in self._given and r not in self._wanted]
+
+    @cached_property
+    def _others(self) -> list[Normal]:
+        return [n for r in self._rest for n in r.normals]
+
+    def _follow(self, what: Sequence[Normal], given: Sequence[Normal]) -> bool | None:
+        """Do the relations all follow from the others and what is given?"""
+        told = [follows(n, [*self._others, *given], self.setting) for n in what]
+        return False if False in told else None if None in told else True
+
+    def _open(self, sound: Sequence[bool | None], met: Sequence[bool | None]) -> Compared:
+        """Something was not decided; what was may be enough to say that the answer is none."""
+        if not self._possible:
+            return Compared(Sameness.EMPTY, tuple(False for _ in met))
+        return Compared(Sameness.UNDECIDED)
+
+    @cached_property
+    def _possible(self) -> bool:
+        """Can the others and the answer be satisfied together?"""
+        return self._solved([*self._rest, *self._given]).consistent is not False
+
+    def _solved(self, reduced: Sequence[Reduced]) -> Outcome:
+        return solve(self.system, reduced, self.setting)
+
+    def _too_strong(self) -> Sameness:
+        """The answer implies what was asked for, and more."""
+        if not self._possible:
+            return Sameness.EMPTY
+        integrated = self._integrated()
+        if integrated is not None:
+            return integrated
+        mine, asked = self._solved([*self._rest, *self._given]), self._solved([*self._rest, *self._wanted])
+        if None in (mine.dof, asked.dof, mine.velocity_dof, asked.velocity_dof):
+            return Sameness.STRONGER
+        alike = (mine.dof, mine.velocity_dof) == (asked.dof, asked.velocity_dof)
+        return Sameness.BRANCH if alike else Sameness.STRONGER
+
+    # differentials
+
+    def _differentiated(self) -> bool:
+        """Is the answer what one gets by differentiating the finite relations that were asked for?"""
+        finite = _finite(self._all_wanted)
+        if not finite or any(isinstance(p, Finite) for n in self._answer for p in n.pieces):
+            return False
+        return self._follow([_differential(g) for g in finite], self._answer) is True
+
+    def _integrated(self) -> Sameness | None:
+        """Is the answer a finite relation whose differential is the form that was asked for?"""
+        finite = _finite(self._answer)
+        forms = [p for n in self._all_wanted for p in n.pieces]
+        if not finite or len(finite) != len(self._answer) or not all(isinstance(p, Pfaffian) for p in forms):
+            return None
+        rates = [_differential(g) for g in finite]
+        if self._follow(rates, self._all_wanted) is not True or self._follow(self._all_wanted, rates) is not True:
+            return None
+        own = [{s for s in g.symbols if s.args[1] in self.constants} for g in finite]
+        return Sameness.INTEGRATED if all(own) else Sameness.WITHOUT_CONSTANT
+
+    # regularity
+
+    def _regularity(self) -> Sameness:
+        """The same set: is the answer's gradient as good there?"""
+        if any(isinstance(p, Pfaffian) for n in self._answer for p in n.pieces):
+            return Sameness.IRREGULAR if any(map(_is_square, self._given)) else Sameness.SAME
+        pieces = [p for n in (*self._others, *self._all_wanted) for p in n.pieces if isinstance(p, Finite)]
+        if len(pieces) != sum(len(n.branches) for n in (*self._others, *self._all_wanted) if n.pieces):
+            return Sameness.SAME
+        raw = [e.expr for r in self._given for e in r.constraint.relations]
+        before = [p.expr for n in self._others for p in n.pieces if isinstance(p, Finite)]
+        wanted = [p.expr for n in self._all_wanted for p in n.pieces if isinstance(p, Finite)]
+        ranks = self._ranks(pieces, [*before, *raw], [*before, *wanted])
+        return Sameness.IRREGULAR if ranks is not None and ranks[0] < ranks[1] else Sameness.SAME
+
+    def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
+        """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""
+        names = [c.name for c in self.system.coordinates]
+        blocks, _ = split(names, [Row(0, p) for p in on])
+        rows = tuple(row for b in blocks for row in b.rows)
+        whole = blocks[0].__class__(tuple(n for n in names if any(n in b.coordinates for b in blocks)), rows)
+        chart = make_chart(whole, self.setting, more=list(chain(*sets)))
+        found = find(chart, {}, 7)
+        if not found.samples:
+            return None
+        try:
+            point = found.samples[0]
+            jacobians = [field_jacobian(chart, point, [chart.ring.node(e) for e in s]) for s in sets]
+        except (ZeroDivisionError, NoPointError):
+            return None
+        return [rank_of_rows(j, point.p) for j in jacobians]
+
+    # inequalities
+
+    def _unilateral(self) -> Compared:
+        """Inequalities are the same where they leave the same side of the same boundary."""
+        if self._answer or self._all_wanted:
+            return Compared(Sameness.DIFFERENT, tuple(False for _ in self._wanted))
+        given = [q for r in self._given for q in r.inequalities]
+        asked = [q for r in self._wanted for q in r.inequalities]
+        table = [[same_side(a, g, self._others, self.setting) for g in given] for a in asked]
+        if any(True not in row and None in row for row in table):
+            return Compared(Sameness.UNDECIDED)
+        found = {q: True in row for q, row in zip(asked, table, strict=True)}
+        met = tuple(all(found[q] for q in r.inequalities) for r in self._wanted)
+        extra = [k for k in range(len(given)) if not any(row[k] for row in table)]
+        if all(met):
+            return Compared(Sameness.STRONGER if extra else Sameness.SAME, met)
+        return Compared(Sameness.DIFFERENT if extra else Sameness.WEAKER, met)
+
+
+def _finite(normals: Sequence[Normal]) -> list[Expr]:
+    """The finite relations of normals with one branch; none where something else occurs."""
+    pieces = [p for n in normals for p in n.pieces]
+    if any(len(n.branches) != 1 for n in normals) or not all(isinstance(p, Finite) for p in pieces):
+        return []
+    return [p.expr for p in pieces if isinstance(p, Finite)]
+
+
+def _differential(g: Expr) -> Normal:
+    """dg as a Pfaffian form."""
+    moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
+    slopes = {str(s.args[1]): ex.diff(g, s) for s in moving}
+    return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, ex.diff(g, ex.TIME)),),))
+
+
+def _is_square(r: Reduced) -> bool:
+    """Was a relation between velocities a power or a sum of squares of forms?"""
+    return any(n.notes and all(isinstance(p, Pfaffian) for p in n.pieces) for n in r.normals)

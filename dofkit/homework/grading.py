@@ -1,0 +1,149 @@
+"""Grading: a pure function of an assignment and a submission."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from typing import Any
+
+from dofkit.deadline import OutOfTimeError, limited
+from dofkit.errors import TextError
+from dofkit.homework.assignment import Prepared, Problem
+from dofkit.homework.judgement import NOTHING, Given, Judgement, needs_review
+from dofkit.homework.questions import QuestionBase
+from dofkit.homework.result import Item, Result
+from dofkit.homework.submission import Submission
+from dofkit.values import nearest
+
+#: Seconds for one answer; what is not decided then needs a review.
+ANSWER_SECONDS = 5.0
+#: Answers that are remembered.
+MOST_REMEMBERED = 50_000
+
+
+class Grader:
+    """Grades submissions of one assignment; the same answer is judged once."""
+
+    def __init__(self, prepared: Prepared, seconds: float = ANSWER_SECONDS) -> None:
+        self.prepared = prepared
+        self.seconds = seconds
+        self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
+        self._known: dict[object, Judgement] = {}
+
+    def grade(self, submission: Submission) -> Result:
+        """Every question with what the student answered, in the assignment's order; then what was not asked."""
+        if submission.error is not None:
+            return self.refused(submission.student, submission.error)
+        items = [item for problem in self.prepared.assignment.problems for item in self._problem(problem, submission)]
+        items += _unasked(self.prepared, submission)
+        return self._total(submission.student, items)
+
+    def refused(self, student: str, error: str) -> Result:
+        """The result of a submission that cannot be graded."""
+        return Result(student=student, score=None, max_score=float(self.max_score), items=[], error=error)
+
+    def _total(self, student: str, items: list[Item]) -> Result:
+        score = sum((Fraction(item.score) for item in items if item.score is not None), Fraction(0))
+        review = sum(item.status == "needs_review" for item in items)
+        return Result(
+            student=student, score=float(score), max_score=float(self.max_score), items=items, needs_review=review
+        )
+
+    def _problem(self, problem: Problem, submission: Submission) -> Iterator[Item]:
+        given = submission.answers.get(problem.id, {})
+        earlier: dict[str, Fraction] = {}
+        for question in problem.questions:
+            answer = given.get(question.id)
+            yield self._item(problem, question, self.judge(problem, question, answer, earlier))
+            number = _number(question, answer)
+            if number is not None:
+                earlier.setdefault(question.kind(), number)
+
+    def judge(
+        self, problem: Problem, question: QuestionBase, answer: Given | None, earlier: Mapping[str, Fraction]
+    ) -> Judgement:
+        """What one answer is worth; the same answer after the same earlier ones always the same."""
+        if answer is None or (isinstance(answer, str) and not answer.strip()):
+            return Judgement("missing", NOTHING, feedback="There is no answer.")
+        place = (problem.id, question.id, repr(answer), tuple(sorted(earlier.items())))
+        found = self._known.get(place)
+        if found is None:
+            found = self._judged(problem, question, answer, earlier)
+            if len(self._known) < MOST_REMEMBERED:
+                self._known[place] = found
+        return found
+
+    def _judged(
+        self, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
+    ) -> Judgement:
+        key = self.prepared.keys[problem.id]
+        try:
+            with limited(self.seconds):
+                found = question.judge(answer, key, earlier)
+        except TextError as error:
+            hint = f" ({error.hint})" if error.hint else ""
+            return Judgement("unreadable", NOTHING, "", (), f"{error.message}{hint}", error.column or 1)
+        except OutOfTimeError:
+            return needs_review("", "the time for it was not enough.")
+        if self.prepared.assignment.feedback == "full" and found.status in ("wrong", "partly"):
+            return found.saying(question.solution(key))
+        return found
+
+    def _item(self, problem: Problem, question: QuestionBase, found: Judgement) -> Item:
+        return Item(
+            problem=problem.id,
+            question=question.id,
+            score=None if found.share is None else float(found.share * question.points),
+            max_score=float(question.points),
+            status=found.status,
+            codes=list(found.codes),
+            read_as=found.read_as,
+            feedback=found.feedback,
+            column=found.column,
+        )
+
+
+def _number(question: QuestionBase, answer: Given | None) -> Fraction | None:
+    try:
+        return None if answer is None else question.number(answer)
+    except TextError:
+        return None
+
+
+def _unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
+    """Answers to questions that were not asked: they count nothing, and say what was meant."""
+    asked: dict[str, list[str]] = {}
+    for problem, question in prepared.questions():
+        asked.setdefault(problem.id, []).append(question.id)
+    for problem_id, answers in submission.answers.items():
+        for question_id in answers:
+            if question_id in asked.get(problem_id, ()):
+                continue
+            what, word, known = (
+                ("question", question_id, asked[problem_id])
+                if problem_id in asked
+                else (
+                    "problem",
+                    problem_id,
+                    list(asked),
+                )
+            )
+            near = nearest(word, known)
+            hint = f": did you mean '{near}'?" if near else f": there are {', '.join(known[:12])}"
+            yield Item(
+                problem=problem_id, question=question_id, score=0.0, max_score=0.0, status="unreadable",
+                codes=[], read_as="", feedback=f"There is no {what} '{word}'{hint}",
+            )  # fmt: skip
+
+
+def grade(assignment: Any, submission: Any) -> Result:
+    """Grade one submission: both are paths, mappings, or what was made of them.
+
+    Raises AssignmentError for what is no assignment; a submission that cannot be read is a result with its error.
+    """
+    from dofkit.homework.assignment import load_assignment
+    from dofkit.homework.submission import read_submission
+
+    prepared = assignment if isinstance(assignment, Prepared) else load_assignment(assignment)
+    given = submission if isinstance(submission, Submission) else read_submission(submission)
+    return Grader(prepared).grade(given)

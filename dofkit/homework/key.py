@@ -1,0 +1,45 @@
+"""The answers of a scene, each worked out when it is first asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+from dofkit.classify import classify
+from dofkit.report import ConstraintEntry, Report
+from dofkit.scene import Scene
+from dofkit.survey import survey
+from dofkit.text import Names
+
+Convention = Literal["configuration", "velocity"]
+#: Seconds for what dofkit says of an assignment's scene.
+SCENE_SECONDS = 60.0
+
+
+@dataclass(frozen=True)
+class Key:
+    """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means."""
+
+    scene: Scene
+    convention: Convention = "configuration"
+
+    @cached_property
+    def report(self) -> Report:
+        """What dofkit says of the scene."""
+        return classify(self.scene)
+
+    @cached_property
+    def names(self) -> Names:
+        """What an answer's texts may mention."""
+        return survey(self.scene).world.names
+
+    @cached_property
+    def coordinates(self) -> list[str]:
+        """The scene's configuration coordinates, in order."""
+        return [c.name for c in survey(self.scene).world.table.coordinates]
+
+    @cached_property
+    def constraints(self) -> dict[str, ConstraintEntry]:
+        """The entries of the report by name."""
+        return {entry.name: entry for entry in self.report.constraints}

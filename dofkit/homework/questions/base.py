@@ -1,0 +1,81 @@
+"""What all kinds of questions have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from functools import cache
+from typing import Annotated, get_args
+
+from pydantic import BeforeValidator, Field
+
+from dofkit.errors import Fault
+from dofkit.homework.judgement import Given, Judgement
+from dofkit.homework.key import Key
+from dofkit.values import Model, Number, exact, fault_error
+
+#: The numbers that a student gave to earlier questions of the same problem, by what was asked.
+Earlier = Mapping[str, Fraction]
+
+
+def _points(value: object) -> object:
+    found = exact(value)
+    if found < 0:
+        raise fault_error(f"points are not negative, as {value} is", "write 0 or more")
+    return found
+
+
+def identifier(value: object) -> object:
+    """An id is a text; a whole number is taken as its text."""
+    if isinstance(value, int) and not isinstance(value, bool):
+        return str(value)
+    if isinstance(value, Fraction) and value.denominator == 1:
+        return str(value)
+    return value
+
+
+Points = Annotated[Number, BeforeValidator(_points)]
+Identifier = Annotated[str, BeforeValidator(identifier), Field(min_length=1, max_length=200)]
+
+
+class QuestionBase(Model):
+    """One question: how an answer is read and judged, and what is right."""
+
+    id: Identifier = Field(description="its name, unique within the problem")
+    points: Points = Field(Fraction(1), description="how many points it is worth")
+
+    @classmethod
+    def kind(cls) -> str:
+        """What it asks for, as written."""
+        return _kind(cls)
+
+    @classmethod
+    def called(cls) -> str:
+        return f"a question that asks for '{cls.kind()}'"
+
+    def faults(self, key: Key) -> Iterator[Fault]:
+        """What is wrong with the question for this scene, each at a path within the question."""
+        del key
+        yield from ()
+
+    def read(self, answer: Given, key: Key) -> str:
+        """The answer as it is understood. Raises TextError where it cannot be read."""
+        raise NotImplementedError
+
+    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+        """What an answer is worth. Raises TextError where it cannot be read."""
+        raise NotImplementedError
+
+    def solution(self, key: Key) -> str:
+        """What is right, in words; empty where dofkit does not know it."""
+        raise NotImplementedError
+
+    def number(self, answer: Given) -> Fraction | None:
+        """The number that an answer gives, for later questions; None where the question asks for none."""
+        del answer
+        return None
+
+
+@cache
+def _kind(cls: type[QuestionBase]) -> str:
+    return str(get_args(cls.model_fields["ask"].annotation)[0])

@@ -1,0 +1,81 @@
+"""Questions whose answer is a choice of names: generalized coordinates, and redundant constraints."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from dofkit.homework.judgement import Given, Judgement, needs_review, right, wrong
+from dofkit.homework.key import Key
+from dofkit.homework.questions.base import Earlier, QuestionBase
+from dofkit.homework.selection import can_be_dropped, determine
+from dofkit.homework.words import chosen, is_none, split_words
+
+
+class Coordinates(QuestionBase):
+    """Names of an independent and complete set of generalized coordinates."""
+
+    ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
+
+    def read(self, answer: Given, key: Key) -> str:
+        return ", ".join(self._names(answer, key)) or "none"
+
+    def _names(self, answer: Given, key: Key) -> list[str]:
+        words = split_words(answer)
+        return [] if is_none(words) else chosen(words, key.coordinates, "coordinate")
+
+    def solution(self, key: Key) -> str:
+        names = key.report.generalized_coordinates
+        return "" if names is None else f"For example: {', '.join(names) or 'none'}."
+
+    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+        del earlier
+        names, report = self._names(answer, key), key.report
+        dof = report.dof
+        shown = ", ".join(names) or "none"
+        if dof is None:
+            return needs_review(shown, "dofkit does not know the degrees of freedom for certain.")
+        independent = determine(key.scene, names, report)
+        if len(names) == dof and independent is None:
+            return needs_review(shown, "whether these coordinates are independent was not decided.")
+        if len(names) > dof or (len(names) == dof and not independent):
+            return wrong(shown, "The constraints tie these coordinates to each other: they are dependent.", "DEPENDENT")
+        if len(names) < dof:
+            return wrong(shown, "These do not fix the configuration: the set is not complete.", "INCOMPLETE")
+        return right(shown)
+
+
+class Redundant(QuestionBase):
+    """Constraints that can all be dropped together without changing anything, as many as possible."""
+
+    ask: Literal["redundant"] = Field(description="constraints that can be dropped together, as many as possible")
+
+    def read(self, answer: Given, key: Key) -> str:
+        return ", ".join(self._names(answer, key)) or "none"
+
+    def _names(self, answer: Given, key: Key) -> list[str]:
+        words = split_words(answer)
+        return [] if is_none(words) else chosen(words, list(key.constraints), "constraint")
+
+    def solution(self, key: Key) -> str:
+        return f"For example: {', '.join(key.report.redundant) or 'none'}."
+
+    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+        del earlier
+        names, report = self._names(answer, key), key.report
+        shown = ", ".join(names) or "none"
+        if report.dof is None or any(e.independent is None for e in report.constraints if e.bilateral):
+            return needs_review(shown, "dofkit does not know for certain what is redundant.")
+        if set(names) == set(report.redundant):
+            return right(shown)
+        if not names:
+            return wrong(shown, "There are constraints that follow from the others.", "REDUNDANT_MISSED")
+        dropped = can_be_dropped(key.scene, names, report)
+        if dropped is None:
+            return needs_review(shown, "whether these can be dropped together was not decided.")
+        if not dropped:
+            return wrong(shown, "Dropping these would let the system move more freely.", "NOT_REDUNDANT")
+        if len(names) < len(report.redundant):
+            return wrong(shown, "These can be dropped, but more can be.", "REDUNDANT_MISSED")
+        return right(shown)

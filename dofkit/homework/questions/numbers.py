@@ -1,0 +1,116 @@
+"""Questions whose answer is a whole number: degrees of freedom, and the number of constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Literal
+
+from pydantic import Field
+
+from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.key import Key
+from dofkit.homework.misconceptions import explain
+from dofkit.homework.questions.base import Earlier, QuestionBase
+from dofkit.homework.words import number
+from dofkit.values import as_written
+
+#: A number that follows from an earlier wrong one; the number of the other convention.
+CARRIED, OTHER_CONVENTION = "CARRIED", "OTHER_CONVENTION"
+_CONVENTIONS = {
+    "configuration": (
+        "This is the number of independent velocities. Here the degrees of freedom are the dimension of the "
+        "configuration space: non-holonomic constraints do not reduce it."
+    ),
+    "velocity": (
+        "This is the dimension of the configuration space. Here the degrees of freedom are the number of "
+        "independent velocities: non-holonomic constraints reduce it too."
+    ),
+}
+
+
+class NumberQuestion(QuestionBase):
+    """A number that the report tells."""
+
+    def truth(self, key: Key) -> int | None:
+        """The right number; None where dofkit does not know it."""
+        raise NotImplementedError
+
+    def other(self, key: Key) -> int | None:
+        """The number under the other convention, where there is one."""
+        del key
+        return None
+
+    def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
+        """Numbers that would be right if what was answered before were."""
+        del key, earlier
+        yield from ()
+
+    def number(self, answer: Given) -> Fraction | None:
+        return number(answer)
+
+    def read(self, answer: Given, key: Key) -> str:
+        del key
+        return as_written(number(answer))
+
+    def solution(self, key: Key) -> str:
+        found = self.truth(key)
+        return "" if found is None else f"The answer is {found}."
+
+    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+        given, truth = number(answer), self.truth(key)
+        shown = as_written(given)
+        if truth is None:
+            return needs_review(shown, "dofkit does not know this number for certain.")
+        if given == truth:
+            return right(shown)
+        codes, told = explain(given, self.kind(), key)
+        if given in set(self.consequences(key, earlier)):
+            why = "It follows from your earlier answer, which is wrong: half of the points."
+            return partly(HALF, shown, why, CARRIED, *codes)
+        if given == self.other(key):
+            return wrong(shown, _CONVENTIONS[key.convention], OTHER_CONVENTION, *codes)
+        return wrong(shown, told, *codes)
+
+
+class Dof(NumberQuestion):
+    """f: the dimension of the configuration space, or of the velocities where the assignment's convention says so."""
+
+    ask: Literal["dof"] = Field(description="the degrees of freedom")
+
+    def truth(self, key: Key) -> int | None:
+        return key.report.velocity_dof if key.convention == "velocity" else key.report.dof
+
+    def other(self, key: Key) -> int | None:
+        return key.report.dof if key.convention == "velocity" else key.report.velocity_dof
+
+    def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
+        if "k" in earlier and key.convention == "configuration":
+            yield len(key.coordinates) - earlier["k"]
+
+
+class VelocityDof(NumberQuestion):
+    """The number of independent velocities."""
+
+    ask: Literal["velocity_dof"] = Field(description="the number of independent velocities")
+
+    def truth(self, key: Key) -> int | None:
+        return key.report.velocity_dof
+
+    def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
+        dof, velocity_dof = key.report.dof, key.report.velocity_dof
+        if "dof" in earlier and key.convention == "configuration" and dof is not None and velocity_dof is not None:
+            yield earlier["dof"] - (dof - velocity_dof)
+
+
+class Count(NumberQuestion):
+    """k: the number of independent finite constraint equations, coordinates less the configuration's dimension."""
+
+    ask: Literal["k"] = Field(description="the number of independent finite constraint equations")
+
+    def truth(self, key: Key) -> int | None:
+        return None if key.report.dof is None else len(key.coordinates) - key.report.dof
+
+    def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
+        if "dof" in earlier and key.convention == "configuration":
+            yield len(key.coordinates) - earlier["dof"]

@@ -1,0 +1,62 @@
+"""Choices of names: do coordinates fix the configuration, and can constraints be dropped together?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dofkit.branches import all_of
+from dofkit.classify import classify
+from dofkit.constraints.equations import Equation
+from dofkit.implication import follows
+from dofkit.lowering import lower
+from dofkit.preparing import prepared
+from dofkit.report import Report
+from dofkit.scene import Scene
+
+
+def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
+    """Does nothing move when these coordinates are held: is what is finite in the scene, with dq = 0 for them, rigid?
+
+    None where that was not decided. Non-holonomic constraints are left out: they do not fix the configuration.
+    """
+    finite = [
+        c for c, e in zip(scene.constraints, report.constraints, strict=True) if e.form in ("finite", "inequality")
+    ]
+    basis = report.integrable_part.basis if report.integrable_part is not None else []
+    if basis is None:
+        return None
+    held = [Equation(type="equation", name=f"held {name}", text=f"d{name} = 0") for name in names]
+    hidden = [Equation(type="equation", name=f"hidden {i}", text=text) for i, text in enumerate(basis)]
+    found = classify(_with(scene, [*finite, *hidden, *held]))
+    return None if found.dof is None else found.dof == 0
+
+
+def can_be_dropped(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
+    """Is the set of motions the same without the constraints of these names?
+
+    They follow from the others, or, at a reference configuration, all is finite and as free there without them.
+    """
+    system = lower(scene)
+    reduced, setting = prepared(system)
+    dropped = [r for r in reduced if r.constraint.name in set(names)]
+    kept = [n for r in reduced if r not in dropped for n in r.normals]
+    if any(r.inequalities for r in dropped):
+        return False
+    told = all_of(follows(n, kept, setting) for r in dropped for n in r.normals)
+    if told:
+        return True
+    entries = zip(scene.constraints, report.constraints, strict=True)
+    rest = [c.model_copy(update={"name": e.name}) for c, e in entries if e.name not in names]
+    fewer = classify(_with(scene, rest))
+    freedom = [(r.dof, r.velocity_dof) for r in (report, fewer)]
+    if any(None in pair for pair in freedom):
+        return None
+    if freedom[0] != freedom[1] or fewer.instantaneous_dof != report.instantaneous_dof:
+        return False
+    local = setting.reference is not None and all(e.form == "finite" for e in report.constraints if e.bilateral)
+    return True if local else told
+
+
+def _with(scene: Scene, constraints: Sequence[object]) -> Scene:
+    """The scene with these constraints instead of its own."""
+    return scene.model_copy(update={"constraints": tuple(constraints), "expect": {}, "energies": None})

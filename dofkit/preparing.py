@@ -1,0 +1,25 @@
+"""A system made ready for the engines: every relation as what it says, and what may be assumed of its symbols."""
+
+from __future__ import annotations
+
+from dofkit import expr as ex
+from dofkit.answers import Setting
+from dofkit.solving import Reduced, reduce_all
+from dofkit.system import System
+
+
+def prepared(system: System) -> tuple[list[Reduced], Setting]:
+    """Each relation as what it says, and what may be assumed of the symbols."""
+    positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
+    positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
+    reduced = reduce_all(system, positive)
+    setting = Setting(
+        positive,
+        tuple(ex.parameter(p) for p in system.generic),
+        system.pose,
+        system.reference,
+        system.coordinates,
+        system.tolerance,
+        system.size,
+    )
+    return reduced, setting
