@@ -118,11 +118,11 @@ def chosen(words: Iterable[Word], known: Sequence[str], what: str) -> list[str]:
     Raises TextError for a word that is none, with its column and the nearest name.
     """
     lower: dict[str, str | None] = {}
-    for name in known:
-        lower[name.lower()] = None if name.lower() in lower else name
+    for one in known:
+        lower[one.lower()] = None if one.lower() in lower else one
     found: dict[str, None] = {}
     for word in words:
-        name: str | None = word.text if word.text in known else lower.get(word.text.lower())
+        name = word.text if word.text in known else lower.get(word.text.lower())
         if name is None:
             near = nearest(word.text, known)
             hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(known[:12])}"
