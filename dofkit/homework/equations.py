@@ -14,7 +14,7 @@ from dofkit.scene import Scene
 from dofkit.text import Comparison, Names, UnknownNameError, parse_relations, to_text
 
 #: Names that an answer may bring with it as constants of integration.
-_CONSTANT = re.compile(r"[^\W\d_](?:_?\w{1,5})?|const|constant", re.UNICODE)
+_CONSTANT = re.compile(r"(?!d\b)[^\W\d_](?:_?\w{1,5})?|const|constant", re.UNICODE)
 MAX_CONSTANTS = 4
 #: Equations in one answer.
 MAX_EQUATIONS = 40

@@ -7,11 +7,13 @@ from collections.abc import Sequence
 from dofkit.branches import all_of
 from dofkit.classify import classify
 from dofkit.constraints.equations import Equation
+from dofkit.homework.equations import beside, read_equations
 from dofkit.implication import follows
 from dofkit.lowering import lower
 from dofkit.preparing import prepared
 from dofkit.report import Report
 from dofkit.scene import Scene
+from dofkit.survey import survey
 
 
 def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
@@ -26,15 +28,17 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
     if basis is None:
         return None
     held = [Equation(type="equation", name=f"held {name}", text=f"d{name} = 0") for name in names]
-    hidden = [Equation(type="equation", name=f"hidden {i}", text=text) for i, text in enumerate(basis)]
-    found = classify(_with(scene, [*finite, *hidden, *held]))
+    whole = _with(scene, [*finite, *held])
+    if basis:
+        whole = beside(whole, read_equations(basis, survey(scene).world.names, constants=True))
+    found = classify(whole)
     return None if found.dof is None else found.dof == 0
 
 
 def can_be_dropped(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
     """Is the set of motions the same without the constraints of these names?
 
-    They follow from the others, or, at a reference configuration, all is finite and as free there without them.
+    They follow from the others, or, near a drawn or generic pose, all is finite and as free there without them.
     """
     system = lower(scene)
     reduced, setting = prepared(system)
@@ -53,7 +57,7 @@ def can_be_dropped(scene: Scene, names: Sequence[str], report: Report) -> bool |
         return None
     if freedom[0] != freedom[1] or fewer.instantaneous_dof != report.instantaneous_dof:
         return False
-    local = setting.reference is not None and all(e.form == "finite" for e in report.constraints if e.bilateral)
+    local = bool(setting.pose or setting.generic) and all(e.form == "finite" for e in report.constraints if e.bilateral)
     return True if local else told
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from dofkit.errors import TextError
-from dofkit.text import Names, parse_relations
+from dofkit.text import Names, parse_relations, spelled
 from dofkit.values import as_written, exact, nearest
 
 #: No answer is read beyond this.
@@ -113,19 +113,23 @@ def is_none(words: Sequence[Word]) -> bool:
 
 
 def chosen(words: Iterable[Word], known: Sequence[str], what: str) -> list[str]:
-    """The known names that the words are, each once; letters' case matters only where it tells names apart.
+    """The known names that the words are, each once; Greek letters and their spelled names are the same.
+
+    Letters' case matters only where it tells names apart.
 
     Raises TextError for a word that is none, with its column and the nearest name.
     """
+    exact_names = {spelled(one): one for one in known}
     lower: dict[str, str | None] = {}
-    for one in known:
-        lower[one.lower()] = None if one.lower() in lower else one
+    for one, name in exact_names.items():
+        lower[one.lower()] = None if one.lower() in lower else name
     found: dict[str, None] = {}
     for word in words:
-        name = word.text if word.text in known else lower.get(word.text.lower())
-        if name is None:
+        text = spelled(word.text)
+        meant = exact_names.get(text, lower.get(text.lower()))
+        if meant is None:
             near = nearest(word.text, known)
             hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(known[:12])}"
             raise TextError(f"there is no {what} '{word.text[:40]}'", word.column, hint)
-        found[name] = None
+        found[meant] = None
     return list(found)
