@@ -1,0 +1,44 @@
+"""What a format is: a function of the results, as they come, that writes them to a path or a stream."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+from dofkit.errors import DofkitError
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.result import Result
+
+#: Where results go: the path that ``--out`` names, or a stream such as standard output.
+Target = Path | TextIO
+
+
+class FormatError(DofkitError):
+    """Results that cannot be written in a format, such as two students where it holds one."""
+
+
+@dataclass(frozen=True)
+class Format:
+    """``write(results, prepared, target)`` writes results, which come one by one in the order of the submissions.
+
+    ``write`` keeps no more than one result in memory where the format allows it, and raises FormatError for what the
+    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do.
+    """
+
+    name: str
+    write: Callable[[Iterator[Result], Prepared, Target], None]
+    needs_path: bool = False
+
+
+@contextmanager
+def opened(target: Target) -> Iterator[TextIO]:
+    """A text stream to write to: a new UTF-8 file, its folder made, or the stream that was given."""
+    if not isinstance(target, Path):
+        yield target
+        return
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with target.open("w", encoding="utf-8", newline="") as stream:
+        yield stream
