@@ -63,9 +63,21 @@ def compare(scene: Scene, asked: Sequence[str], constants: frozenset[str] = froz
 
     ``constants``: parameters that the answer brought with it, as constants of integration.
     """
+    return _comparison(scene, asked, constants).result()
+
+
+def is_integral(scene: Scene, asked: str) -> bool | None:
+    """Is the constraint called `ANSWER` a finite relation to which the one called ``asked`` integrates?
+
+    Are the differential of the answer and the form the same in the presence of the others? None where it is undecided.
+    """
+    return _comparison(scene, (asked,), frozenset()).integrates()
+
+
+def _comparison(scene: Scene, asked: Sequence[str], constants: frozenset[str]) -> Comparison:
     system = lower(scene)
     reduced, setting = prepared(system)
-    return Comparison(system, tuple(reduced), setting, tuple(asked), constants).result()
+    return Comparison(system, tuple(reduced), setting, tuple(asked), constants)
 
 
 @dataclass(frozen=True)
@@ -170,15 +182,20 @@ class Comparison:
 
     def _integrated(self) -> Sameness | None:
         """Is the answer a finite relation whose differential is the form that was asked for?"""
-        finite = _finite(self._answer)
         forms = [p for n in self._all_wanted for p in n.pieces]
-        if not finite or len(finite) != len(self._answer) or not all(isinstance(p, Pfaffian) for p in forms):
+        if not all(isinstance(p, Pfaffian) for p in forms) or not self.integrates():
             return None
-        rates = [_differential(g) for g in finite]
-        if self._follow(rates, self._all_wanted) is not True or self._follow(self._all_wanted, rates) is not True:
-            return None
-        own = [{s for s in g.symbols if s.args[1] in self.constants} for g in finite]
+        own = [{s for s in g.symbols if s.args[1] in self.constants} for g in _finite(self._answer)]
         return Sameness.INTEGRATED if all(own) else Sameness.WITHOUT_CONSTANT
+
+    def integrates(self) -> bool | None:
+        """Is the answer finite, and its differential what was asked for? None where that was not decided."""
+        finite = _finite(self._answer)
+        if not finite or len(finite) != len(self._answer):
+            return False
+        rates = [_differential(g) for g in finite]
+        told = self._follow(rates, self._all_wanted)
+        return self._follow(self._all_wanted, rates) if told else told
 
     # regularity
 

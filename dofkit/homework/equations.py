@@ -23,11 +23,15 @@ _SEPARATED = re.compile(r"[;\n]")
 
 @dataclass(frozen=True)
 class Read:
-    """An answer as it was understood: its ``texts``, one a relation, and the ``constants`` that it brought with it."""
+    """An answer as it was understood: its ``texts``, one a relation, and the ``constants`` that it brought with it.
+
+    ``shown``: in the grammar of scenes; ``moving``: does it hold velocities or differentials?
+    """
 
     texts: tuple[str, ...]
     constants: frozenset[str]
     shown: str
+    moving: bool
 
 
 def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -> Read:
@@ -43,7 +47,9 @@ def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -
     own: dict[str, None] = {}
     found = [(text, _read(text, before, names, own, constants)) for before, text in texts if text.strip()]
     shown = "; ".join(as_text(c) for _, relations in found for c in relations)
-    return Read(tuple(text for text, _ in found), frozenset(own), shown)
+    symbols = {s for _, relations in found for c in relations for side in (c.left, c.right) for s in side.symbols}
+    moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in symbols)
+    return Read(tuple(text for text, _ in found), frozenset(own), shown, moving)
 
 
 def _parts(text: str) -> Iterator[tuple[int, str]]:

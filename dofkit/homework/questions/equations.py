@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeVar
 
 from pydantic import BeforeValidator, Field
 
 from dofkit.errors import Fault, SceneError, TextError
-from dofkit.homework.comparison import Compared, Sameness, compare
+from dofkit.homework.comparison import Sameness, compare, is_integral
 from dofkit.homework.equations import Read, beside, read_equations
 from dofkit.homework.judgement import HALF, NOTHING, Given, Judgement, needs_review, partly, right, wrong
 from dofkit.homework.key import Key
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.words import is_none, one_text, split_words
+from dofkit.scene import Scene
 from dofkit.values import Listed, suggestion
 
 _FEEDBACK = {
@@ -32,6 +33,7 @@ _FEEDBACK = {
 #: What an answer that is not quite the constraint is worth.
 _HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATED, Sameness.WITHOUT_CONSTANT})
 _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
+Found = TypeVar("Found")
 
 
 def _names(value: object) -> object:
@@ -62,7 +64,7 @@ class EquationQuestion(QuestionBase):
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         read = self._read(answer, key)
-        found = _compared(key, read, self.constraint)
+        found = _beside(key, read, lambda scene: compare(scene, self.constraint, read.constants))
         if found.sameness is Sameness.UNDECIDED:
             return needs_review(read.shown, "whether it is the same constraint was not decided in the time there is.")
         told, code = _FEEDBACK[found.sameness], found.sameness.value
@@ -114,12 +116,12 @@ class IntegralQuestion(QuestionBase):
         read = self._read(answer, key)
         if entry.holonomic is False:
             return wrong(read.shown, "The constraint does not integrate to a finite relation.", "NOT_INTEGRABLE")
-        found = _compared(key, read, (self.constraint,)).sameness
-        if found in (Sameness.INTEGRATED, Sameness.WITHOUT_CONSTANT):
-            return right(read.shown)
-        if found is Sameness.UNDECIDED:
+        found = _beside(key, read, lambda scene: is_integral(scene, self.constraint))
+        if found is None:
             return needs_review(read.shown, "whether it is an integral was not decided in the time there is.")
-        if found in (Sameness.SAME, Sameness.DIFFERENTIATED, Sameness.IRREGULAR):
+        if found:
+            return right(read.shown)
+        if read.moving:
             told = "This still holds velocities: the finite relation that it integrates to is asked for."
             return wrong(read.shown, told, "NOT_INTEGRATED")
         return wrong(read.shown, "Its differential is not the constraint.", "WRONG_INTEGRAL")
@@ -140,10 +142,10 @@ def _none(answer: Given) -> bool:
     return is_none(split_words(answer)) if isinstance(answer, str) else False
 
 
-def _compared(key: Key, read: Read, asked: tuple[str, ...]) -> Compared:
-    """Raises TextError where the scene cannot hold the answer."""
+def _beside(key: Key, read: Read, question: Callable[[Scene], Found]) -> Found:
+    """What is found of the scene with the answer. Raises TextError where the scene cannot hold it."""
     try:
-        return compare(beside(key.scene, read), asked, read.constants)
+        return question(beside(key.scene, read))
     except SceneError as error:
         fault = error.faults[0]
         raise TextError(fault.message, fault.column or 1, fault.hint) from None
