@@ -94,7 +94,7 @@ class SceneFile:
     def _error(self, faults: Iterable[Fault]) -> SceneError:
         taken = {(fault.line, fault.column) for fault in self.document.faults}
         told = []
-        for fault in _without_echoes(faults):
+        for fault in without_echoes(faults):
             found = self._located(fault)
             if fault.line is not None or (found.line, found.column) not in taken:
                 told.append(found)
@@ -107,7 +107,7 @@ class SceneFile:
         key = fault.message.startswith(_UNKNOWN_KEY)
         where = (*fault.where, "type") if fault.message.startswith(_UNKNOWN_TYPE) else fault.where
         line, column = self.document.place(where, key=key, column=fault.column)
-        return replace(_retold(fault), line=line, column=column)
+        return replace(with_hint(fault), line=line, column=column)
 
 
 def find(source: str | os.PathLike[str]) -> Source:
@@ -174,7 +174,7 @@ def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:
         value["name"] = name
     scene, faults = _validated(value, True)
     if scene is None or faults:
-        raise SceneError(_bounded([_retold(fault) for fault in _without_echoes(faults)]), name)
+        raise SceneError(_bounded([with_hint(fault) for fault in without_echoes(faults)]), name)
     return scene
 
 
@@ -290,7 +290,7 @@ _HINTS = (
 )
 
 
-def _without_echoes(faults: Iterable[Fault]) -> list[Fault]:
+def without_echoes(faults: Iterable[Fault]) -> list[Fault]:
     """The faults less those that a misspelt key explains: the key that it should have been is not missing."""
     faults = list(faults)
     meant = {
@@ -306,7 +306,7 @@ def _without_echoes(faults: Iterable[Fault]) -> list[Fault]:
     ]
 
 
-def _retold(fault: Fault) -> Fault:
+def with_hint(fault: Fault) -> Fault:
     """A fault that says which field it is about, and what to do."""
     message, keys = (
         re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message),

@@ -254,7 +254,9 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
         return f"{_NEEDS[kind]} is needed, not {_shown(detail['input'])}", None
     if kind == "literal_error":
         known = re.findall(r"'([^']*)'", str(context["expected"]))
-        return f"{_shown(detail['input'])} is not one of {context['expected']}", suggestion(detail["input"], known, "")
+        return f"{_shown(detail['input'])} is not one of {context['expected']}", suggestion(
+            detail["input"], known, "choices"
+        )
     if kind in ("too_short", "too_long"):
         bound = context.get("min_length", context.get("max_length"))
         word = "at least" if kind == "too_short" else "at most"

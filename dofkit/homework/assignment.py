@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -14,7 +14,7 @@ from dofkit.documents import Document, read_document
 from dofkit.errors import DofkitError, Fault, SceneError
 from dofkit.homework.key import Convention, Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
-from dofkit.reading import find, load
+from dofkit.reading import find, load, with_hint, without_echoes
 from dofkit.scene import Scene
 from dofkit.values import Model, fault_at, fault_error, faults_of, retold, suggestion
 
@@ -42,7 +42,7 @@ def _question(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
         if not isinstance(asked, str) or asked not in KINDS:
             raise fault_at(("ask",), f"'{asked}' cannot be asked", suggestion(asked, list(KINDS), "questions"))
     elif not isinstance(value, QuestionBase):
-        raise fault_error("a question is a mapping with `id` and `ask`")
+        raise fault_error("a question is a mapping with `id` and `ask`", "write {id: f, ask: dof} or the like")
     try:
         return handler(value)
     except ValidationError as error:
@@ -100,6 +100,7 @@ def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Pa
     if document.faults or not isinstance(document.value, dict):
         hint = "begin with 'title:' and 'problems:'"
         faults = document.faults or (Fault("an assignment is a mapping of keys to values", hint=hint),)
+        faults = tuple(replace(f, hint=hint) if "file is empty" in f.message else f for f in faults)
         raise AssignmentError(faults, shown)
     return _prepared(document.value, Path(shown).parent, document)
 
@@ -115,7 +116,7 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
     try:
         assignment = Assignment.model_validate(value)
     except ValidationError as error:
-        raise _error(faults_of(error), document) from None
+        raise _error(_without_shortness(without_echoes(faults_of(error))), document) from None
     faults: list[Fault] = list(_repeats(assignment))
     keys: dict[str, Key] = {}
     for i, problem in enumerate(assignment.problems):
@@ -129,6 +130,12 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
     if faults:
         raise _error(tuple(faults), document)
     return Prepared(assignment, keys)
+
+
+def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
+    """The faults less that a list is too short where its entries are at fault."""
+    inside = {fault.where[:n] for fault in faults for n in range(len(fault.where))}
+    return tuple(f for f in faults if not (f.where in inside and f.message.startswith("at least")))
 
 
 def _scene(problem: Problem, base: Path) -> Scene:
@@ -172,6 +179,7 @@ def _repeats(assignment: Assignment) -> Iterator[Fault]:
 
 
 def _error(faults: tuple[Fault, ...], document: Document | None) -> AssignmentError:
+    faults = tuple(fault if fault.hint else with_hint(fault) for fault in faults)
     if document is None:
         return AssignmentError(faults)
     placed = []
