@@ -40,7 +40,7 @@ BAD: list[tuple[str, list[str]]] = [
         [
             "6:40 the scene has no constraint 'c2'",
             "7:40 'c1' is not differential",
-            "8:9 the question 'i' is given twice",
+            "8:10 the question 'i' is given twice",
         ],
     ),
     (
