@@ -39,7 +39,7 @@ def rows() -> Iterator[Any]:
 @pytest.mark.parametrize(("name", "place", "answer", "status", "score", "codes"), list(rows()))
 def test_answer(name: str, place: str, answer: Any, status: str, score: float, codes: list[str]) -> None:
     problem, question = place.split(".")
-    result = grader(name).grade(of_value({"student": "s", "answers": {problem: {question: answer}}}, "s", ""))
+    result = grader(name).grade(of_value({"student": "s", "answers": {problem: {question: answer}}}, "s"))
     (item,) = [i for i in result.items if (i.problem, i.question) == (problem, question)]
     assert (item.status, item.score) == (status, score), item.feedback
     assert item.codes[: len(codes)] == codes

@@ -1,4 +1,4 @@
-"""Submissions: what students hand in, as mappings, JSON, YAML, CSV, JSON lines or a folder of files.
+"""Submissions: what students hand in, as mappings or as JSON or YAML texts.
 
 Nothing here raises for what a student wrote: what cannot be read is a submission that carries its error.
 """
@@ -6,72 +6,201 @@ Nothing here raises for what a student wrote: what cannot be read is a submissio
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from fractions import Fraction
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
-from dofkit.documents import read_document
+from dofkit.documents import Document, read_document
+from dofkit.errors import Fault
 from dofkit.homework.judgement import Given
+
+#: A longer text of submissions is refused.
+MOST_BYTES = 8_000_000
+#: Faults that an error tells.
+MOST_FAULTS = 5
+_SHAPE = "write 'student: NAME' and 'answers: {PROBLEM: {QUESTION: answer}}'"
+_STUDENT = re.compile(
+    r"""(?:^|[{,\s])["']?student["']?\s*:\s*(?:"([^"\n]{1,200})|'([^'\n]{1,200})|([^\s,}'"][^,}\n#]{0,199}))"""
+)
+_SCALAR = re.compile(r"[^,\]}\n\r]*")
+_SURROGATES = re.compile("[\ud800-\udfff]")
+
+
+@dataclass(frozen=True)
+class Place:
+    """A file, and the line in it where something stands, from 1; 0 for all of it."""
+
+    file: str = ""
+    line: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.file}, line {self.line}" if self.line else self.file
+
+    def told(self, fault: Fault) -> str:
+        """A fault within what stands here, with its line in the file."""
+        line = (fault.line or 1) + max(self.line, 1) - 1
+        where = f", line {line}" if self.line or fault.line else ""
+        column = f", column {fault.column}" if fault.column else ""
+        hint = f" ({fault.hint})" if fault.hint else ""
+        place = f"{self.file}{where}{column}".removeprefix(", ")
+        return f"{place}: {fault.message}{hint}" if place else f"{fault.message}{hint}"
 
 
 @dataclass(frozen=True)
 class Submission:
-    """``answers``: by problem, then by question. ``error``: why it could not be read; ``place``: where it stands."""
+    """``answers``: by problem, then by question. ``error``: why it could not be read, with its place."""
 
     student: str
     answers: Mapping[str, Mapping[str, Given]] = field(default_factory=dict)
     error: str | None = None
-    place: str = ""
+    place: Place = Place()
+
+
+_NOWHERE = Place()
 
 
 def read_submission(source: str | os.PathLike[str] | Mapping[str, Any]) -> Submission:
     """The one submission of a JSON or YAML file, or of a mapping ``{student, answers}``."""
     if isinstance(source, Mapping):
-        return of_value(source, "", "")
-    path = Path(source)
+        return of_value(source, "")
+    shown = clean(os.fspath(source))
+    name, place = Path(shown).stem, Place(shown)
     try:
-        data = path.read_bytes()
+        with open(source, "rb") as file:
+            data = file.read(MOST_BYTES + 1)
     except (OSError, ValueError) as error:
-        return Submission(path.stem, error=f"{path.name} cannot be read: {error}", place=str(path))
-    return of_text(data, path.stem, str(path))
+        return refused(name, place, f"it cannot be read: {reason(error)}")
+    found = of_text(data, name, place)
+    return found[0] if len(found) == 1 else refused(name, place, f"it holds {len(found)} submissions, not one")
 
 
-def of_text(data: bytes | str, name: str, place: str) -> Submission:
-    """The submission of a JSON or YAML text; ``name`` is the student's where it gives none."""
+def of_text(data: bytes | str, name: str, place: Place) -> list[Submission]:
+    """The submissions of a JSON or YAML text: one, or a list of them; ``name`` is the student's where it gives none."""
+    if len(data) > MOST_BYTES:
+        return [refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")]
     document = read_document(data, name)
-    if document.faults:
-        return Submission(name, error="; ".join(map(str, document.faults[:5])), place=place)
-    return of_value(document.value, name, place)
+    value, faults = _mended(document)
+    if faults:
+        found = _STUDENT.search(document.text[:100_000])
+        student = clean(next(g for g in found.groups() if g is not None).strip()) if found else name
+        told = "; ".join(place.told(_ours(fault)) for fault in faults[:MOST_FAULTS])
+        return [Submission(student, error=told, place=place)]
+    if not isinstance(value, list):
+        return [of_value(value, name, place, document)]
+    if not value:
+        return [refused(name, place, "there is no submission in it", _SHAPE)]
+    return [of_value(one, name, Place(place.file, document.place((i,))[0]), document, i) for i, one in enumerate(value)]
 
 
-def of_value(value: object, name: str, place: str) -> Submission:
-    """The submission of a mapping."""
+def of_value(
+    value: object, name: str, place: Place = _NOWHERE, document: Document | None = None, *path: str | int
+) -> Submission:
+    """The submission of a mapping; ``path``: where in the document it stands."""
     if not isinstance(value, Mapping):
-        return Submission(name, error="a submission is a mapping with 'student' and 'answers'", place=place)
-    student = value.get("student")
-    student = name if student is None else str(student)
-    answers = value.get("answers")
+        return refused(name, place, "a submission is a mapping with 'student' and 'answers'", _SHAPE)
+
+    def bad(message: str, *where: str | int, key: bool = False) -> Submission:
+        fault = Fault(message)
+        if document is not None:
+            line, column = document.place((*path, *where), key=key)
+            fault = Fault(message, line=line - (place.line - 1 if path else 0), column=column)
+        return Submission(student, error=place.told(fault), place=place)
+
+    student = _student(value.get("student"), name, document, path)
+    if not student or isinstance(value.get("student"), (Mapping, list, tuple, bool)):
+        student = name
+        return bad("'student' is a name or a number", "student")
+    for key in value:
+        if key not in ("student", "answers"):
+            return bad(f"unknown key '{clean(str(key))[:60]}': there are 'student' and 'answers'", key, key=True)
+    answers = {} if "answers" in value and value["answers"] is None else value.get("answers")
     if not isinstance(answers, Mapping):
-        return Submission(student, error="'answers' is a mapping of problems to answers", place=place)
-    unknown = [k for k in value if k not in ("student", "answers")]
-    if unknown:
-        return Submission(student, error=f"unknown key '{unknown[0]}': there are 'student' and 'answers'", place=place)
+        return bad("'answers' is a mapping of problems to mappings of questions to answers", "answers")
     found: dict[str, dict[str, Given]] = {}
     for problem, given in answers.items():
-        if given is None:
-            continue
-        if not isinstance(given, Mapping):
-            why = f"the answers to problem '{problem}' are a mapping of questions to answers"
-            return Submission(student, error=why, place=place)
-        found[str(problem)] = {str(q): a for q, a in given.items() if a is not None}
+        if isinstance(given, Mapping):
+            found[clean(str(problem))] = {clean(str(q)): _given(a) for q, a in given.items() if a is not None}
+        elif given is not None:
+            shown = clean(str(problem))[:60]
+            return bad(f"the answers to problem '{shown}' are a mapping of questions to answers", "answers", problem)
     return Submission(student, found, place=place)
 
 
-def as_given(text: str) -> Given:
-    """A cell of a table as an answer."""
-    return text
+def refused(name: str, place: Place, message: str, hint: str | None = None) -> Submission:
+    """A submission that could not be read."""
+    return Submission(name, error=place.told(Fault(message, hint=hint)), place=place)
 
 
-Number = int | float | Fraction
+def reason(error: OSError | ValueError) -> str:
+    """Why a file cannot be read."""
+    said = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return said[:1].lower() + said[1:]
+
+
+def clean(text: str) -> str:
+    """A text that can be written as UTF-8: halves of surrogate pairs become U+FFFD."""
+    return text if text.isascii() else _SURROGATES.sub("\ufffd", text)
+
+
+def _given(answer: Any) -> Given:
+    """An answer as plain texts and exact numbers."""
+    if isinstance(answer, str):
+        return clean(answer)
+    if isinstance(answer, bool | float | Fraction):
+        return answer
+    if isinstance(answer, Integral):
+        return int(answer)
+    if isinstance(answer, Decimal):
+        return Fraction(answer) if answer.is_finite() else str(answer)
+    if isinstance(answer, Sequence):
+        return tuple(_given(part) for part in answer)
+    return () if isinstance(answer, Mapping) else clean(str(answer))
+
+
+def _student(value: object, name: str, document: Document | None, path: tuple[str | int, ...]) -> str:
+    """The student's name or number; of a number every digit as written, those of 007 too."""
+    if value is None:
+        return name
+    if isinstance(value, str) or document is None:
+        return clean(str(value)).strip()
+    return _source(document, (*path, "student")) or str(value)
+
+
+def _source(document: Document, path: tuple[str | int, ...]) -> str:
+    """An unquoted scalar as it stands in the text."""
+    start, _ = document.places.get(path, (len(document.text), -1))
+    found = _SCALAR.match(document.text, start)
+    return found[0].partition(" #")[0].strip() if found else ""
+
+
+def _mended(document: Document) -> tuple[Any, tuple[Fault, ...]]:
+    """The value, with numbers beyond all bounds as the texts that they are where they stand for answers."""
+    if not document.faults or not isinstance(document.value, Mapping):
+        return document.value, document.faults
+    value, left = document.value, list(document.faults)
+    for problem, question in list(_asked(value.get("answers"))):
+        path = ("answers", problem, question)
+        if path not in document.places:
+            continue
+        at = document.place(path)
+        mine = [fault for fault in left if (fault.line, fault.column) == at]
+        if mine and isinstance(value["answers"][problem][question], int):
+            value["answers"][problem][question] = _source(document, path)
+            left = [fault for fault in left if fault not in mine]
+    return value, tuple(left)
+
+
+def _asked(answers: object) -> Iterator[tuple[str, str]]:
+    for problem, given in answers.items() if isinstance(answers, Mapping) else ():
+        yield from ((problem, question) for question in given if isinstance(given, Mapping))
+
+
+def _ours(fault: Fault) -> Fault:
+    """A fault of a document, its hint meant for submissions."""
+    scenes = fault.hint is not None and ("scene" in fault.hint or "coordinates:" in fault.hint)
+    return replace(fault, hint=_SHAPE) if scenes else fault
