@@ -152,6 +152,8 @@ def _prepared(system: System) -> tuple[list[Reduced], Setting]:
         system.coordinates,
         system.tolerance,
         system.size,
+        dimension=system.dimension,
+        distances={} if system.tolerance else system.distances,
     )
     return reduced, setting
 

@@ -29,6 +29,9 @@ def conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outco
     plain = replace(setting, grows=False, flag=False)
     guilty = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
     kept = sorted({row.constraint for row in guilty.rows})
+    shown = next(a.conflict for a in outcome.answers if a.consistent is False)
+    if shown and set(shown) <= set(kept):
+        return list(shown)
     if not _inconsistent(system, reduced, plain, kept):
         kept = [i for i, r in enumerate(reduced) if r.normals]
     return _filtered(system, reduced, plain, kept)

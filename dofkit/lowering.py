@@ -44,6 +44,7 @@ def _system(scene: Scene, found: Survey) -> System:
         bodies=tuple(world.table.bodies),
         forces=tuple(Force(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
         links=tuple(world.links),
+        distances=world.distances if reference is None else {},
         tolerance=scene.tolerance or None,
         size=found.size,
         warnings=tuple(world.warnings),

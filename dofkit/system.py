@@ -5,10 +5,10 @@ Everything after this module works on `System` and never reads the scene again.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from dofkit.expr import Expr
 
@@ -71,6 +71,23 @@ class Constraint:
     notes: tuple[str, ...] = ()
 
 
+class Place(NamedTuple):
+    """A point: of the body ``frame`` (``ground`` too), standing at ``reference``; or a particle, where that is None."""
+
+    frame: str | None
+    label: str
+    reference: tuple[Expr, ...] | None = None
+
+
+class Distance(NamedTuple):
+    """|A - B|^2 = ``squared``, which holds neither coordinates nor time; ``at_most``: <= (the ends of a string)."""
+
+    first: Place
+    second: Place
+    squared: Expr
+    at_most: bool = False
+
+
 @dataclass(frozen=True)
 class Force:
     """An entry of ``forces``: it never constrains, and ``reason`` says why."""
@@ -91,7 +108,8 @@ class System:
     None where the scene gives none. ``pose``: values for some coordinate symbols at which the
     joints close by construction, generic parameters included; equal to ``reference`` where that is given.
     ``particles`` and ``bodies`` list names; ``links`` the rigid links between particles as
-    (constraint index, particle, particle). ``size``: the largest distance between given points.
+    (constraint index, particle, particle), ``distances`` those between points of any kind that constraints
+    hold, by constraint index. ``size``: the largest distance between given points.
     """
 
     name: str
@@ -108,6 +126,7 @@ class System:
     bodies: tuple[str, ...] = ()
     forces: tuple[Force, ...] = ()
     links: tuple[tuple[int, str, str], ...] = ()
+    distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
     tolerance: Fraction | None = None
     size: float = 1.0
     warnings: tuple[str, ...] = ()

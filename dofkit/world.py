@@ -17,6 +17,7 @@ from dofkit.expr import ONE, TIME, ZERO, Expr, coordinate, parameter, substitute
 from dofkit.geometry import Chart, Frame, Placed, Vec, across
 from dofkit.naming import Declared, coordinate_table, declared_names, read_parameters
 from dofkit.parts import GROUND, BodyPoint, Particle, show_point
+from dofkit.system import Distance, Place
 from dofkit.texts import Texts
 from dofkit.values import Vector
 
@@ -32,7 +33,7 @@ class World(Texts):
     """A scene's names resolved.
 
     Collects, besides faults and warnings: ``generic`` parameters, the given ``points``, the bodies
-    that are ``drawn``, ``welds`` and ``links``, and checks to make ``later``, once the size of the
+    that are ``drawn``, ``welds``, ``links`` and ``distances``, and checks to make ``later``, once the size of the
     drawing is known. ``special`` tells that symbolic lengths meet a drawing with numbers.
     """
 
@@ -45,6 +46,7 @@ class World(Texts):
         self.drawn: set[str] = set()
         self.welds: list[tuple[str, str]] = []
         self.links: list[tuple[int, str, str]] = []
+        self.distances: dict[int, list[Distance]] = {}
         self.later: list[tuple[tuple[str | int, ...], Callable[[float], None]]] = []
         self.special = False
         self.table = coordinate_table(scene)
@@ -185,6 +187,13 @@ class World(Texts):
             self.drawn.add(frame.name)
             return frame.point(at, show_point(point))
         return self.ground.point(self.place(point, *where), show_point(point))
+
+    def apart(self, first: Placed, second: Placed, squared: Expr, at_most: bool = False) -> None:
+        """Two points keep a squared distance, or at most that; nothing is kept of one that moves or is generic."""
+        if any(s.args[0] != "parameter" or s.args[1].startswith("_") for s in squared.symbols):
+            return
+        a, b = (Place(p.frame, p.label, p.reference if p.frame else None) for p in (first, second))
+        self.distances.setdefault(int(self.here[-1]), []).append(Distance(a, b, squared, at_most))
 
     # the drawing
 

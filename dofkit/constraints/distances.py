@@ -76,6 +76,7 @@ def distance(world: World, first: Placed, second: Placed, given: Expr | None) ->
             world.warnings.append(f"the points {first.label} and {second.label} of a link are drawn at one place")
     else:
         squared = world.fresh("L")
+    world.apart(first, second, squared)
     if drawn is not None and first.frame is not None and first.frame == second.frame:
         return difference(drawn, squared)
     arm, under = between(first, second)
@@ -167,6 +168,9 @@ class String(ConstraintBase):
                 _check_string(world, given, total)
         else:
             given = world.fresh("L") if total is None else total
+        for first, second in combinations(points, 2):
+            if first.label != second.label:
+                world.apart(first, second, power(given, TWO), at_most=True)
         yield Relation(difference(add(*parts), given))
 
     def texts(self) -> Iterator[str]:

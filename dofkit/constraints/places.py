@@ -73,6 +73,7 @@ class Coincident(ConstraintBase):
             world.fault(f"{told} cannot be joined to itself", "between", 1, hint=hint)
             return
         meet(world, first, second, "between")
+        world.apart(first, second, ZERO)
         yield from labelled(between(first, second)[0])
 
     @property
