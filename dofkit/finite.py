@@ -85,7 +85,8 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
     n = chart.coordinates
     timed = len(chart.columns) > n
-    if timed and found.confined and not _fix_time_elsewhere(chart):
+    isolated = found.rank == len(chart.columns)
+    if timed and found.confined and not isolated and not _fix_time_elsewhere(chart):
         result.consistent, result.dof, result.velocity_dof, result.verdict = None, None, None, "undecided"
         result.reasons.append(INSTANT)
     elif found.confined:

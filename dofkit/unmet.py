@@ -147,7 +147,7 @@ class _Web:
     def simplex(self, dimension: int) -> Unmet | None:
         """Points all of whose distances are known, and that cannot lie in so many dimensions; the fewest first."""
         known = {pair for pair, side in self.exact.items() if not side.squared.symbols}
-        web = nx.Graph(sorted(sorted(pair, key=repr) for pair in known))
+        web = nx.Graph(sorted((sorted(pair, key=repr) for pair in known), key=repr))
         for clique in islice(nx.enumerate_all_cliques(web), MAX_CLIQUES):
             check()
             if len(clique) > dimension + 3:

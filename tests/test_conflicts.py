@@ -223,3 +223,43 @@ def test_a_conflict_is_found_where_the_gram_matrix_shows_one(dimension: int) -> 
 def distance(pair: frozenset[int], squared: Fraction) -> Distance:
     i, j = sorted(pair)
     return Distance(Place(None, str(i)), Place(None, str(j)), num(squared))
+
+
+# Drives that fight each other
+
+
+def four_bar(first: str, last: str) -> dofkit.Report:
+    """A parallelogram, both of whose cranks are driven; on it the two cranks turn alike."""
+    joints: list[dict[str, Any]] = [
+        {"name": "A", "type": "revolute", "between": ["ground", "crank"], "at": [0, 0], "drive": first},
+        {"name": "B", "type": "revolute", "between": ["crank", "rod"], "at": [0, 1]},
+        {"name": "C", "type": "revolute", "between": ["rod", "rocker"], "at": [2, 1]},
+        {"name": "D", "type": "revolute", "between": ["ground", "rocker"], "at": [2, 0], "drive": last},
+    ]
+    scene = {"dimension": 2, "bodies": ["crank", "rod", "rocker"], "constraints": joints}
+    return dofkit.classify(dofkit.load(scene))
+
+
+def test_two_cranks_that_are_driven_apart() -> None:
+    report = four_bar("t", "2 t")
+    assert (report.consistent, report.conflicting) == (False, ["A", "B", "C", "D"])
+    assert four_bar("t", "t").consistent is not False
+
+
+@pytest.mark.parametrize(("first", "second"), [("t", "2 t"), ("t", "t^2 / 2"), ("t + t^3", "-t"), ("0", "t")])
+def test_two_drives_of_one_door(first: str, second: str) -> None:
+    hinges = [
+        {
+            "name": name,
+            "type": "revolute",
+            "between": ["ground", "door"],
+            "at": [0, 0, z],
+            "axis": [0, 0, 1],
+            "drive": w,
+        }
+        for name, w, z in (("low", first, 0), ("high", second, 2))
+    ]
+    report = dofkit.classify(dofkit.load({"bodies": ["door"], "constraints": hinges}))
+    assert (report.consistent, report.conflicting) == (False, ["low", "high"])
+    for hinge in hinges:
+        assert dofkit.classify(dofkit.load({"bodies": ["door"], "constraints": [hinge]})).consistent is True
