@@ -14,7 +14,7 @@ from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.forms import Frame
 from dofkit.manifold import Form, Manifold
-from dofkit.nearby import FAULTS, SURE, Neighbourhood
+from dofkit.nearby import FAULTS, SURE, Neighbourhood, damped, independent
 
 #: Distances at which a branch must be found, attempts, and iterations of each.
 DISTANCES, ATTEMPTS, ITERATIONS = (2.0**-3, 2.0**-7, 2.0**-11), 8, 60
@@ -79,15 +79,8 @@ def _null(forms: np.ndarray, v: np.ndarray) -> np.ndarray | None:
         wrong = slopes @ v
         if float(np.max(np.abs(wrong))) < 1e-13:
             return v
-        v = v + _damped(np.vstack([2 * slopes, v]), np.append(wrong, 0.0))
+        v = v + damped(np.vstack([2 * slopes, v]), np.append(wrong, 0.0))
     return v / np.linalg.norm(v) if float(np.max(np.abs((forms @ v) @ v))) < 1e-10 else None
-
-
-def _damped(j: np.ndarray, f: np.ndarray) -> np.ndarray:
-    """The step -J^T (J J^T + |f| I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
-    left, singular, right = np.linalg.svd(j, full_matrices=False)
-    factors = singular / (singular * singular + float(np.linalg.norm(f)) + 1e-300)
-    return np.asarray(-(right.T @ (factors * (left.T @ f))))
 
 
 def _followed(here: Neighbourhood, direction: np.ndarray) -> int | None:
@@ -114,7 +107,7 @@ def _descend(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
         f, j = here.floats(u, here.ball.nodes)
         if float(np.max(np.abs(f))) < 1e-15:
             return u
-        step = _damped(j, f)
+        step = damped(j, f)
         u = u + step
         if float(np.linalg.norm(step)) < 1e-14:
             return u
@@ -125,7 +118,7 @@ def _dimension_at(here: Neighbourhood, u: np.ndarray) -> int | None:
     """The dimension of the set at a regular point near u; None where the point is not seen to be one."""
     ball = here.ball
     _, j = here.floats(u, ball.nodes)
-    rows, columns = _independent(j, SOME)
+    rows, columns = independent(j, SOME)
     moved = here.newton(here.exactly(u), [ball.nodes[r] for r in rows], columns)
     if moved is None or here.residual(moved, ball.nodes) > SURE:
         return None
@@ -151,16 +144,3 @@ def _stays(here: Neighbourhood, moved: dict[Expr, arb], rows: Sequence[int], col
     rng = np.random.default_rng(11)
     direction: list[Any] = [arb(int(rng.integers(64, 512))) / 256 * ball.scales[c] for c in free]
     return all(s.coefficient(k).contains(0) for s in there.follow(direction, ORDER) for k in range(ORDER))
-
-
-def _independent(j: np.ndarray, least: float) -> tuple[list[int], list[int]]:
-    """As many rows and columns as there are singular values above ``least``, well conditioned (complete pivoting)."""
-    wanted = int(np.sum(np.linalg.svd(j, compute_uv=False) > least))
-    work, rows, columns = j.copy(), [], []
-    for _ in range(wanted):
-        r, c = np.unravel_index(int(np.argmax(np.abs(work))), work.shape)
-        rows.append(int(r))
-        columns.append(int(c))
-        work = work - np.outer(work[:, c], work[r]) / work[r, c]
-        work[r], work[:, c] = 0.0, 0.0
-    return rows, columns

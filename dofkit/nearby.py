@@ -15,7 +15,9 @@ from dofkit.expr import Expr
 from dofkit.manifold import Manifold
 
 #: How far a curve of independent relations is followed, in the columns' scales, at the most and at the least.
-FAR, NEAR, STEPS = 0.25, 2.0**-24, 4
+FAR, NEAR, STEPS = 0.25, 2.0**-24, 6
+#: The least cosine between steps, and what a correction may add to one.
+STRAIGHT = 0.9
 #: What counts as not 0 there, relative to the relation's gradient: in high precision, and for many columns in floats.
 SURE, ROUGH, MANY = 2.0**-150, 1e-8, 60
 #: The step of a difference of gradients, and rounds of Newton's method on the critical set.
@@ -141,7 +143,10 @@ def _fails_at(here: Neighbourhood, u: np.ndarray) -> bool:
     ball = here.ball
     if len(ball.rows) > MANY:
         return bool(np.max(np.abs(here.floats(u, ball.others)[0])) > ROUGH)
-    symbols = here.onto(here.exactly(u))
+    rows, columns = independent(here.floats(u, ball.rows)[1], 0.0) if ball.rows else ([], [])
+    if len(rows) < len(ball.rows):
+        return False
+    symbols = here.newton(here.exactly(u), [ball.rows[r] for r in rows], columns)
     return symbols is not None and here.residual(symbols, ball.others) > SURE
 
 
@@ -210,36 +215,57 @@ def _round(here: Neighbourhood, parts: Split, symbols: dict[Expr, arb]) -> tuple
 
 
 def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> np.ndarray | None:
-    """The point of M whose free columns have moved by ``reach`` in the direction; None where steps are too rough."""
-    ball, dependent = here.ball, here.dependent
-    free = np.zeros(len(here.place))
+    """The point of M at about the distance ``reach`` along a curve; None where steps are too rough to stay on it."""
+    ball = here.ball
+    u, ahead = np.zeros(len(here.place)), np.zeros(len(here.place))
     for value, c in zip(direction, ball.frame.free, strict=True):
         if c in here.number:
-            free[here.number[c]] = value
-    u = np.zeros(len(here.place))
+            ahead[here.number[c]] = value
+    if not ball.rows:
+        return u + reach * ahead
+    _, j = here.floats(u, ball.rows)
+    if here.dependent:
+        ahead[here.dependent] = -np.linalg.solve(j[:, here.dependent], j @ ahead)
     for _ in range(STEPS):
-        _, j = here.floats(u, ball.rows)
-        ahead = free * (reach / STEPS)
-        if dependent:
-            ahead[dependent] = -np.linalg.solve(j[:, dependent], j @ ahead)
-        moved = u + ahead
-        corrected = _back(here, moved)
-        if corrected is None or np.linalg.norm(corrected - moved) > 0.3 * np.linalg.norm(ahead):
+        tangent = ahead - np.linalg.lstsq(j, j @ ahead, rcond=None)[0]
+        tangent = tangent / np.linalg.norm(tangent)
+        if tangent @ ahead < STRAIGHT * np.linalg.norm(ahead):
             return None
-        u = corrected
+        moved = u + (reach / STEPS) * tangent
+        corrected = _back(here, moved)
+        if corrected is None or np.linalg.norm(corrected - moved) > (1 - STRAIGHT) * reach / STEPS:
+            return None
+        u, ahead = corrected, tangent
+        _, j = here.floats(u, ball.rows)
     return u
 
 
 def _back(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
-    """Newton's method for the dependent columns in floating point."""
-    dependent = here.dependent
-    if not dependent:
-        return u
-    u = u.copy()
+    """Newton's method with minimal steps in floating point."""
     for _ in range(8):
         f, j = here.floats(u, here.ball.rows)
-        step = np.linalg.solve(j[:, dependent], f)
-        u[dependent] -= step
+        step = np.linalg.lstsq(j, f, rcond=None)[0]
+        u = u - step
         if float(np.max(np.abs(step))) < 1e-12:
             return u
     return None
+
+
+def damped(j: np.ndarray, f: np.ndarray) -> np.ndarray:
+    """The step -J^T (J J^T + |f| I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
+    left, singular, right = np.linalg.svd(j, full_matrices=False)
+    factors = singular / (singular * singular + float(np.linalg.norm(f)) + 1e-300)
+    return np.asarray(-(right.T @ (factors * (left.T @ f))))
+
+
+def independent(j: np.ndarray, least: float) -> tuple[list[int], list[int]]:
+    """As many rows and columns as there are singular values above ``least``, well conditioned (complete pivoting)."""
+    wanted = int(np.sum(np.linalg.svd(j, compute_uv=False) > least))
+    work, rows, columns = j.copy(), [], []
+    for _ in range(wanted):
+        r, c = np.unravel_index(int(np.argmax(np.abs(work))), work.shape)
+        rows.append(int(r))
+        columns.append(int(c))
+        work = work - np.outer(work[:, c], work[r]) / work[r, c]
+        work[r], work[:, c] = 0.0, 0.0
+    return rows, columns

@@ -94,6 +94,8 @@ def test_dimensions_near_a_point(texts: list[str], at: tuple[int, int, int], dim
         (2, ["x^3 + y^3"], 1),  # a line and a point's worth of complex ones
         (2, ["x^4 - y^4"], 1),
         (2, ["x^2 y"], 1),
+        (1, ["x^20"], 0),
+        (2, ["x^9 + y^9"], 1),
         (3, ["x^2 + y^2 - z^3"], 2),  # a pointed cap
         (3, ["x^2 + y^2 + z^4"], 0),
         (3, ["x^2 + y^2 z"], 2),  # Whitney's umbrella
@@ -124,8 +126,7 @@ def test_dimensions_where_the_lowest_order_decides(n: int, functions: list[str],
         (3, ["x^2 + (y^2 - z^2)^2"]),  # two lines
         (3, ["x^2 + z^4", "y^2 + z^4"]),  # a point
         (2, ["(x - y^2)^2 + y^30"]),  # a point, seen only at a distance
-        (1, ["x^20"]),
-        (2, ["x^9 + y^9"]),
+        (1, ["x^64"]),
     ],
 )
 def test_what_the_lowest_order_does_not_decide_is_left_open(n: int, functions: list[str]) -> None:
