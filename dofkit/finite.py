@@ -83,6 +83,10 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
     else:
         result.method = "balls at the given configuration"
         result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
+    if found.local.confined and found.rank == len(chart.columns):
+        result.consistent, result.dof, result.velocity_dof, result.verdict = False, None, None, "probable"
+        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
+        return result
     if found.local.confined:
         return _confined_answer(chart, setting, result)
     if found.rank < len(found.matrix):
