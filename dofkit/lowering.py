@@ -45,6 +45,8 @@ def _system(scene: Scene, found: Survey) -> System:
         forces=tuple(Force(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
         links=tuple(world.links),
         distances=world.distances if reference is None else {},
+        connections=found.connections,
+        starts={name: frame.start for name, frame in world.frames.items()},
         tolerance=scene.tolerance or None,
         size=found.size,
         warnings=tuple(world.warnings),

@@ -89,6 +89,37 @@ class Distance(NamedTuple):
 
 
 @dataclass(frozen=True)
+class DrawnPoint:
+    """A point that a constraint mentions, where it stands in the drawing (None: in general position).
+
+    ``carrier`` is the body that carries it (``ground`` too) or, with ``particle``, the particle it is.
+    """
+
+    carrier: str
+    at: tuple[Expr, ...] | None
+    particle: bool = False
+
+
+@dataclass(frozen=True)
+class Connection:
+    """What the constraint number ``constraint`` connects, as given by its geometry and not by a text.
+
+    ``members``: bodies (``ground`` too) and particles, in the order mentioned. ``points`` belong to members,
+    ``places`` and ``directions`` to the drawing; what is in general position is None. ``number``: the screw's pitch,
+    or the ratio of gears. ``driven``: one more relation prescribes the motion.
+    """
+
+    constraint: int
+    type: str
+    members: tuple[str, ...]
+    points: tuple[DrawnPoint, ...] = ()
+    places: tuple[tuple[Expr, ...] | None, ...] = ()
+    directions: tuple[tuple[Expr, ...] | None, ...] = ()
+    number: Expr | None = None
+    driven: bool = False
+
+
+@dataclass(frozen=True)
 class Force:
     """An entry of ``forces``: it never constrains, and ``reason`` says why."""
 
@@ -110,6 +141,8 @@ class System:
     ``particles`` and ``bodies`` list names; ``links`` the rigid links between particles as
     (constraint index, particle, particle), ``distances`` those between points of any kind that constraints
     hold, by constraint index. ``size``: the largest distance between given points.
+    (constraint index, particle, particle); ``connections`` what each constraint of given or generic geometry
+    connects, ``starts`` where the bodies' origins stand. ``size``: the largest distance between given points.
     """
 
     name: str
@@ -127,6 +160,8 @@ class System:
     forces: tuple[Force, ...] = ()
     links: tuple[tuple[int, str, str], ...] = ()
     distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
+    connections: tuple[Connection, ...] = ()
+    starts: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     tolerance: Fraction | None = None
     size: float = 1.0
     warnings: tuple[str, ...] = ()

@@ -63,7 +63,7 @@ class Screw(Driven):
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         place, axis = world.place(self.at, "at"), self.directed(world)
-        pitch = world.fixed(self.pitch, "pitch")
+        pitch = world.asked.number = world.fixed(self.pitch, "pitch")
         yield from coaxial(first, second, place, axis)
         moved, under = slide(first, second, place, axis.vector)
         advance = mul(pitch, angle_of(first, second, axis)) / (2 * PI)
