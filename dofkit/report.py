@@ -55,7 +55,8 @@ class ConstraintEntry(Model):
     the others; ``scleronomic``: time does not enter, up to factors that never vanish; ``catastatic``:
     no dt term (None unless ``pfaffian``); ``exact``, ``integrating_factor``, ``integral`` of a
     Pfaffian form; ``circuit``: what a redundant constraint depends on; ``equations`` and how many are
-    ``independent`` of all before. A None label means undecided, and ``reason`` says why.
+    ``independent`` of all before; ``redundant_equations``: the others by name (None where it is not known which).
+    A None label means undecided, and ``reason`` says why.
     """
 
     name: str
@@ -73,6 +74,7 @@ class ConstraintEntry(Model):
     circuit: list[str] | None
     equations: int
     independent: int | None
+    redundant_equations: list[str] | None = None
     verdict: Verdict
     reason: str
 

@@ -49,11 +49,15 @@ class Rotation:
 
 @dataclass(frozen=True)
 class Relation:
-    """One scalar relation ``expr sense 0``; ``part`` names it within its constraint (``point x``)."""
+    """One scalar relation ``expr sense 0``; ``part`` names it within its constraint (``point x``).
+
+    ``vector`` is the place or direction in the drawing that it is about.
+    """
 
     expr: Expr
     sense: Sense = "="
     part: str = ""
+    vector: tuple[Expr, ...] = ()
 
 
 @dataclass(frozen=True)

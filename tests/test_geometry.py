@@ -149,6 +149,60 @@ def test_points_in_one_plane_of_space() -> None:
     assert "lie in one plane" in report.generic.differs
 
 
+# Redundant equations by name: of a dependent set the last written
+
+EQUATIONS = [
+    # The plate turns about y by one chain and about x by the other, so about z by none.
+    ("sarrus-linkage", {"B3": ["no rotation about (0, 0, 1)"]}),
+    # A plane mechanism: that the last hinge stays in the plane and upright follows from the three before.
+    (
+        "four-bar-in-space",
+        {
+            "D": [
+                "no displacement along z of the common point (5, 0, 0)",
+                "no rotation about (1, 0, 0)",
+                "no rotation about (0, 1, 0)",
+            ]
+        },
+    ),
+    # The lower hinge leaves the turn about z; only the upper's distance from that axis is a new condition: none.
+    (
+        "door-two-hinges",
+        {
+            "upper": [
+                *(f"no displacement along {axis} of the common point (0, 0, 2)" for axis in "xyz"),
+                "no rotation about (1, 0, 0)",
+                "no rotation about (0, 1, 0)",
+            ]
+        },
+    ),
+    # With the hinge off the axis by 1/10 along x, the turn about z moves it along y: that equation is needed.
+    (
+        "door-hinges-out-of-line",
+        {
+            "upper": [
+                "no displacement along x of the common point (1/10, 0, 2)",
+                "no displacement along z of the common point (1/10, 0, 2)",
+                "no rotation about (1, 0, 0)",
+                "no rotation about (0, 1, 0)",
+            ]
+        },
+    ),
+    # Six distances of four points in the plane: 2 * 4 - 3 are independent.
+    ("complete-framework-4-points-in-2d", {"rigid": ["the distance C-D"]}),
+]
+
+
+@pytest.mark.parametrize(("name", "expected"), EQUATIONS, ids=[row[0] for row in EQUATIONS])
+def test_redundant_equations_are_named(name: str, expected: dict[str, list[str]]) -> None:
+    entries = told(name).constraints
+    assert {e.name: e.redundant_equations for e in entries if e.redundant_equations} == expected
+    assert all(e.redundant_equations == [] for e in entries if e.name not in expected)
+    for entry in entries:
+        if entry.name in expected and entry.equations > 1:
+            assert expected[entry.name][-1] in entry.reason
+
+
 def test_texts_keep_what_they_say_in_general_position() -> None:
     """A bead on a circle, and a rod from it to a bead on a line: 2 + 2 - 3, anywhere."""
     scene = {

@@ -122,7 +122,7 @@ class Rigid(ConstraintBase):
             placed.append(world.particle(member, "members", i))
         for first, second in combinations(placed, 2):
             world.links.append((int(world.here[-1]), first.label, second.label))
-            yield Relation(distance(world, first, second, None), part=f"{first.label}-{second.label}")
+            yield Relation(distance(world, first, second, None), part=f"length {first.label}-{second.label}")
 
     def notes(self, world: World) -> Iterator[str]:
         n, d = len(self.members), world.dimension

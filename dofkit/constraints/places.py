@@ -55,8 +55,11 @@ class Fixed(ConstraintBase):
 def _hold(frame: Frame) -> Iterator[Relation]:
     """Position at its reference value, and the rotation the identity."""
     yield from labelled(minus(frame.position, frame.start))
+    if frame.chart == "gibbs":
+        yield from labelled(tuple(coordinate(name) for name in frame.angles), "orientation {}")
+        return
     for name, start in zip(frame.angles, frame.initial, strict=True):
-        yield Relation(difference(coordinate(name), ZERO if frame.chart == "gibbs" else start), part=name)
+        yield Relation(difference(coordinate(name), start), part="angle" if frame.chart == "plane" else f"angle {name}")
 
 
 class Coincident(ConstraintBase):
@@ -108,7 +111,7 @@ class Slot(ConstraintBase):
             world.drawn.add(frame.name)
         _check_on_line(world, point, place, axis)
         for across in axis.across:
-            yield Relation(along(frame, point, place, across), part="across")
+            yield Relation(along(frame, point, place, across), part="across", vector=across)
 
     @property
     def shown(self) -> str:

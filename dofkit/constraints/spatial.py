@@ -32,7 +32,7 @@ def coaxial(first: Frame, second: Frame, place: Vec, axis: Direction) -> Iterato
     """The axis stays one line: 2 relations for its direction, 2 for its place."""
     yield from aligned(first, second, axis)
     for across in axis.across:
-        yield Relation(slide(first, second, place, across)[0], part="across")
+        yield Relation(slide(first, second, place, across)[0], part="across", vector=across)
 
 
 class Cylindrical(Driven):
@@ -142,4 +142,4 @@ class Planar(Axial):
             world.place(self.at, "at")
         axis = self.directed(world)
         yield from aligned(first, second, axis)
-        yield Relation(shift(first, second, axis.vector)[0], part="distance")
+        yield Relation(shift(first, second, axis.vector)[0], part="distance", vector=axis.vector)
