@@ -78,7 +78,7 @@ class Framework:
         """The freedom in general position: bars less those that are redundant there."""
         fixed = list(combinations(range(len(self.ground)), 2))
         redundant = dofkit.redundant_links([*fixed, *self.bars], self.dimension)
-        return self.coordinates - len(self.bars) + sum(link in set(redundant) for link in self.bars)
+        return self.coordinates - len(self.bars) + sum(link not in fixed for link in redundant)
 
     def by_rank(self) -> int:
         """Velocities allowed at the positions, exactly."""
