@@ -27,6 +27,8 @@ from dofkit.variety import pose_point
 AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7
 #: The length of secants, and the least of those that count against it: the set is curved, and found to half its digits.
 SECANT, SPREAD, SETTLING = 1e-4, 3e-2, 60
+#: So many steps without half the error are the end: rounding, far from the origin, allows no less.
+STALLED = 8
 #: The same at a singular point, which a descent reaches to half its digits.
 ROUGH = 1e-5
 MAX_COLUMNS = 120
@@ -89,15 +91,19 @@ def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: 
 
 def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int) -> bool:
     """Moves ``symbols`` to the set nearby, by damped steps: where the gradients are dependent others go far away."""
+    errors: list[float] = []
     for _ in range(SETTLING):
         f, j = search.float_system(symbols, seed)
         scale = np.abs(j).max(axis=1, initial=0) + 1e-300
         f, j = f / scale, j / scale[:, None]
-        if float(np.max(np.abs(f))) < 1e-15:
+        errors.append(float(np.max(np.abs(f))))
+        if errors[-1] < 1e-15:
             return True
+        if len(errors) > STALLED and min(errors[-STALLED:]) > min(errors[:-STALLED]) / 2:
+            break
         for u, s in zip(search.unknowns, damped(j, f), strict=True):
             symbols[u] += float(s)
-    return float(np.max(np.abs(f))) < 1e-13
+    return errors[-1] < 1e-13
 
 
 def _start(chart: Chart, setting: Setting) -> dict[Expr, float]:

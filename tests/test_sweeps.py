@@ -49,4 +49,4 @@ def test_the_velocities_by_hand_are_those_of_the_matrix(near: Near) -> None:
 
 def test_there_are_many() -> None:
     assert len(NEAR) + len(JOINTED) >= 17
-    assert sum(1 for sweep in SWEEPS.values() for _ in sweep()) >= 500
+    assert sum(1 for sweep in SWEEPS.values() for _ in sweep()) >= 450
