@@ -78,7 +78,7 @@ def _of_part(
         owners = owners_of(block)
         finite = [isinstance(r.piece, Finite) for r in block.rows]
         matrix = _without_hidden(block, a)
-        if nullity <= 0 and (a.degenerate or a.hidden):
+        if nullity <= 0 and a.hidden and not a.degenerate:
             counted = {o: owners.count(o) for o in owners}
             found.append(Redundancies(counted, [], [], {}, equations=dict.fromkeys(owners, ())))
         elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
@@ -312,6 +312,7 @@ def _by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int) -> 
             if _same_freedom(block, fewer, setting, a):
                 kept.remove(owner)
     redundant = sorted(set(order) - set(kept))
+    nullity = max(nullity, sum(owners_of(block).count(o) for o in redundant))
     members = sorted(order) if redundant else []
     groups = [(nullity, members)] if redundant else []
     independent = {o: 0 if o in redundant else owners_of(block).count(o) for o in order}
