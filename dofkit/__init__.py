@@ -17,7 +17,7 @@ from dofkit.errors import DofkitError, SceneError, TextError
 if TYPE_CHECKING:
     from dofkit.catalog import catalog_names, catalog_text
     from dofkit.classify import classify, derived_flag
-    from dofkit.linkage import redundant_links
+    from dofkit.linkage import Linkage, linkage, redundant_links
     from dofkit.reading import load, loads
     from dofkit.report import Report
     from dofkit.scene import Scene
@@ -26,6 +26,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "DofkitError",
+    "Linkage",
     "Report",
     "Scene",
     "SceneError",
@@ -34,6 +35,7 @@ __all__ = [
     "catalog_text",
     "classify",
     "derived_flag",
+    "linkage",
     "load",
     "loads",
     "redundant_links",
@@ -41,12 +43,14 @@ __all__ = [
 
 #: Where the other names live: what they need is imported when they are first asked for.
 _HOMES = {
+    "Linkage": "dofkit.linkage",
     "Report": "dofkit.report",
     "Scene": "dofkit.scene",
     "catalog_names": "dofkit.catalog",
     "catalog_text": "dofkit.catalog",
     "classify": "dofkit.classify",
     "derived_flag": "dofkit.classify",
+    "linkage": "dofkit.linkage",
     "load": "dofkit.reading",
     "loads": "dofkit.reading",
     "redundant_links": "dofkit.linkage",

@@ -26,6 +26,7 @@ from dofkit.expr import Expr
 from dofkit.finite import finite_answer
 from dofkit.held import held, numeric
 from dofkit.report import weakest
+from dofkit.unmet import lengths_unmet
 from dofkit.variety import Variety, find
 
 #: Rounds of prolongation: each finds one hidden finite relation.
@@ -36,6 +37,10 @@ MAX_HIDDEN_BRANCHES = 6
 
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block; where its functions may be related in unseen ways, balls have the last word."""
+    if setting.distances and setting.engines == BOTH:
+        unmet = lengths_unmet(block, setting)
+        if unmet is not None:
+            return unmet
     alone = replace(setting, engines=BALLS, grows=False, flag=False)
     try:
         found = _answer(block, setting)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -11,7 +11,7 @@ from dofkit.exact.sparse import SparseRow
 from dofkit.exact.trust import Doubt
 from dofkit.expr import Expr
 from dofkit.report import Verdict
-from dofkit.system import Coordinate
+from dofkit.system import Coordinate, Distance
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,8 @@ class Answer:
 
     ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
     redundancy; ``hidden`` the finite relations that the differential ones force; ``doubt``: functions or numbers
-    occur that may be related in a way that GF(p) does not show; ``late``: there was no time for it.
+    occur that may be related in a way that GF(p) does not show; ``late``: there was no time for it;
+    ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one.
     """
 
     consistent: bool | None = True
@@ -54,6 +55,7 @@ class Answer:
     doubt: Doubt | None = None
     method: str = ""
     late: bool = False
+    conflict: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,7 @@ class Setting:
     """What the engines may assume of the symbols, which of them may be asked, and what is asked beyond the labels.
 
     ``grows``: the growth vector; ``flag``: the derived flag.
+    ``distances``: those that constraints hold, by constraint, in a world of ``dimension``.
     """
 
     positive: frozenset[Expr]
@@ -73,3 +76,5 @@ class Setting:
     grows: bool = True
     engines: Engines = BOTH
     flag: bool = False
+    dimension: int = 3
+    distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)

@@ -15,7 +15,7 @@ from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint
 from dofkit.exact.field import FieldPoint
 from dofkit.exact.ranks import ball_part
 from dofkit.forms import Frame, certified_rank, kernel
-from dofkit.motion import Manifold
+from dofkit.manifold import Manifold
 from dofkit.report import weakest
 from dofkit.states import States
 
@@ -144,6 +144,6 @@ def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted
     order = min(missing + 2, MAX_ORDER)
     for _ in range(min(free, missing) + 1):
         direction = [arb(point.rng.randrange(64, 512)) / 256 for _ in range(free)]
-        path = manifold.curve(direction, order)
+        path = manifold.line(direction, order).path
         found += [[s.coefficient(k) for s in path] for k in range(2, order)]
     return found

@@ -18,7 +18,7 @@ class Chart:
 
     ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
     real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute; ``engines`` those
-    that may look at it.
+    that may look at it; ``size`` is the scale of lengths.
     """
 
     ring: Ring
@@ -30,11 +30,23 @@ class Chart:
     roles: tuple[Coordinate, ...] = ()
     relations: tuple[Expr, ...] = ()
     engines: Engines = BOTH
+    size: float = 1.0
 
     @property
     def coordinates(self) -> int:
         """The number of columns that are coordinates."""
         return sum(s.args[0] == "coordinate" for s in self.symbols)
+
+    @property
+    def time(self) -> int | None:
+        """The number of the column that is time."""
+        return self.symbols.index(ex.TIME) if ex.TIME in self.symbols else None
+
+    @property
+    def scales(self) -> list[float]:
+        """The size by which each column is measured: places by the scale of lengths."""
+        places = {c.name for c in self.roles if c.role in ("x", "y", "z")}
+        return [self.size if s.args[-1] in places else 1.0 for s in self.symbols]
 
 
 Displacement = dict[int, list[tuple[int, int | None]]]

@@ -57,5 +57,14 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
     columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
     unknowns = (*(s for s in symbols if s != ex.TIME), *setting.generic)
     return Chart(
-        ring, nodes, symbols, columns, unknowns, setting.positive, setting.roles, tuple(finite), setting.engines
+        ring,
+        nodes,
+        symbols,
+        columns,
+        unknowns,
+        setting.positive,
+        setting.roles,
+        tuple(finite),
+        setting.engines,
+        setting.size,
     )

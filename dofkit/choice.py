@@ -18,15 +18,19 @@ from dofkit.exact.engines import BOTH
 from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.local import ball_point
+from dofkit.nearby import damped
 from dofkit.rigid import displacements_real
 from dofkit.system import Rotation
 from dofkit.variety import pose_point
 
 #: How far a singular or special configuration is left to look at the set nearby, and what counts as 0 there.
-AWAY, ZERO = 0.05, 1e-7
+AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7
+#: The length of secants, and the least of those that count against it: the set is curved, and found to half its digits.
+SECANT, SPREAD, SETTLING = 1e-4, 3e-2, 60
+#: So many steps without half the error are the end: rounding, far from the origin, allows no less.
+STALLED = 8
 #: The same at a singular point, which a descent reaches to half its digits.
 ROUGH = 1e-5
-TRIES = 4
 MAX_COLUMNS = 120
 
 
@@ -53,16 +57,53 @@ def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation
     chart = make_chart(block, setting)
     start = _start(chart, setting)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
-    for seed in range(TRIES):
+    for seed, away in enumerate(AWAY):
         symbols = search.start(seed, {})
         for s, v in start.items():
-            symbols[s] = v + AWAY * (symbols[s] / 2 if s.args[0] == "coordinate" else 0)
+            symbols[s] = v + away * (symbols[s] / 2 if s.args[0] == "coordinate" else 0)
         if search.descend(symbols, seed) is None:
             continue
         tangent = _tangent(chart, symbols, turning)
-        if tangent is not None and tangent.shape[0] == dof:
+        if tangent.shape[0] == dof:
             return _columns(chart, tangent)
+        secants = None if tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
+        if secants is not None:
+            return _columns(chart, _in_angles(chart, symbols, secants, turning))
     return None
+
+
+def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: int) -> Any:
+    """The tangent space at a point where relations are dependent all along, from ``dof`` independent short secants."""
+    names = [s for s in chart.symbols if s != ex.TIME]
+    found = []
+    for seed in range(2 * dof + 2):
+        beside, change = dict(symbols), search.start(seed + len(AWAY), {})
+        for s in names:
+            beside[s] = symbols[s] + SECANT * change.get(s, 0.0)
+        if _settles(search, beside, seed):
+            found.append([(beside[s] - symbols[s]) / SECANT for s in names])
+    if not found:
+        return None
+    _, singular, right = np.linalg.svd(np.array(found))
+    spread = int(np.sum(singular > SPREAD))
+    return right[:dof] if spread == dof else None
+
+
+def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int) -> bool:
+    """Moves ``symbols`` to the set nearby, by damped steps: where the gradients are dependent others go far away."""
+    errors: list[float] = []
+    for _ in range(SETTLING):
+        f, j = search.float_system(symbols, seed)
+        scale = np.abs(j).max(axis=1, initial=0) + 1e-300
+        f, j = f / scale, j / scale[:, None]
+        errors.append(float(np.max(np.abs(f))))
+        if errors[-1] < 1e-15:
+            return True
+        if len(errors) > STALLED and min(errors[-STALLED:]) > min(errors[:-STALLED]) / 2:
+            break
+        for u, s in zip(search.unknowns, damped(j, f), strict=True):
+            symbols[u] += float(s)
+    return errors[-1] < 1e-13
 
 
 def _start(chart: Chart, setting: Setting) -> dict[Expr, float]:
@@ -78,14 +119,18 @@ def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotatio
     """A basis of the tangent space at fixed time over the block's coordinates, as rows."""
     point = FloatPoint(symbols, 0)
     at = values(chart.ring, point)
-    names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
     j = np.array(jacobian(chart.ring, at, point, chart.nodes, columns, 0.0), dtype=float).reshape(-1, len(columns))
     norms = np.linalg.norm(j, axis=1, keepdims=True)
     j = j / np.where(norms > ZERO, norms, 1.0)
     _, singular, right = np.linalg.svd(j)
     rank = int(np.sum(singular > ZERO))
-    basis = right[rank:]
+    return _in_angles(chart, symbols, right[rank:], turning)
+
+
+def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:
+    at = values(chart.ring, FloatPoint(symbols, 0))
+    names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     for rotation in turning:
         basis = _euler_rates(basis, [names.index(n) for n in rotation.names if n in names], at, chart, rotation)
     return basis

@@ -11,6 +11,7 @@ from typing import Any
 from flint import ctx
 
 from dofkit.answers import Answer, Setting
+from dofkit.beside import with_counts
 from dofkit.blocks import Block, uses_time
 from dofkit.bounded import checked, in_worker
 from dofkit.choice import generalized
@@ -95,6 +96,7 @@ def _classified(scene: Scene | System, seconds: float, method: MethodName) -> Re
             with part(SOLVING):
                 outcome = solve(system, reduced, setting)
             report = _report(system, reduced, setting, outcome)
+            report = with_counts(system, reduced, setting, outcome, report)
             if method != "auto":
                 return _by_one_engine(report, outcome, method)
             return _with_special_cases(system, reduced, setting, outcome, report)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from itertools import combinations
 
@@ -65,10 +65,12 @@ def _of_part(
     hidden = any(a.hidden for _, a in blocks) and len(numbers) <= MAX_CHOICES
     if several or ((bent or hidden) and not constants):
         if _each_takes_one(normals, blocks):
-            return [Redundancies({i: reduced[i].equations for i in numbers}, [], [], {})]
+            every = {i: reduced[i].equations for i in numbers}
+            return [Redundancies(every, [], [], {}, equations=dict.fromkeys(numbers, ()))]
         return [_implied(reduced, setting, numbers)]
     found: list[Redundancies] = []
     parts: list[Rows] = []
+    numbered = _numbered(reduced[i] for i in numbers)
     for block, a in blocks:
         if a.velocity_dof is None:
             continue
@@ -76,12 +78,13 @@ def _of_part(
         owners = owners_of(block)
         finite = [isinstance(r.piece, Finite) for r in block.rows]
         matrix = _without_hidden(block, a)
-        if nullity <= 0 and (a.degenerate or a.hidden):
-            found.append(Redundancies({o: owners.count(o) for o in owners}, [], [], {}))
+        if nullity <= 0 and a.hidden and not a.degenerate:
+            counted = {o: owners.count(o) for o in owners}
+            found.append(Redundancies(counted, [], [], {}, equations=dict.fromkeys(owners, ())))
         elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
             found.append(unless_late(partial(_by_leaving_out, block, setting, a, nullity), left_open(owners)))
         else:
-            parts.append(Rows(matrix, owners, finite, a.modulus))
+            parts.append(Rows(matrix, owners, finite, a.modulus, [numbered.get(id(r.piece), -1) for r in block.rows]))
     by_rank = [
         unless_late(partial(_analysed, group), left_open(o for part in group for o in part.owners))
         for group in _sharing(parts)
@@ -92,6 +95,11 @@ def _of_part(
     if everywhere is False:
         return [*found, _implied(reduced, setting, numbers)]
     return [*found, *map(_at_a_point, by_rank)]
+
+
+def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
+    """The number of the scalar equation that a piece is of, by the piece's identity."""
+    return {id(p): k for r in reduced for k, n in enumerate(r.normals) for p in n.pieces}
 
 
 def _each_takes_one(normals: Sequence[Normal], blocks: Sequence[tuple[Block, Answer]]) -> bool:
@@ -248,7 +256,14 @@ def _sharing(parts: Sequence[Rows]) -> list[list[Rows]]:
 def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
     """What was written before is redundant."""
     return [
-        Redundancies({i: 0}, [i], [(reduced[i].equations, sorted((i, j)))], {i: [j]}) for i, j in outcome.copies.items()
+        Redundancies(
+            {i: 0},
+            [i],
+            [(reduced[i].equations, sorted((i, j)))],
+            {i: [j]},
+            equations={i: tuple(range(reduced[i].equations))},
+        )
+        for i, j in outcome.copies.items()
     ]
 
 
@@ -267,15 +282,18 @@ def merged(found: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
 def _void(reduced: Sequence[Reduced]) -> Redundancies:
     """Relations that hold always (0 = 0) are redundant by themselves."""
     independent, redundant, groups = {}, [], []
+    equations = {}
     for i, r in enumerate(reduced):
-        empty = sum(normal.branches == ((),) for normal in r.normals)
+        void = tuple(k for k, normal in enumerate(r.normals) if normal.branches == ((),))
+        empty = len(void)
         if not empty:
             continue
+        equations[i] = void
         independent[i] = 0
         groups.append((empty, [i]))
         if empty == r.equations:
             redundant.append(i)
-    return Redundancies(independent, redundant, groups, {i: [] for i in redundant})
+    return Redundancies(independent, redundant, groups, {i: [] for i in redundant}, equations=equations)
 
 
 def _by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int) -> Redundancies:
@@ -294,6 +312,7 @@ def _by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int) -> 
             if _same_freedom(block, fewer, setting, a):
                 kept.remove(owner)
     redundant = sorted(set(order) - set(kept))
+    nullity = max(nullity, sum(owners_of(block).count(o) for o in redundant))
     members = sorted(order) if redundant else []
     groups = [(nullity, members)] if redundant else []
     independent = {o: 0 if o in redundant else owners_of(block).count(o) for o in order}

@@ -20,11 +20,11 @@ from dofkit.measured import measure
 from dofkit.rank import without_time
 from dofkit.variety import Variety, field_jacobian, find
 
-INSTANT = "the relations are singular at the reference configuration: whether motion goes on in time was not decided"
 OFF_REFERENCE = (
     "the reference configuration does not satisfy all finite relations: the answer is for configurations that do, "
     "and nothing is said of the reference itself"
 )
+ONE_MOMENT = "at the reference configuration the relations hold at this moment only: no motion passes through it"
 
 
 def finite_answer(block: Block, setting: Setting) -> Answer:
@@ -83,33 +83,30 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
     else:
         result.method = "balls at the given configuration"
         result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
-    n = chart.coordinates
-    timed = len(chart.columns) > n
-    if timed and found.confined and not _fix_time_elsewhere(chart):
-        result.consistent, result.dof, result.velocity_dof, result.verdict = None, None, None, "undecided"
-        result.reasons.append(INSTANT)
-    elif found.confined:
+    if found.local.confined and found.rank == len(chart.columns):
         result.consistent, result.dof, result.velocity_dof, result.verdict = False, None, None, "probable"
         result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
-    elif found.rank < len(found.matrix):
+        return result
+    if found.local.confined:
+        return _confined_answer(chart, setting, result)
+    if found.rank < len(found.matrix):
         result.reasons.append(found.local.reason)
-        result.degenerate = found.local.dimension != n - (found.rank if not found.confined else 0)
+    columns = len(chart.columns) - found.rank
+    result.degenerate = found.local.dimension != columns - (len(chart.columns) - chart.coordinates)
     return result
 
 
-def _fix_time_elsewhere(chart: Chart) -> bool:
-    """Do the relations fix the time at generic points too?
-
-    What they say of it to first order at a special configuration need not hold beside it (x^2 = t at x = 0).
-    """
-    generic = find(chart, {})
-    if generic.consistent is False:
-        return True
-    if not generic.samples:
-        return False
-    beside = Answer(True, generic.dimension, generic.dimension)
-    _finite_matrix(chart, generic, beside)
-    return beside.consistent is False
+def _confined_answer(chart: Chart, setting: Setting, result: Answer) -> Answer:
+    """No motion passes through the reference; whether one does elsewhere is asked of generic configurations."""
+    elsewhere = find(chart, {})
+    result.consistent = elsewhere.consistent
+    if elsewhere.samples:
+        _finite_matrix(chart, elsewhere, result)
+    result.dof = result.velocity_dof = result.instantaneous = None
+    if result.consistent is not False:
+        result.verdict = "undecided"
+        result.reasons.append(ONE_MOMENT)
+    return result
 
 
 def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answer:

@@ -72,7 +72,8 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
     moving = {str(s.args[1]) for e in more for s in e.symbols if s.args[0] in ("coordinate", "velocity")}
     try:
         states = States(sorted({*names, *moving}), way.rows, hidden, setting, [*more, *written], still)
-        held = _held(states, branches, written, given, asked)
+        smaller = any(a.degenerate or a.dof is None for a in answers)
+        held = _held(states, branches, written, given, asked, smaller)
     except (OutOfTimeError, ArithmeticError, NoPointError):
         return None
     return held if held or known else None
@@ -89,11 +90,15 @@ def _held(
     written: Sequence[Expr],
     given: Sequence[Condition],
     asked: Sequence[Condition],
+    smaller: bool,
 ) -> bool | None:
-    """Does a branch vanish at every state that is drawn? ``given`` conditions hold there, those ``asked`` have to."""
+    """Does a branch vanish at every state that is drawn? ``given`` conditions hold there, those ``asked`` have to.
+
+    ``smaller``: over the reals the set may be smaller than over GF(p), where nothing is refuted then.
+    """
     drawn = [p for k in range(STATES) if (p := states.draw(k)) is not None]
     seen = [_some_vanish(states, p, branches) for p in drawn if _all_vanish(states, p, written)]
-    plain = not written and not given and states.independent
+    plain = not written and not given and states.independent and not smaller
     if plain and False in seen:
         return False
     if seen and all(seen) and not asked and not states.chosen:

@@ -12,6 +12,7 @@ from dofkit.blocks import Row, coordinates_of
 from dofkit.constancy import fixed_constants
 from dofkit.deadline import OutOfTimeError, check
 from dofkit.entries import Told, entry, unfinished
+from dofkit.equations import said
 from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
 from dofkit.labels import Traits, traits
@@ -43,6 +44,7 @@ def entries_of(
     known = {i for found in dependent for i in found.independent} - _unmeasured(outcome)
     circuits = {i: c for found in dependent for i, c in found.circuits.items()}
     left_open = {i for found in dependent for i in found.undecided}
+    following = _following(dependent)
     told = _told(len(reduced), outcome, setting)
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
@@ -56,10 +58,33 @@ def entries_of(
             check()
             beside = partial(_with_others, i, told[i], company, names)
             made = _one(i, r, told[i], setting, consistent, number, circuit, constants, told_of, beside)
-            entries.append(_with_open_dependence(made) if i in left_open else made)
+            made = _with_open_dependence(made) if i in left_open else _with_equations(made, r, following.get(i))
+            entries.append(made)
         except OutOfTimeError as error:
             entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
     return entries
+
+
+def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:
+    """The scalar equations of each constraint that follow from those before them, by their numbers."""
+    following: dict[int, set[int]] = {}
+    for found in dependent:
+        for i, equations in found.equations.items():
+            following.setdefault(i, set()).update(equations)
+    return following
+
+
+def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | None) -> ConstraintEntry:
+    """An entry with its redundant equations by name, where their number is what was found before."""
+    if following is None or made.independent is None or len(following) != made.equations - made.independent:
+        return made
+    written = [relation for relation in r.constraint.relations if relation.sense == "="]
+    names = [said(written[k], r.constraint.text) for k in sorted(following)]
+    reason = made.reason
+    if names and made.equations > 1:
+        many = "follows" if len(names) == 1 else "follow"
+        reason += f" Of its {made.equations} equations {len(names)} {many} from those before: {'; '.join(names)}."
+    return made.model_copy(update={"redundant_equations": names, "reason": reason})
 
 
 def _with_open_dependence(made: ConstraintEntry) -> ConstraintEntry:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from flint import arb, ctx
@@ -18,7 +18,8 @@ from dofkit.exact.ring import Ring
 from dofkit.exact.sparse import SparseRow, rank_of_rows, sparse
 from dofkit.expr import Expr
 from dofkit.forms import Frame
-from dofkit.motion import Local, Manifold, numeric_dimension
+from dofkit.manifold import Local, Manifold
+from dofkit.motion import numeric_dimension
 from dofkit.rank import without_time
 from dofkit.rigid import rigid_motions, rigid_motions_real
 from dofkit.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
@@ -31,8 +32,8 @@ CLEAR = 1e3
 class AtReference:
     """``instantaneous``: velocities allowed to first order; ``local``: the dimension of the finite motion.
 
-    ``matrix`` is the Jacobian there over GF(``modulus``), or the pattern of its dependent rows. ``confined``: the
-    relations fix the time. ``dependent``: columns that the others determine, where the matrix does not tell.
+    ``matrix`` is the Jacobian there over GF(``modulus``), or the pattern of its dependent rows. ``dependent``: columns
+    that the others determine, where the matrix does not tell.
     """
 
     instantaneous: int
@@ -40,7 +41,6 @@ class AtReference:
     matrix: list[SparseRow]
     modulus: int
     rank: int
-    confined: bool
     rigid: int
     ball: BallPoint | None
     dependent: tuple[int, ...] | None = None
@@ -67,14 +67,19 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     if not exact:
         ball = ball_point(chart, known, point.rng) if "balls" in chart.engines else None
         local = Local(None, "undecided", "measured")
-        return AtReference(n - rank_q, local, [], point.p, rank, False, rigid, ball)
+        return AtReference(n - rank_q, local, [], point.p, rank, rigid, ball)
     few = len(chart.columns) - rank - timed - rigid <= BALL_COLUMNS
     if rank < len(matrix) and few and "balls" in chart.engines:
         ball = ball_point(chart, known, point.rng)
-    local = local_at(chart, point, ball, rigid + timed)
-    if local.dimension is not None:
-        local = Local(local.dimension - timed, local.verdict, local.reason)
-    return AtReference(n - rank_q, local, matrix, point.p, rank, rank_q < rank, rigid, ball)
+    local = _at_fixed_time(local_at(chart, point, ball, rigid, chart.time), timed)
+    return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball)
+
+
+def _at_fixed_time(local: Local, timed: int) -> Local:
+    """The dimension without that of time, along which the set goes on; none where it does not."""
+    if local.dimension is None:
+        return local
+    return replace(local, dimension=None if local.confined else local.dimension - timed)
 
 
 def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:
@@ -90,22 +95,21 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
     at = values(chart.ring, ball)
     rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
     if not exact:
-        return AtReference(n - rank, Local(None, "undecided", "measured"), [], 2, rank, False, rigid, ball)
+        return AtReference(n - rank, Local(None, "undecided", "measured"), [], 2, rank, rigid, ball)
     of_q = ball_part([row[:n] for row in matrix])
     local = Local(None, "undecided", f"the gap between pivots is {part.gap:.1e}")
     if part.gap > CLEAR:
         frame = Frame(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
-        local = _followed(Manifold(chart.ring, chart.nodes, chart.columns, frame, ball), rigid + timed)
-    if local.dimension is not None:
-        local = Local(local.dimension - timed, local.verdict, local.reason)
+        manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
+        local = _at_fixed_time(_followed(manifold, rigid, chart.time), timed)
     shown = sparse(dependencies(matrix, part))
     names = tuple(of_q.columns) if rank == of_q.rank else ()
-    return AtReference(n - of_q.rank, local, shown, 2, rank, of_q.rank < rank, rigid, ball, names)
+    return AtReference(n - of_q.rank, local, shown, 2, rank, rigid, ball, names)
 
 
-def _followed(manifold: Manifold, rigid: int) -> Local:
+def _followed(manifold: Manifold, rigid: int, time: int | None) -> Local:
     try:
-        return numeric_dimension(manifold, rigid)
+        return numeric_dimension(manifold, rigid, time)
     except (ZeroDivisionError, OutsideDomainError):
         return Local(None, "undecided", "the relations could not be followed along a curve through this configuration")
 

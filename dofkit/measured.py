@@ -27,8 +27,12 @@ from dofkit.system import Coordinate
 
 #: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY nothing is decided.
 SLACK, GREY = 3.0, 30.0
-STEP, ROUNDS = 0.12, 60
+#: A motion is followed this far, as a fraction of the size, or farther where second-order effects of that size would
+#: not stand out from the tolerance by `FAR`; in so many directions.
+STEP, FAR, LONGEST, WAYS, ROUNDS = 0.12, 60.0, 0.4, 6, 60
 HALF = 0.5
+#: In place of a rank: no configuration was found there.
+BLOCKED = -1
 
 
 @dataclass(frozen=True)
@@ -94,7 +98,8 @@ def measure(
     pattern = dependency_pattern(j, independent_rows(j, rank, tolerance))
     columns = tuple(greedy_pivots(j.T, rank))
     first = n - rank
-    dimension, reason = _finite(scene, at, j, rank, tolerance, rigid)
+    whole = scene.whole(at)
+    dimension, reason = _finite(scene, at, j, rank, tolerance, min(rigid, len(_own(whole, tolerance))))
     return Measured(first, dimension, pattern, columns, gap, reason)
 
 
@@ -107,9 +112,17 @@ def _finite(
         return first, "all relations are independent within the tolerance"
     if first == rigid:
         return first, "nothing but motions of the whole is possible to first order"
-    if all(_moves(scene, at, j, rank, tolerance, seed) for seed in range(2)):
+    stride = max(STEP, (FAR * tolerance) ** HALF)
+    if stride > LONGEST:
+        return None, "the tolerance is too coarse to tell a motion from one of first order only"
+    ranks = [_followed(scene, at, j, rank, tolerance, stride, seed) for seed in range(WAYS)]
+    if all(r == rank for r in ranks):
         return first, "the motion was followed for a finite step within the tolerance"
-    if first - rigid == 1:
+    full = j.shape[0]
+    # one dependence leaves a cone of one dimension less, or nothing: wherever it can be entered, that is the motion
+    if set(ranks) == {full} or (rank == full - 1 and full in ranks and rank not in ranks):
+        return j.shape[1] - full, "branches cross here; beside it all relations are independent within the tolerance"
+    if first - rigid == 1 and set(ranks) == {BLOCKED}:
         return rigid, "the one motion left to first order breaks the relations beyond the tolerance"
     return None, "some of the motions to first order are no finite motions; which was not decided"
 
@@ -126,33 +139,58 @@ def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:
     return kept
 
 
-def _moves(scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance: float, seed: int) -> bool:
+def _rank(j: Any, tolerance: float) -> int | None:
+    """Singular values above the tolerance; None where one is near it."""
+    singular = np.linalg.svd(j, compute_uv=False)
+    if np.any((singular > tolerance * SLACK) & (singular < tolerance * GREY)):
+        return None
+    return int(np.sum(singular > tolerance * SLACK))
+
+
+def _followed(
+    scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance: float, stride: float, seed: int
+) -> int | None:
+    """The rank a stride away along some motion to first order; `BLOCKED` where the relations cannot be met there.
+
+    None where the rank is undecided.
+    """
     rng = random.Random(f"dofkit measured {seed}")
     _, _, right = np.linalg.svd(j)
-    null = _beside(right[rank:], scene.whole(at))
+    null = _beside(right[rank:], scene.whole(at), tolerance)
     direction = np.array([rng.uniform(-1, 1) for _ in null]) @ null
-    direction *= STEP / np.linalg.norm(direction)
+    direction *= stride / np.linalg.norm(direction)
     moved = {**at}
-    step = direction
+    step, there = direction, j
     residual = float("inf")
     for _ in range(ROUNDS):
         check()
         for s, d, scale in zip(scene.symbols, step, scene.scale, strict=True):
             moved[s] = moved[s] + float(d) * float(scale)
-        f, jac = scene.system(moved)
+        f, there = scene.system(moved)
         residual = float(np.max(np.abs(f)))
-        step = np.linalg.lstsq(jac, -f, rcond=tolerance * SLACK)[0]
+        step = np.linalg.lstsq(there, -f, rcond=tolerance * SLACK)[0]
         if float(np.linalg.norm(step)) < tolerance * 1e-3:
             break
     moves = np.array([(moved[s] - at[s]) / k for s, k in zip(scene.symbols, scene.scale, strict=True)])
-    return residual <= tolerance * SLACK and float(moves @ direction) > STEP**2 / 2
+    if residual > tolerance * SLACK or float(moves @ direction) <= stride**2 / 2:
+        return BLOCKED
+    return _rank(there, tolerance)
 
 
-def _beside(null: Any, whole: Any) -> Any:
+def _own(whole: Any, tolerance: float) -> Any:
+    """An orthonormal basis of the displacements of the whole, less those within the tolerance (a turn about a rod)."""
+    if not whole.size:
+        return whole
+    lengths = np.linalg.norm(whole, axis=1)
+    _, singular, right = np.linalg.svd(whole / np.where(lengths > 0, lengths.max(), 1.0)[:, None])
+    return right[: int(np.sum(singular > tolerance * SLACK))]
+
+
+def _beside(null: Any, whole: Any, tolerance: float) -> Any:
     """The null space less the motions of the whole: those are motions anyway."""
     if not whole.size:
         return null
-    inside = np.linalg.qr((whole @ null.T).T)[0] if len(null) else null.T
+    inside = np.linalg.qr((_own(whole, tolerance) @ null.T).T)[0] if len(null) else null.T
     kept = np.linalg.svd(np.eye(len(null)) - inside @ inside.T)
     count = int(np.sum(kept[1] > HALF))
     return kept[2][:count] @ null if count else null

@@ -21,5 +21,7 @@ def prepared(system: System) -> tuple[list[Reduced], Setting]:
         system.coordinates,
         system.tolerance,
         system.size,
+        dimension=system.dimension,
+        distances={} if system.tolerance else system.distances,
     )
     return reduced, setting

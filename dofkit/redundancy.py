@@ -7,8 +7,8 @@ because only a finite relation fixes the constant. Dependent sets of constraints
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import combinations
 
 import networkx as nx
@@ -21,13 +21,17 @@ SEARCHED = 12
 
 @dataclass(frozen=True)
 class Redundancies:
-    """What was found, constraints by their numbers; of those in ``undecided`` it is not known whether they can go."""
+    """What was found, constraints by their numbers; of those in ``undecided`` it is not known whether they can go.
+
+    ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
+    """
 
     independent: dict[int, int]
     redundant: list[int]
     groups: list[tuple[int, list[int]]]
     circuits: dict[int, list[int]]
     undecided: tuple[int, ...] = ()
+    equations: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
 
 
 def left_open(constraints: Iterable[int]) -> Redundancies:
@@ -37,12 +41,16 @@ def left_open(constraints: Iterable[int]) -> Redundancies:
 
 @dataclass(frozen=True)
 class Rows:
-    """The matrix of a block, without zeros: ``owners[i]`` wrote row i, ``finite[i]`` tells a finite row."""
+    """The matrix of a block, without zeros: ``owners[i]`` wrote row i, ``finite[i]`` tells a finite row.
+
+    ``equations[i]`` is the number of the scalar equation that row i is of; -1 where it is not known.
+    """
 
     matrix: Sequence[SparseRow]
     owners: Sequence[int]
     finite: Sequence[bool]
     p: int
+    equations: Sequence[int] = ()
 
     def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
         """The rows that some constraints wrote."""
@@ -60,14 +68,28 @@ def analyse(parts: Sequence[Rows]) -> Redundancies:
     kept = Counter(b.owners[i] for b in bases for i in b.pivots)
     independent = {owner: kept[owner] for owner in order}
     if not any(b.supports for b in bases):
-        return Redundancies(independent, [], [], {})
+        return Redundancies(independent, [], [], {}, equations=dict.fromkeys(order, ()))
     groups = _groups(bases)
     redundant: list[int] = []
     for _, members in groups:
         redundant += _droppable(parts, [o for o in order if o in members], bases)
     rows_of = Counter(o for part in parts for o in part.owners)
     circuits = {owner: _circuit(parts, order, owner, bases, rows_of[owner] == 1) for owner in redundant}
-    return Redundancies(independent, sorted(redundant), groups, circuits)
+    return Redundancies(independent, sorted(redundant), groups, circuits, equations=_equations(parts, bases))
+
+
+def _equations(parts: Sequence[Rows], bases: Sequence[_Basis]) -> dict[int, tuple[int, ...]]:
+    """The scalar equations all of whose rows follow from those before them, a constraint each."""
+    known: dict[int, dict[int, bool]] = {}
+    for part, basis in zip(parts, bases, strict=True):
+        for i, (owner, equation) in enumerate(zip(part.owners, part.equations, strict=False)):
+            of_owner = known.setdefault(owner, {})
+            of_owner[equation] = of_owner.get(equation, True) and i in basis.supports
+    return {
+        owner: tuple(sorted(e for e, follows in found.items() if follows))
+        for owner, found in known.items()
+        if -1 not in found
+    }
 
 
 class _Basis:

@@ -55,7 +55,8 @@ class ConstraintEntry(Model):
     the others; ``scleronomic``: time does not enter, up to factors that never vanish; ``catastatic``:
     no dt term (None unless ``pfaffian``); ``exact``, ``integrating_factor``, ``integral`` of a
     Pfaffian form; ``circuit``: what a redundant constraint depends on; ``equations`` and how many are
-    ``independent`` of all before. A None label means undecided, and ``reason`` says why.
+    ``independent`` of all before; ``redundant_equations``: the others by name (None where it is not known which).
+    A None label means undecided, and ``reason`` says why.
     """
 
     name: str
@@ -73,6 +74,7 @@ class ConstraintEntry(Model):
     circuit: list[str] | None
     equations: int
     independent: int | None
+    redundant_equations: list[str] | None = None
     verdict: Verdict
     reason: str
 
@@ -93,6 +95,35 @@ class IntegrablePart(Model):
 
     rank: int
     basis: list[str] | None
+
+
+class Generic(Model):
+    """The same connections with their geometry in general position: what is special about the drawing.
+
+    ``dof`` and ``redundant_equations`` are those of the finite relations at random places and directions (None where
+    that could not be counted); ``differs`` says why the drawing allows more: parallel, concurrent, collinear,
+    coplanar, a loop of special proportions; None where it does not.
+    """
+
+    dof: int | None
+    redundant_equations: int | None
+    differs: str | None
+    verdict: Verdict
+
+
+class Mobility(Model):
+    """The count of Gruebler and Kutzbach, M = D(N - 1 - j) + f_1 + ... + f_j, D = 3 in the plane and 6 in space.
+
+    ``links``: N, bodies with the ground; ``joints``: j, constraints between two of them, of f_i freedoms each.
+    ``formula`` holds the numbers, and what else is counted; ``freedom`` is the truth, and ``differs`` why it differs.
+    """
+
+    links: int
+    joints: int
+    formula: str
+    kutzbach: int
+    freedom: int | None
+    differs: str | None
 
 
 class ForceEntry(Model):
@@ -123,6 +154,8 @@ class Report(Model):
     ``velocity_dof`` the number of independent velocities of finite motions,
     ``instantaneous_dof`` what the constraints allow to first order at the reference configuration.
     ``special_cases`` are apart: all other fields are the generic answer.
+    ``generic`` is the count in general position beside that at the drawing (None without a drawing), ``mobility``
+    Gruebler's and Kutzbach's beside the truth (None without bodies and joints).
     A number that could not be decided is None, ``verdict`` is then ``undecided`` and ``warnings`` says why.
     """
 
@@ -142,6 +175,8 @@ class Report(Model):
     generalized_coordinates: list[str] | None
     growth_vector: list[int] | None
     integrable_part: IntegrablePart | None = None
+    generic: Generic | None = None
+    mobility: Mobility | None = None
     constraints: list[ConstraintEntry]
     forces: list[ForceEntry]
     special_cases: list[SpecialCase]

@@ -13,7 +13,8 @@ from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, jacobia
 from dofkit.exact.floats import independent_part
 from dofkit.exact.program import values
 from dofkit.forms import Frame
-from dofkit.motion import Local, Manifold, numeric_dimension
+from dofkit.manifold import Local, Manifold
+from dofkit.motion import numeric_dimension
 from dofkit.rigid import rigid_motions_real
 
 #: Working precision, steps (each halves the distance to the singular point), and the radius given to the result.
@@ -54,10 +55,10 @@ def _look(chart: Chart, real: RealPoint) -> Local | None:
         return None
     dependent = tuple(place[c] for c in pivots)
     free = tuple(i for i in range(len(chart.columns)) if i not in set(dependent))
-    manifold = Manifold(chart.ring, chart.nodes, chart.columns, Frame(tuple(rows), dependent, free), point)
+    frame = Frame(tuple(rows), dependent, free)
+    manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point, chart.scales)
     rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
-    timed = len(chart.columns) - chart.coordinates
-    return numeric_dimension(manifold, rigid + timed)
+    return numeric_dimension(manifold, rigid, chart.time)
 
 
 def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:

@@ -18,10 +18,10 @@ from dofkit.expr import Expr
 from dofkit.naming import Declared, Owners, check_names, within_member
 from dofkit.parts import GROUND, Energies, Force, texts_of
 from dofkit.report import Report
-from dofkit.system import Constraint
+from dofkit.system import Connection, Constraint
 from dofkit.texts import MOVING
 from dofkit.values import suggestion
-from dofkit.world import World
+from dofkit.world import Asked, World
 
 
 class Surveyed(Declared, Protocol):
@@ -38,10 +38,11 @@ class Surveyed(Declared, Protocol):
 
 
 class Survey(NamedTuple):
-    """The scene's world with its faults, its constraints lowered, and the size of its drawing."""
+    """The scene's world with its faults, its constraints lowered, what they connect, and the size of its drawing."""
 
     world: World
     constraints: tuple[Constraint, ...]
+    connections: tuple[Connection, ...]
     size: float
 
 
@@ -65,7 +66,11 @@ def survey(scene: Surveyed) -> Survey:
     world.make_frames(_mentioned(scene, world))
     names = names_by_position("c", [c.name for c in scene.constraints])
     _check_repeats(world, "constraints", [c.name for c in scene.constraints], names)
-    constraints = tuple(_lowered(world, i, c, names[i]) for i, c in enumerate(scene.constraints))
+    constraints, connections = [], []
+    for i, c in enumerate(scene.constraints):
+        world.asked = Asked()
+        constraints.append(_lowered(world, i, c, names[i]))
+        connections.append(_connection(world.asked, i, constraints[-1]))
     _check_forces(scene, world)
     _check_energies(scene, world)
     world.here = ("expect",)
@@ -78,7 +83,7 @@ def survey(scene: Surveyed) -> Survey:
         world.here = place
         look(size)
     world.here = ()
-    return Survey(world, constraints, size)
+    return Survey(world, tuple(constraints), tuple(connections), size)
 
 
 #: Sound surveys made by `checked`, each until `taken` or until its scene is gone.
@@ -131,6 +136,20 @@ def _lowered(world: World, index: int, constraint: ConstraintBase, name: str) ->
         return Constraint(name, kind, constraint.shown, ())
     relations = tuple(constraint.relations(world))
     return Constraint(name, kind, constraint.shown, relations, tuple(constraint.notes(world)))
+
+
+def _connection(asked: Asked, index: int, constraint: Constraint) -> Connection:
+    """What a constraint that has been lowered connects."""
+    return Connection(
+        index,
+        constraint.type,
+        tuple(dict.fromkeys(asked.members)),
+        tuple(asked.points),
+        tuple(asked.places),
+        tuple(asked.directions),
+        asked.number,
+        any(relation.part == "drive" for relation in constraint.relations),
+    )
 
 
 _INSTEAD = {

@@ -5,10 +5,10 @@ Everything after this module works on `System` and never reads the scene again.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from dofkit.expr import Expr
 
@@ -49,11 +49,15 @@ class Rotation:
 
 @dataclass(frozen=True)
 class Relation:
-    """One scalar relation ``expr sense 0``; ``part`` names it within its constraint (``point x``)."""
+    """One scalar relation ``expr sense 0``; ``part`` names it within its constraint (``point x``).
+
+    ``vector`` is the place or direction in the drawing that it is about.
+    """
 
     expr: Expr
     sense: Sense = "="
     part: str = ""
+    vector: tuple[Expr, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -69,6 +73,54 @@ class Constraint:
     text: str
     relations: tuple[Relation, ...]
     notes: tuple[str, ...] = ()
+
+
+class Place(NamedTuple):
+    """A point: of the body ``frame`` (``ground`` too), standing at ``reference``; or a particle, where that is None."""
+
+    frame: str | None
+    label: str
+    reference: tuple[Expr, ...] | None = None
+
+
+class Distance(NamedTuple):
+    """|A - B|^2 = ``squared``, which holds neither coordinates nor time; ``at_most``: <= (the ends of a string)."""
+
+    first: Place
+    second: Place
+    squared: Expr
+    at_most: bool = False
+
+
+@dataclass(frozen=True)
+class DrawnPoint:
+    """A point that a constraint mentions, where it stands in the drawing (None: in general position).
+
+    ``carrier`` is the body that carries it (``ground`` too) or, with ``particle``, the particle it is.
+    """
+
+    carrier: str
+    at: tuple[Expr, ...] | None
+    particle: bool = False
+
+
+@dataclass(frozen=True)
+class Connection:
+    """What the constraint number ``constraint`` connects, as given by its geometry and not by a text.
+
+    ``members``: bodies (``ground`` too) and particles, in the order mentioned. ``points`` belong to members,
+    ``places`` and ``directions`` to the drawing; what is in general position is None. ``number``: the screw's pitch,
+    or the ratio of gears. ``driven``: one more relation prescribes the motion.
+    """
+
+    constraint: int
+    type: str
+    members: tuple[str, ...]
+    points: tuple[DrawnPoint, ...] = ()
+    places: tuple[tuple[Expr, ...] | None, ...] = ()
+    directions: tuple[tuple[Expr, ...] | None, ...] = ()
+    number: Expr | None = None
+    driven: bool = False
 
 
 @dataclass(frozen=True)
@@ -91,7 +143,10 @@ class System:
     None where the scene gives none. ``pose``: values for some coordinate symbols at which the
     joints close by construction, generic parameters included; equal to ``reference`` where that is given.
     ``particles`` and ``bodies`` list names; ``links`` the rigid links between particles as
-    (constraint index, particle, particle). ``size``: the largest distance between given points.
+    (constraint index, particle, particle), ``distances`` those between points of any kind that constraints
+    hold, by constraint index. ``size``: the largest distance between given points.
+    (constraint index, particle, particle); ``connections`` what each constraint of given or generic geometry
+    connects, ``starts`` where the bodies' origins stand. ``size``: the largest distance between given points.
     """
 
     name: str
@@ -108,6 +163,9 @@ class System:
     bodies: tuple[str, ...] = ()
     forces: tuple[Force, ...] = ()
     links: tuple[tuple[int, str, str], ...] = ()
+    distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
+    connections: tuple[Connection, ...] = ()
+    starts: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     tolerance: Fraction | None = None
     size: float = 1.0
     warnings: tuple[str, ...] = ()

@@ -28,7 +28,8 @@ from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.forms import Frame, sparse_frame
 from dofkit.linear import presolve
-from dofkit.motion import Local, Manifold, local_dimension
+from dofkit.manifold import Local, Manifold
+from dofkit.motion import local_dimension
 from dofkit.rank import free_point, rank_of
 from dofkit.report import Verdict, weakest
 from dofkit.singular import numeric_local
@@ -230,10 +231,10 @@ def _from_samples(
     verdict: Verdict = "proved" if rank == len(chart.nodes) else "probable"
     reasons: list[str] = []
     if rank < len(chart.nodes) and not _smooth(chart, samples[0], solver):
-        local = local_at(chart, samples[0], None, 0)
-        if local.dimension is None or local.dimension < columns - rank:
+        local = local_at(chart, samples[0], None, 0, chart.time)
+        if local.dimension is None or local.confined or local.dimension < columns - rank:
             bound = _free_dimension(chart, solver)
-            exact = local.dimension if local.dimension is not None else None
+            exact = None if local.confined else local.dimension
             if exact is None and bound is not None and bound == columns - rank - 1:
                 exact = bound
             dimension = None if exact is None else exact - timed
@@ -329,9 +330,8 @@ def _singular(chart: Chart, found: Variety) -> Variety:
     """All real points that were found are singular: the dimension is that of the set near one of them."""
     real = found.real
     local = None if real is None else numeric_local(chart, real)
-    if local is None:
+    if local is None or local.dimension is None or local.confined:
         found.consistent = None
-    if local is None or local.dimension is None:
         found.verdict, found.dimension = "undecided", None
         found.reasons.append("every real configuration that was found is singular; what moves there was not decided")
         return found
@@ -363,12 +363,17 @@ def frame_at(chart: Chart, point: FieldPoint) -> Frame:
     return sparse_frame(field_jacobian(chart, point), len(chart.columns), point.p)
 
 
-def local_at(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int) -> Local:
-    """The local dimension at a point of the variety, time counted where it is a column."""
+def local_at(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None) -> Local:
+    """The local dimension at a point of the variety, time counted where it is a column.
+
+    ``time``: the number of that column, where it matters whether time moves on.
+    """
     frame = frame_at(chart, point)
     try:
         field_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
-        ball_manifold = None if ball is None else Manifold(chart.ring, chart.nodes, chart.columns, frame, ball)
-        return local_dimension(field_manifold, ball_manifold, rigid, len(chart.columns) > chart.coordinates)
+        ball_manifold = None
+        if ball is not None:
+            ball_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
+        return local_dimension(field_manifold, ball_manifold, rigid, time)
     except (ZeroDivisionError, OutsideDomainError, NoPointError):
         return Local(None, "undecided", "the relations could not be followed along a curve through this configuration")

@@ -8,6 +8,7 @@ come to light at once. Geometry that is left out is asked for here too and becom
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
@@ -17,6 +18,7 @@ from dofkit.expr import ONE, TIME, ZERO, Expr, coordinate, parameter, substitute
 from dofkit.geometry import Chart, Frame, Placed, Vec, across
 from dofkit.naming import Declared, coordinate_table, declared_names, read_parameters
 from dofkit.parts import GROUND, BodyPoint, Particle, show_point
+from dofkit.system import Distance, DrawnPoint, Place
 from dofkit.texts import Texts
 from dofkit.values import Vector
 
@@ -28,12 +30,26 @@ class Direction(NamedTuple):
     across: tuple[Vec, ...]
 
 
+@dataclass
+class Asked:
+    """What one constraint asks for, in order."""
+
+    members: list[str] = field(default_factory=list)
+    points: list[DrawnPoint] = field(default_factory=list)
+    places: list[Vec | None] = field(default_factory=list)
+    directions: list[Vec | None] = field(default_factory=list)
+    number: Expr | None = None
+
+
 class World(Texts):
     """A scene's names resolved.
 
     Collects, besides faults and warnings: ``generic`` parameters, the given ``points``, the bodies
-    that are ``drawn``, ``welds`` and ``links``, and checks to make ``later``, once the size of the
+    that are ``drawn``, ``welds``, ``links`` and ``distances``, and checks to make ``later``, once the size of the
     drawing is known. ``special`` tells that symbolic lengths meet a drawing with numbers.
+    that are ``drawn``, ``welds`` and ``links``, what the constraint being read has ``asked`` for, and checks
+    to make ``later``, once the size of the drawing is known. ``special`` tells that symbolic lengths meet a
+    drawing with numbers.
     """
 
     def __init__(self, scene: Declared) -> None:
@@ -45,8 +61,10 @@ class World(Texts):
         self.drawn: set[str] = set()
         self.welds: list[tuple[str, str]] = []
         self.links: list[tuple[int, str, str]] = []
+        self.distances: dict[int, list[Distance]] = {}
         self.later: list[tuple[tuple[str | int, ...], Callable[[float], None]]] = []
         self.special = False
+        self.asked = Asked()
         self.table = coordinate_table(scene)
         self.parameters, self.signs = read_parameters(scene, self)
         self.names = declared_names(scene, self.table, self.parameters)
@@ -119,6 +137,11 @@ class World(Texts):
 
     def place(self, values: Vector | None, *where: str | int) -> Vec:
         """A given point of the drawing, or a generic one."""
+        found = self._place(values, *where)
+        self.asked.places.append(None if values is None else found)
+        return found
+
+    def _place(self, values: Vector | None, *where: str | int) -> Vec:
         if values is None:
             return tuple(self.fresh() for _ in range(self.dimension))
         found = self.position(values, *where)
@@ -126,6 +149,11 @@ class World(Texts):
 
     def direction(self, values: Vector | None, *where: str | int) -> Direction:
         """A given direction, or a generic one."""
+        found = self._direction(values, *where)
+        self.asked.directions.append(None if values is None else found.vector)
+        return found
+
+    def _direction(self, values: Vector | None, *where: str | int) -> Direction:
         if values is None:
             n = (ONE, *(self.fresh() for _ in range(self.dimension - 1)))
             return Direction(n, across(n, 0))
@@ -147,10 +175,9 @@ class World(Texts):
 
     def frame(self, name: str, *where: str | int) -> Frame:
         """The frame of a body, or of the ground."""
-        if name == GROUND:
-            return self.ground
-        found = self.frames.get(name)
+        found = self.ground if name == GROUND else self.frames.get(name)
         if found is not None:
+            self.asked.members.append(name)
             return found
         if name in self.standing:
             hint = "a particle is held by `coincident`, `fixed`, `slot` or `link`"
@@ -166,6 +193,8 @@ class World(Texts):
             q = tuple(coordinate(c) for c in self.table.particles[name])
             found = self._placed[name] = Placed(q, ONE, self.standing[name], None, name)
         if found is not None:
+            self.asked.members.append(name)
+            self.asked.points.append(DrawnPoint(name, found.reference, particle=True))
             return found
         if name in self.frames or name == GROUND:
             place = ", ".join("..." for _ in range(self.dimension))
@@ -181,10 +210,21 @@ class World(Texts):
             return self.particle(point, *where)
         if isinstance(point, BodyPoint):
             frame = self.frame(point.on, *where, "on")
-            at = self.place(point.at, *where, "at")
+            at = self._place(point.at, *where, "at")
             self.drawn.add(frame.name)
+            self.asked.points.append(DrawnPoint(frame.name, at))
             return frame.point(at, show_point(point))
-        return self.ground.point(self.place(point, *where), show_point(point))
+        at = self._place(point, *where)
+        self.asked.members.append(GROUND)
+        self.asked.points.append(DrawnPoint(GROUND, at))
+        return self.ground.point(at, show_point(point))
+
+    def apart(self, first: Placed, second: Placed, squared: Expr, at_most: bool = False) -> None:
+        """Two points keep a squared distance, or at most that; nothing is kept of one that moves or is generic."""
+        if any(s.args[0] != "parameter" or s.args[1].startswith("_") for s in squared.symbols):
+            return
+        a, b = (Place(p.frame, p.label, p.reference if p.frame else None) for p in (first, second))
+        self.distances.setdefault(int(self.here[-1]), []).append(Distance(a, b, squared, at_most))
 
     # the drawing
 

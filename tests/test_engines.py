@@ -31,7 +31,6 @@ from dofkit.expr import Expr
 from dofkit.flag import growth
 from dofkit.flow import lie_span
 from dofkit.forms import Frame, Rows, certified_rank, field_frame, field_rank
-from dofkit.motion import Manifold, local_dimension, signature_of
 from dofkit.normal import Finite, Nonlinear, Normal, Pfaffian, normalise
 from dofkit.redundancy import Rows as Equations
 from dofkit.redundancy import analyse
@@ -439,61 +438,6 @@ def test_growth_of_the_disc_the_car_and_engel() -> None:
     assert span_of((X, Y, Z, u), engel)[1] <= 4
     cartan = [["-y", "0", "1", "0", "0"], ["-z", "0", "0", "1", "0"], ["0", "-z", "0", "0", "1"]]
     assert span_of((X, Y, Z, v, w), cartan) == ((2, 3, 5), 5)
-
-
-# The dimension near a point
-
-
-def local(texts: Sequence[str], at: dict[Expr, int], rigid: int = 0) -> int | None:
-    relations = [read(text) for text in texts]
-    ring = Ring(relations)
-    nodes = [ring.node(g) for g in relations]
-    columns = [-1 if (index := ring.var_index(s)) is None else index for s in at]
-    point = field_point([ring], 5)
-    for s, value in at.items():
-        if (index := ring.var_index(s)) is not None:
-            point.set(ring.vars[index], nmod(value, point.p))
-    placed = values(ring, point)
-    assert all(placed[n] == 0 for n in nodes)
-    zero = placed[0] * 0
-    slopes = [gradient(ring, placed, point, [(n, zero + 1)]) for n in nodes]
-    matrix = [[slope.get(c, zero) for c in columns] for slope in slopes]
-    frame = field_frame(matrix, len(columns), point.p)
-    ball = BallPoint({s: float(value) for s, value in at.items()}, 5)
-    manifolds = [Manifold(ring, nodes, columns, frame, base) for base in (point, ball)]
-    return local_dimension(manifolds[0], manifolds[1], rigid).dimension
-
-
-@pytest.mark.parametrize(
-    ("texts", "at", "dimension"),
-    [
-        (["x^2 + y^2 - 1"], (1, 0, 0), 2),  # regular
-        (["z", "z + x^2 + y^2"], (0, 0, 0), 0),  # definite: a point
-        (["z", "z + x^2 - y^2"], (0, 0, 0), 1),  # indefinite: two lines cross
-        (["z", "2 z", "z (1 + x)"], (0, 0, 0), 2),  # the same plane three times
-        (["x", "z", "z + y^3"], (0, 0, 0), 0),  # one motion left, broken at the third order
-        (["x", "z", "z + x y^3"], (0, 0, 0), 1),  # one motion left, never broken
-        (["x^2 + y^2 + z^2 - 1", "x - 1"], (1, 0, 0), 0),  # a tangent plane
-        (["x^2 + y^2 - 1", "(x - 2)^2 + y^2 - 1"], (1, 0, 0), 1),  # tangent circles, times the z axis
-    ],
-)
-def test_local_dimension(texts: list[str], at: tuple[int, int, int], dimension: int) -> None:
-    rigid = 1 if dimension == 1 and "(x - 2)" in " ".join(texts) else 0
-    assert local(texts, dict(zip((X, Y, Z), at, strict=True)), rigid) == dimension
-
-
-@pytest.mark.parametrize(
-    ("form", "signature"),
-    [
-        ([[1, 0], [0, 1]], (2, 0)),
-        ([[0, 1], [1, 0]], (1, 1)),
-        ([[1, 2], [2, 4]], (1, 0)),
-        ([[-3, 1], [1, -3]], (0, 2)),
-        ([[0, 0], [0, 0]], (0, 0)),
-    ],
-)
-def test_signatures(form: list[list[int]], signature: tuple[int, int]) -> None:
-    assert signature_of([[arb(v) for v in row] for row in form]) == signature
 
 
 # Redundancy

@@ -57,10 +57,10 @@ def _kind(cls: type[ConstraintBase]) -> str:
     return str(get_args(cls.model_fields["type"].annotation)[0])
 
 
-def labelled(vector: Vec, label: str = "{}") -> Iterator[Relation]:
+def labelled(vector: Vec, label: str = "{}", about: Vec = ()) -> Iterator[Relation]:
     """One relation a component, named ``x``, ``y``, ``z`` within ``label``."""
     for letter, part in zip("xyz", vector, strict=False):
-        yield Relation(part, part=label.format(letter))
+        yield Relation(part, part=label.format(letter), vector=about)
 
 
 def meet(world: World, first: Placed, second: Placed, *where: str | int) -> None:

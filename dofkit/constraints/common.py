@@ -61,7 +61,7 @@ class Prismatic(Driven):
         axis = self.directed(world)
         yield from parallel(first, second)
         for across in axis.across:
-            yield Relation(shift(first, second, across)[0], part="across")
+            yield Relation(shift(first, second, across)[0], part="across", vector=across)
         for law in self.driven(world):
             yield held(shift(first, second, axis.vector), axis, law)
 

@@ -76,6 +76,7 @@ def distance(world: World, first: Placed, second: Placed, given: Expr | None) ->
             world.warnings.append(f"the points {first.label} and {second.label} of a link are drawn at one place")
     else:
         squared = world.fresh("L")
+    world.apart(first, second, squared)
     if drawn is not None and first.frame is not None and first.frame == second.frame:
         return difference(drawn, squared)
     arm, under = between(first, second)
@@ -121,7 +122,7 @@ class Rigid(ConstraintBase):
             placed.append(world.particle(member, "members", i))
         for first, second in combinations(placed, 2):
             world.links.append((int(world.here[-1]), first.label, second.label))
-            yield Relation(distance(world, first, second, None), part=f"{first.label}-{second.label}")
+            yield Relation(distance(world, first, second, None), part=f"length {first.label}-{second.label}")
 
     def notes(self, world: World) -> Iterator[str]:
         n, d = len(self.members), world.dimension
@@ -167,6 +168,9 @@ class String(ConstraintBase):
                 _check_string(world, given, total)
         else:
             given = world.fresh("L") if total is None else total
+        for first, second in combinations(points, 2):
+            if first.label != second.label:
+                world.apart(first, second, power(given, TWO), at_most=True)
         yield Relation(difference(add(*parts), given))
 
     def texts(self) -> Iterator[str]:

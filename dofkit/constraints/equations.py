@@ -92,7 +92,7 @@ class On(ConstraintBase):
             point = world.point(member, "members", i)
             stands = {coordinate(letter): part for letter, part in zip(letters, _position(point), strict=True)}
             for j, (e, sense) in enumerate(read):
-                part = show_point(member) + (f", text {j + 1}" if len(read) > 1 else "")
+                part = f"at {show_point(member)}" + (f", text {j + 1}" if len(read) > 1 else "")
                 yield Relation(substitute(e, stands), sense, part)
 
     def notes(self, world: World) -> Iterator[str]:

@@ -99,7 +99,7 @@ class Driven(Axial):
 
 def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:
     """X2 - X1 = 0 for the material points at ``place``: d relations."""
-    yield from labelled(between(first.point(place), second.point(place))[0], "point {}")
+    yield from labelled(between(first.point(place), second.point(place))[0], "point {}", place)
 
 
 def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
@@ -108,7 +108,7 @@ def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
     carried = first.carry(axis.vector) if turned is None else ()
     for across in axis.across:
         e = dot(carried, second.carry(across)) if turned is None else dot(turned[1], across)
-        yield Relation(e, part="axis")
+        yield Relation(e, part="axis", vector=across)
 
 
 def parallel(first: Frame, second: Frame) -> Iterator[Relation]:
@@ -119,12 +119,11 @@ def parallel(first: Frame, second: Frame) -> Iterator[Relation]:
     if first.dimension == 2:
         yield Relation(difference(second.angle, first.angle), part="angle")
     elif first.gibbs is not None and second.gibbs is not None:
-        for part in minus(second.gibbs, first.gibbs):
-            yield Relation(part, part="orientation")
+        yield from labelled(minus(second.gibbs, first.gibbs), "orientation {}")
     else:
-        for i, j in ((0, 1), (1, 2), (2, 0)):
+        for i, j, about in ((0, 1, "z"), (1, 2, "x"), (2, 0, "y")):
             e = dot(first.carry(unit(i, 3)), second.carry(unit(j, 3)))
-            yield Relation(e, part="orientation")
+            yield Relation(e, part=f"orientation {about}")
 
 
 def carrier(first: Frame, second: Frame) -> Frame:

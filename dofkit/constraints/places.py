@@ -55,8 +55,11 @@ class Fixed(ConstraintBase):
 def _hold(frame: Frame) -> Iterator[Relation]:
     """Position at its reference value, and the rotation the identity."""
     yield from labelled(minus(frame.position, frame.start))
+    if frame.chart == "gibbs":
+        yield from labelled(tuple(coordinate(name) for name in frame.angles), "orientation {}")
+        return
     for name, start in zip(frame.angles, frame.initial, strict=True):
-        yield Relation(difference(coordinate(name), ZERO if frame.chart == "gibbs" else start), part=name)
+        yield Relation(difference(coordinate(name), start), part="angle" if frame.chart == "plane" else f"angle {name}")
 
 
 class Coincident(ConstraintBase):
@@ -73,6 +76,7 @@ class Coincident(ConstraintBase):
             world.fault(f"{told} cannot be joined to itself", "between", 1, hint=hint)
             return
         meet(world, first, second, "between")
+        world.apart(first, second, ZERO)
         yield from labelled(between(first, second)[0])
 
     @property
@@ -107,7 +111,7 @@ class Slot(ConstraintBase):
             world.drawn.add(frame.name)
         _check_on_line(world, point, place, axis)
         for across in axis.across:
-            yield Relation(along(frame, point, place, across), part="across")
+            yield Relation(along(frame, point, place, across), part="across", vector=across)
 
     @property
     def shown(self) -> str:

@@ -76,7 +76,7 @@ class Gear(Joint):
     dimensions: ClassVar[tuple[int, ...]] = (2,)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
-        ratio = world.fixed(self.ratio, "ratio")
+        ratio = world.asked.number = world.fixed(self.ratio, "ratio")
         if ratio.is_zero:
             world.fault("a gear ratio cannot be 0", "ratio")
         one, other = first.angle, second.angle

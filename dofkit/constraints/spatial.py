@@ -32,7 +32,7 @@ def coaxial(first: Frame, second: Frame, place: Vec, axis: Direction) -> Iterato
     """The axis stays one line: 2 relations for its direction, 2 for its place."""
     yield from aligned(first, second, axis)
     for across in axis.across:
-        yield Relation(slide(first, second, place, across)[0], part="across")
+        yield Relation(slide(first, second, place, across)[0], part="across", vector=across)
 
 
 class Cylindrical(Driven):
@@ -63,7 +63,7 @@ class Screw(Driven):
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         place, axis = world.place(self.at, "at"), self.directed(world)
-        pitch = world.fixed(self.pitch, "pitch")
+        pitch = world.asked.number = world.fixed(self.pitch, "pitch")
         yield from coaxial(first, second, place, axis)
         moved, under = slide(first, second, place, axis.vector)
         advance = mul(pitch, angle_of(first, second, axis)) / (2 * PI)
@@ -142,4 +142,4 @@ class Planar(Axial):
             world.place(self.at, "at")
         axis = self.directed(world)
         yield from aligned(first, second, axis)
-        yield Relation(shift(first, second, axis.vector)[0], part="distance")
+        yield Relation(shift(first, second, axis.vector)[0], part="distance", vector=axis.vector)

@@ -222,7 +222,7 @@ class RealSearch:
         for _ in range(steps):
             check()
             try:
-                f, j = self._float_system(symbols, seed)
+                f, j = self.float_system(symbols, seed)
             except (ValueError, ZeroDivisionError, OverflowError):
                 return None
             reach = max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
@@ -242,7 +242,7 @@ class RealSearch:
                 symbols[u] += float(s)
         return j if previous < 1e-13 else None
 
-    def _float_system(self, symbols: Mapping[Expr, float], seed: int) -> tuple[np.ndarray, np.ndarray]:
+    def float_system(self, symbols: Mapping[Expr, float], seed: int) -> tuple[np.ndarray, np.ndarray]:
         point = FloatPoint(symbols, seed)
         at = values(self.ring, point, self.upto)
         f = np.array([at[n] for n in self.nodes], dtype=float)

@@ -78,6 +78,7 @@ def _rows(report: Report) -> Iterator[tuple[str, Text]]:
         yield "where it errs", Text(safe(report.count.errs), "yellow")
     for label, number, means in _numbers(report):
         yield label, Text.assemble((number, "bold"), f"  {means}")
+    yield from _beside(report)
     words = [_label(report.holonomic, "holonomic"), _label(report.scleronomic, "scleronomic")]
     yield "the system", Text(", ".join(words))
     if report.generalized_coordinates:
@@ -88,6 +89,18 @@ def _rows(report: Report) -> Iterator[tuple[str, Text]]:
     if part is not None and part.rank and part.basis:
         yield "integrable part", Text(f"{safe(', '.join(part.basis))} (and what is finite as written)")
     yield "verdict", Text(report.verdict, _STYLES[report.verdict])
+
+
+def _beside(report: Report) -> Iterator[tuple[str, Text]]:
+    """The counts beside the report's own, where they tell something else."""
+    mobility, generic = report.mobility, report.generic
+    if mobility is not None and (mobility.differs or mobility.kutzbach != report.count.naive_dof):
+        yield "Gruebler-Kutzbach", Text(safe(mobility.formula), "bold")
+        if mobility.differs:
+            yield "where it errs", Text(safe(mobility.differs), "yellow")
+    if generic is not None and generic.differs:
+        means = f"  degrees of freedom in general position; {safe(generic.differs)}"
+        yield "generic", Text.assemble((_number(generic.dof), "bold"), means)
 
 
 def _counted(report: Report) -> Text:

@@ -12,7 +12,7 @@ from dofkit.expr import Expr
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Report
 from dofkit.special.reals import Leaf, Reals
 from dofkit.special.wording import tuple_of
-from dofkit.system import Constraint, Relation, Sign, System
+from dofkit.system import Constraint, Sign, System
 
 Values = Mapping[Expr, Expr]
 #: Labels whose change is told, after the change to holonomic.
@@ -110,7 +110,7 @@ def at_values(system: System, values: Values) -> System:
         return ex.substitute(e, values)
 
     constraints = tuple(
-        Constraint(c.name, c.type, c.text, tuple(Relation(put(r.expr), r.sense, r.part) for r in c.relations), c.notes)
+        Constraint(c.name, c.type, c.text, tuple(replace(r, expr=put(r.expr)) for r in c.relations), c.notes)
         for c in system.constraints
     )
     gone = {str(s.args[1]) for s in values}

@@ -1,0 +1,260 @@
+"""Given geometry: the count in general position and Gruebler's and Kutzbach's, beside the truth; expected by hand."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import dofkit
+from dofkit.constraints import TYPES
+from dofkit.exact.sparse import rank_of_rows
+from dofkit.lowering import lower
+from dofkit.placed import drawn
+from dofkit.report import Report
+from dofkit.scene import Scene
+from dofkit.system import System
+from dofkit.twists import KINDS, rows_of
+
+SCENES = Path(__file__).parent / "scenes"
+
+
+@cache
+def told(name: str) -> Report:
+    """The report of a scene of the tests or of the catalog."""
+    found = sorted(SCENES.glob(f"*/{name}.yaml"))
+    return dofkit.classify(dofkit.load(found[0] if found else name))
+
+
+# Gruebler's and Kutzbach's count. M by hand from N, j and the freedoms of the joints.
+
+COUNTS = [
+    # scene, N, j, M = D(N - 1 - j) + sum f, truth
+    ("bennett-exact", 4, 4, 6 * (4 - 1 - 4) + 4, 1),
+    ("sarrus-linkage", 6, 6, 6 * (6 - 1 - 6) + 6, 1),
+    ("bricard-orthogonal", 6, 6, 6 * (6 - 1 - 6) + 6, 1),
+    ("goldberg-5r", 5, 5, 6 * (5 - 1 - 5) + 5, 1),
+    ("parallelogram-three-cranks", 2, 3, 3 * (2 - 1 - 3) + 3 * 2, 1),
+    ("four-cranks-parallel", 6, 8, 3 * (6 - 1 - 8) + 8, 1),
+    ("door-two-hinges", 2, 2, 6 * (2 - 1 - 2) + 2, 1),
+    ("door-three-hinges", 2, 3, 6 * (2 - 1 - 3) + 3, 1),
+    ("four-bar-in-space", 4, 4, 6 * (4 - 1 - 4) + 4, 1),
+    ("spherical-four-bar", 4, 4, 6 * (4 - 1 - 4) + 4, 1),
+    ("rssr-linkage", 4, 4, 6 * (4 - 1 - 4) + 1 + 3 + 3 + 1, 2),
+    ("four-bar-driven-crank", 4, 4, 3 * (4 - 1 - 4) + 4 - 1, 0),
+]
+
+
+@pytest.mark.parametrize(("name", "links", "joints", "kutzbach", "truth"), COUNTS, ids=[row[0] for row in COUNTS])
+def test_kutzbach_beside_the_truth(name: str, links: int, joints: int, kutzbach: int, truth: int) -> None:
+    found = told(name).mobility
+    assert found is not None
+    assert (found.links, found.joints, found.kutzbach, found.freedom) == (links, joints, kutzbach, truth)
+    assert found.formula.endswith(f"= {kutzbach}")
+    assert (found.differs is None) == (kutzbach == truth)
+
+
+@pytest.mark.parametrize(
+    ("name", "span"),
+    [
+        ("bennett-exact", 3),  # four hinges, one freedom: 4 - 3
+        ("sarrus-linkage", 5),  # six hinges: 6 - 5
+        ("bricard-orthogonal", 5),
+        ("four-bar-in-space", 3),  # motions parallel to a plane
+        ("spherical-four-bar", 3),  # rotations about a point
+        ("door-two-hinges", 1),  # one and the same screw twice
+    ],
+)
+def test_why_kutzbach_errs_is_the_span_of_the_screws(name: str, span: int) -> None:
+    found = told(name).mobility
+    assert found is not None
+    assert found.differs is not None
+    assert f"span {span} dimensions" in found.differs
+    assert f"with {span} for 6" in found.differs
+
+
+def test_what_is_counted_besides_joints_is_said() -> None:
+    scene = {
+        "dimension": 2,
+        "bodies": ["rod"],
+        "particles": [{"name": "A", "at": [2, 0]}],
+        "constraints": [
+            {"type": "revolute", "between": ["ground", "rod"], "at": [0, 0]},
+            {"type": "link", "between": ["A", {"on": "rod", "at": [1, 0]}]},
+        ],
+    }
+    found = dofkit.classify(dofkit.load(scene)).mobility
+    assert found is not None
+    # one hinge, two coordinates of A, the link: 3(2 - 1 - 1) + 1 + 2 - 1
+    assert found.kutzbach == found.freedom == 2
+    assert "2 per particle" in found.formula
+    assert "other equations" in found.formula
+
+
+def test_a_scene_without_joints_has_no_kutzbach_count() -> None:
+    assert told("double-banana").mobility is None
+
+
+# General position
+
+GENERIC = [
+    # scene, dof in general position, redundant there, instantaneous dof at the drawing, a word of the reason
+    ("door-two-hinges", 0, 4, 1, "on one line"),
+    ("four-bar-in-space", 0, 2, 1, "parallel"),
+    ("spherical-four-bar", 0, 2, 1, "meet in one point"),
+    ("cardan-joint", 0, 2, 1, "meet in one point"),
+    ("bennett-exact", 0, 2, 1, "overconstrained"),
+    ("sarrus-linkage", 0, 0, 1, "A1, A2 and A3 are parallel"),
+    ("parallelogram-three-cranks", 0, 0, 1, "crank1, crank2 and crank3 are parallel"),
+    ("three-bars-through-one-point", 0, 0, 1, "meet in one point"),
+    ("collinear-one-one-two", 3, 0, 4, "A, B, C lie on one line"),
+    ("k33-on-circle", 3, 0, 4, "one conic"),
+    ("prism-of-two-triangles-parallel", 3, 0, 4, "ad, be and cf are parallel"),
+    ("rhombus-folded", 1, 0, 2, "at one place"),
+    ("four-bar-linkage", 1, 0, 1, None),
+    ("double-banana", 7, 1, 7, None),  # Maxwell's count would say 6
+    ("braced-square", 3, 1, 3, None),
+]
+
+
+@pytest.mark.parametrize(("name", "dof", "redundant", "here", "why"), GENERIC, ids=[row[0] for row in GENERIC])
+def test_general_position_beside_the_drawing(name: str, dof: int, redundant: int, here: int, why: str | None) -> None:
+    report = told(name)
+    found = report.generic
+    assert found is not None
+    assert (found.dof, found.redundant_equations, report.instantaneous_dof) == (dof, redundant, here)
+    if why is None:
+        assert found.differs is None
+    else:
+        assert found.differs is not None
+        assert why in found.differs
+
+
+def test_points_in_one_plane_of_space() -> None:
+    """A joint held by three links to the ground in one plane can move across it, to first order."""
+    scene = {
+        "particles": [{"name": "A", "at": [0, 0, 0]}],
+        "constraints": [
+            {"type": "link", "between": ["A", [3, 0, 0]]},
+            {"type": "link", "between": ["A", [0, 4, 0]]},
+            {"type": "link", "between": ["A", [-1, -2, 0]]},
+        ],
+    }
+    report = dofkit.classify(dofkit.load(scene))
+    assert report.generic is not None
+    assert report.generic.differs is not None
+    assert (report.generic.dof, report.instantaneous_dof) == (0, 1)
+    assert "lie in one plane" in report.generic.differs
+
+
+# Redundant equations by name: of a dependent set the last written
+
+EQUATIONS = [
+    # The plate turns about y by one chain and about x by the other, so about z by none.
+    ("sarrus-linkage", {"B3": ["no rotation about (0, 0, 1)"]}),
+    # A plane mechanism: that the last hinge stays in the plane and upright follows from the three before.
+    (
+        "four-bar-in-space",
+        {
+            "D": [
+                "no displacement along z of the common point (5, 0, 0)",
+                "no rotation about (1, 0, 0)",
+                "no rotation about (0, 1, 0)",
+            ]
+        },
+    ),
+    # The lower hinge leaves the turn about z; only the upper's distance from that axis is a new condition: none.
+    (
+        "door-two-hinges",
+        {
+            "upper": [
+                *(f"no displacement along {axis} of the common point (0, 0, 2)" for axis in "xyz"),
+                "no rotation about (1, 0, 0)",
+                "no rotation about (0, 1, 0)",
+            ]
+        },
+    ),
+    # With the hinge off the axis by 1/10 along x, the turn about z moves it along y: that equation is needed.
+    (
+        "door-hinges-out-of-line",
+        {
+            "upper": [
+                "no displacement along x of the common point (1/10, 0, 2)",
+                "no displacement along z of the common point (1/10, 0, 2)",
+                "no rotation about (1, 0, 0)",
+                "no rotation about (0, 1, 0)",
+            ]
+        },
+    ),
+    # Six distances of four points in the plane: 2 * 4 - 3 are independent.
+    ("complete-framework-4-points-in-2d", {"rigid": ["the distance C-D"]}),
+]
+
+
+@pytest.mark.parametrize(("name", "expected"), EQUATIONS, ids=[row[0] for row in EQUATIONS])
+def test_redundant_equations_are_named(name: str, expected: dict[str, list[str]]) -> None:
+    entries = told(name).constraints
+    assert {e.name: e.redundant_equations for e in entries if e.redundant_equations} == expected
+    assert all(e.redundant_equations == [] for e in entries if e.name not in expected)
+    for entry in entries:
+        if entry.name in expected and entry.equations > 1:
+            assert expected[entry.name][-1] in entry.reason
+
+
+def test_texts_keep_what_they_say_in_general_position() -> None:
+    """A bead on a circle, and a rod from it to a bead on a line: 2 + 2 - 3, anywhere."""
+    scene = {
+        "dimension": 2,
+        "particles": [{"name": "A", "at": [0, 1]}, {"name": "B", "at": [2, 0]}],
+        "constraints": ["x_A^2 + y_A^2 = 1", "y_B = 0", {"type": "link", "between": ["A", "B"]}],
+    }
+    found = dofkit.classify(dofkit.load(scene)).generic
+    assert found is not None
+    assert (found.dof, found.redundant_equations, found.differs) == (1, 0, None)
+
+
+def test_without_a_drawing_there_is_no_general_position_beside_it() -> None:
+    scene = {"dimension": 2, "particles": ["A", "B"], "constraints": [{"type": "link", "between": ["A", "B"]}]}
+    assert dofkit.classify(dofkit.load(scene)).generic is None
+
+
+# The velocities of connections, written without angles, against those of the engines
+
+
+def drawn_rank(system: System) -> int | None:
+    """The rank of all connections' relations between twists, where they are drawn."""
+    placement = drawn(system, frozenset())
+    assert placement is not None
+    p = placement.p
+    rows = []
+    for found in placement.located:
+        own = rows_of(found, system.dimension)
+        if own is None:
+            return None
+        rows += [{c: v % p for c, v in row.items() if v % p} for row in own]
+    return rank_of_rows(rows, p)
+
+
+def expected() -> list[Any]:
+    """Scenes that say what the first order is where all is drawn exactly."""
+    found = []
+    for path in sorted(SCENES.glob("mechanisms/*.yaml")) + sorted(SCENES.glob("textbook/*.yaml")):
+        scene = dofkit.load(path)
+        geometric = all(c.kind() in KINDS for c in scene.constraints)
+        if geometric and scene.tolerance is None and scene.expect.get("instantaneous_dof") is not None:
+            found.append(pytest.param(scene, id=path.stem))
+    return found
+
+
+@pytest.mark.parametrize("scene", expected())
+def test_twists_have_the_rank_of_the_coordinates(scene: Scene) -> None:
+    system = lower(scene)
+    rank = drawn_rank(system)
+    assert rank is not None
+    assert len(system.coordinates) - rank == scene.expect["instantaneous_dof"]
+
+
+def test_every_type_is_known_as_a_connection_or_as_a_text() -> None:
+    assert KINDS | {"equation", "on", "string", "roll"} == set(TYPES)
