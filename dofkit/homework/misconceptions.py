@@ -17,11 +17,15 @@ Numbers = Iterator[int | Fraction]
 
 
 class Misconception(NamedTuple):
-    """An error: its stable ``code``, the ``hint`` for who made it, and the numbers f that it ``predicts``."""
+    """An error: its stable ``code``, the ``hint`` for who made it, and the numbers f that it ``predicts``.
+
+    ``anyway``: it gives this number whichever freedom is asked for.
+    """
 
     code: str
     hint: str
     predicts: Callable[[Facts], Numbers]
+    anyway: bool = False
 
 
 def _all_links(f: Facts) -> Numbers:
@@ -158,7 +162,7 @@ ERRORS: tuple[Misconception, ...] = (
                   "than their count says: they stay in line.", _rod_three),
     Misconception("NH_SUBTRACT", "A non-holonomic constraint ties velocities only: it leaves all configurations within "
                   "reach and does not reduce the dimension of the configuration space.", _nh_subtract),
-    Misconception("NH_HALF", "A non-holonomic constraint does not take half a degree of freedom away.", _nh_half),
+    Misconception("NH_HALF", "A non-holonomic constraint does not take half a degree of freedom away.", _nh_half, True),
     Misconception("ROLL_NH", "This differential constraint integrates to a relation between coordinates, which counts.",
                   _roll_nh),
     Misconception("INEQ_SUBTRACT", "An inequality bounds the motion but takes no degree of freedom away.", _walls),
@@ -203,7 +207,7 @@ def explain(given: Fraction, ask: str, key: Key) -> tuple[tuple[str, ...], str]:
         wanted += facts.nonholonomic
     if wanted == right:
         return (), ""
-    found = [m for m in ERRORS if wanted in set(m.predicts(facts))]
+    found = [m for m in ERRORS if (given if m.anyway and ask != "k" else wanted) in set(m.predicts(facts))]
     return tuple(m.code for m in found), found[0].hint if found else ""
 
 

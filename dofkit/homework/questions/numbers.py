@@ -41,6 +41,10 @@ class NumberQuestion(QuestionBase):
         del key
         return None
 
+    def clash(self, key: Key) -> str:
+        """What to say of the other convention's number."""
+        return _CONVENTIONS[key.convention]
+
     def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
         """Numbers that would be right if what was answered before were."""
         del key, earlier
@@ -69,7 +73,7 @@ class NumberQuestion(QuestionBase):
             why = "It follows from your earlier answer, which is wrong: half of the points."
             return partly(HALF, shown, why, CARRIED, *codes)
         if given == self.other(key):
-            return wrong(shown, _CONVENTIONS[key.convention], OTHER_CONVENTION, *codes)
+            return wrong(shown, self.clash(key), OTHER_CONVENTION, *codes)
         return wrong(shown, told, *codes)
 
 
@@ -96,6 +100,12 @@ class VelocityDof(NumberQuestion):
 
     def truth(self, key: Key) -> int | None:
         return key.report.velocity_dof
+
+    def other(self, key: Key) -> int | None:
+        return key.report.dof
+
+    def clash(self, key: Key) -> str:
+        return "This is the dimension of the configuration space; the number of independent velocities is asked for."
 
     def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
         dof, velocity_dof = key.report.dof, key.report.velocity_dof
