@@ -17,6 +17,8 @@ from dofkit.errors import DofkitError, SceneError, TextError
 if TYPE_CHECKING:
     from dofkit.catalog import catalog_names, catalog_text
     from dofkit.classify import classify, derived_flag
+    from dofkit.homework.assignment import load_assignment
+    from dofkit.homework.grading import grade
     from dofkit.linkage import Linkage, linkage, redundant_links
     from dofkit.reading import load, loads
     from dofkit.report import Report
@@ -35,8 +37,10 @@ __all__ = [
     "catalog_text",
     "classify",
     "derived_flag",
+    "grade",
     "linkage",
     "load",
+    "load_assignment",
     "loads",
     "redundant_links",
 ]
@@ -50,8 +54,10 @@ _HOMES = {
     "catalog_text": "dofkit.catalog",
     "classify": "dofkit.classify",
     "derived_flag": "dofkit.classify",
+    "grade": "dofkit.homework.grading",
     "linkage": "dofkit.linkage",
     "load": "dofkit.reading",
+    "load_assignment": "dofkit.homework.assignment",
     "loads": "dofkit.reading",
     "redundant_links": "dofkit.linkage",
 }

@@ -8,12 +8,13 @@ import os
 import sys
 from collections.abc import Iterable
 from contextlib import closing
+from pathlib import Path
 from typing import Annotated, Any, cast
 
 import typer
 
 from dofkit import __version__
-from dofkit.errors import Fault, SceneError
+from dofkit.errors import DofkitError, Fault, SceneError
 from dofkit.methods import METHODS, MethodName
 
 app = typer.Typer(
@@ -24,10 +25,12 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
+assignment_app = typer.Typer(help="Write assignments.", no_args_is_help=True, rich_markup_mode=None)
 catalog_app = typer.Typer(
     help="List the scenes of the catalog, or show one.", invoke_without_command=True, rich_markup_mode=None
 )
 app.add_typer(catalog_app, name="catalog")
+app.add_typer(assignment_app, name="assignment")
 
 #: The exit status where something could not be read, and after Ctrl-C.
 UNREADABLE, INTERRUPTED = 2, 130
@@ -88,6 +91,58 @@ def classify(files: Files, as_json: AsJson = False, budget: Budget = None, metho
         raise typer.Exit(UNREADABLE)
 
 
+@app.command()
+def grade(
+    assignment: Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="What was handed out: YAML or JSON.")],
+    submissions: Annotated[
+        list[str],
+        typer.Argument(metavar="SUBMISSION...", help="YAML, JSON, JSON lines, CSV, folders of these, - for stdin."),
+    ],
+    form: Annotated[
+        str, typer.Option("--format", metavar="NAME", help="native, or what a gradebook reads.")
+    ] = "native",
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="PATH", help="Where to write; an interrupted run goes on where it stopped."),
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option("--workers", metavar="N", min=1, help="Processes; by default one for each core.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A Dask cluster that does the work.")
+    ] = None,
+    check_only: Annotated[
+        bool, typer.Option("--check-only", help="Tell how every answer is read, and grade none.")
+    ] = False,
+) -> None:
+    """Grade submissions: a result for each, in the order given."""
+    from dofkit.homework.run import Options, run
+
+    try:
+        clean = run(assignment, submissions, Options(form, out, workers, scheduler, check_only))
+    except (DofkitError, OSError) as error:
+        if isinstance(error, BrokenPipeError):
+            raise
+        _fail(assignment, error)
+        raise typer.Exit(UNREADABLE) from None
+    if not clean:
+        raise typer.Exit(UNREADABLE)
+
+
+@assignment_app.command("new")
+def assignment_new(
+    scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Paths or catalog names.")],
+) -> None:
+    """Print a starting assignment: all the questions that the scenes can be asked."""
+    from dofkit.homework.starting import starting
+
+    try:
+        typer.echo(starting(scenes), nl=False)
+    except SceneError as error:
+        _complain(error.source or "assignment", error.faults)
+        raise typer.Exit(UNREADABLE) from None
+
+
 @catalog_app.callback()
 def catalog(context: typer.Context, as_json: AsJson = False) -> None:
     """List the names of the catalog's scenes, one a line; with their titles on a terminal."""
@@ -132,6 +187,12 @@ def _complain(file: str, faults: Iterable[Fault]) -> None:
 
     sys.stdout.flush()
     typer.echo(complaint(file, tuple(faults), None), err=True)
+
+
+def _fail(file: str, error: DofkitError | OSError) -> None:
+    """Tell why nothing was done."""
+    faults = getattr(error, "faults", None) or (Fault(str(error)),)
+    _complain(getattr(error, "source", None) or file, faults)
 
 
 def _line(value: Any) -> None:

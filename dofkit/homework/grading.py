@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Iterator, Mapping
 from fractions import Fraction
-from typing import Any
+from typing import Any, cast
 
-from dofkit.deadline import OutOfTimeError, limited
+from dofkit.deadline import OutOfTimeError, by_processor
 from dofkit.errors import TextError
 from dofkit.homework.assignment import Prepared, Problem
 from dofkit.homework.judgement import NOTHING, Given, Judgement, needs_review
@@ -15,27 +15,47 @@ from dofkit.homework.result import Item, Result
 from dofkit.homework.submission import Submission
 from dofkit.values import nearest
 
-#: Seconds for one answer; what is not decided then needs a review.
+#: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
-#: Answers that are remembered.
-MOST_REMEMBERED = 50_000
+#: Answers that are remembered, each of at most so many characters.
+MOST_REMEMBERED, LONGEST_REMEMBERED = 10_000, 4000
+
+#: An answer to judge, as a text: its problem, its question, what it says, and the numbers that it may follow from.
+Spot = str
 
 
 class Grader:
-    """Grades submissions of one assignment; the same answer is judged once."""
+    """Grades submissions of one assignment; the same answer is judged once.
 
-    def __init__(self, prepared: Prepared, seconds: float = ANSWER_SECONDS) -> None:
+    ``condemned``: why answers are not to be judged, such as those that broke a worker; they need a review.
+    """
+
+    def __init__(
+        self, prepared: Prepared, seconds: float = ANSWER_SECONDS, condemned: Mapping[Spot, str] | None = None
+    ) -> None:
         self.prepared = prepared
         self.seconds = seconds
+        self.condemned = {} if condemned is None else condemned
         self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
-        self._known: dict[object, Judgement] = {}
+        self._known: dict[Spot, tuple[Judgement, Fraction | None]] = {}
 
     def grade(self, submission: Submission) -> Result:
         """Every question with what the student answered, in the assignment's order; then what was not asked."""
+        steps = self.steps(submission)
+        while True:
+            try:
+                next(steps)
+            except StopIteration as stop:
+                return cast(Result, stop.value)
+
+    def steps(self, submission: Submission) -> Generator[Spot, None, Result]:
+        """The same, telling of every answer that takes work that it comes next."""
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
-        items = [item for problem in self.prepared.assignment.problems for item in self._problem(problem, submission)]
-        items += _unasked(self.prepared, submission)
+        items: list[Item] = []
+        for problem in self.prepared.assignment.problems:
+            items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
+        items += unasked(self.prepared, submission)
         return self._total(submission.student, items)
 
     def refused(self, student: str, error: str) -> Result:
@@ -49,28 +69,34 @@ class Grader:
             student=student, score=float(score), max_score=float(self.max_score), items=items, needs_review=review
         )
 
-    def _problem(self, problem: Problem, submission: Submission) -> Iterator[Item]:
-        given = submission.answers.get(problem.id, {})
+    def _problem(self, problem: Problem, given: Mapping[str, Given]) -> Generator[Spot, None, list[Item]]:
         earlier: dict[str, Fraction] = {}
+        items: list[Item] = []
         for question in problem.questions:
             answer = given.get(question.id)
-            yield self._item(problem, question, self.judge(problem, question, answer, earlier))
-            number = _number(question, answer)
+            if answer is None or (isinstance(answer, str) and not answer.strip()):
+                items.append(self._item(problem, question, _MISSING))
+                continue
+            spot = _spot(problem, question, answer, earlier)
+            if spot not in self._known and spot not in self.condemned:
+                yield spot
+            found, number = self.judge(spot, problem, question, answer, earlier)
+            items.append(self._item(problem, question, found))
             if number is not None:
                 earlier.setdefault(question.kind(), number)
+        return items
 
     def judge(
-        self, problem: Problem, question: QuestionBase, answer: Given | None, earlier: Mapping[str, Fraction]
-    ) -> Judgement:
-        """What one answer is worth; the same answer after the same earlier ones always the same."""
-        if answer is None or (isinstance(answer, str) and not answer.strip()):
-            return Judgement("missing", NOTHING, feedback="There is no answer.")
-        place = (problem.id, question.id, repr(answer), tuple(sorted(earlier.items())))
-        found = self._known.get(place)
+        self, spot: Spot, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
+    ) -> tuple[Judgement, Fraction | None]:
+        """What an answer is worth, and the number that it gives; after the same earlier ones always the same."""
+        if spot in self.condemned:
+            return needs_review("", self.condemned[spot]), None
+        found = self._known.get(spot)
         if found is None:
-            found = self._judged(problem, question, answer, earlier)
-            if len(self._known) < MOST_REMEMBERED:
-                self._known[place] = found
+            found = self._judged(problem, question, answer, earlier), _number(question, answer)
+            if len(self._known) < MOST_REMEMBERED and len(spot) < LONGEST_REMEMBERED:
+                self._known[spot] = found
         return found
 
     def _judged(
@@ -78,13 +104,17 @@ class Grader:
     ) -> Judgement:
         key = self.prepared.keys[problem.id]
         try:
-            with limited(self.seconds):
+            with by_processor(self.seconds):
                 found = question.judge(answer, key, earlier)
         except TextError as error:
             hint = f" ({error.hint})" if error.hint else ""
             return Judgement("unreadable", NOTHING, "", (), f"{error.message}{hint}", error.column or 1)
         except OutOfTimeError:
             return needs_review("", "the time for it was not enough.")
+        except MemoryError:
+            raise
+        except Exception as error:
+            return needs_review("", f"dofkit failed here ({type(error).__name__}).")
         if self.prepared.assignment.feedback == "full" and found.status in ("wrong", "partly"):
             return found.saying(question.solution(key))
         return found
@@ -103,6 +133,13 @@ class Grader:
         )
 
 
+_MISSING = Judgement("missing", NOTHING, feedback="There is no answer.")
+
+
+def _spot(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]) -> Spot:
+    return repr((problem.id, question.id, answer, *sorted(earlier.items())))
+
+
 def _number(question: QuestionBase, answer: Given | None) -> Fraction | None:
     try:
         return None if answer is None else question.number(answer)
@@ -110,7 +147,7 @@ def _number(question: QuestionBase, answer: Given | None) -> Fraction | None:
         return None
 
 
-def _unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
+def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
     """Answers to questions that were not asked: they count nothing, and say what was meant."""
     asked: dict[str, list[str]] = {}
     for problem, question in prepared.questions():

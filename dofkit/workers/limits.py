@@ -43,6 +43,12 @@ def allow(seconds: float) -> None:
         _set(resource.RLIMIT_CPU, until)
 
 
+def allow_processor(seconds: float) -> None:
+    """Let this process use so many more seconds of processor time; then the system ends it."""
+    if sys.platform != "win32":
+        _set(resource.RLIMIT_CPU, math.ceil(time.process_time() + seconds))
+
+
 def grown(memory: int) -> bool:
     """Does this process hold much of the memory that it may have? False where the system does not say.
 

@@ -11,6 +11,7 @@ from queue import LifoQueue
 from types import TracebackType
 
 from dofkit.workers.job import Job, Outcome
+from dofkit.workers.processes import can_fork
 from dofkit.workers.worker import MEMORY, Worker
 
 #: Jobs taken from a stream ahead of the workers, for each of them.
@@ -25,6 +26,15 @@ class Pool:
         self._free: LifoQueue[Worker] = LifoQueue()
         for worker in self.workers:
             self._free.put(worker)
+
+    def fork(self) -> None:
+        """Start all workers as copies of this process, where that is safe: in milliseconds, with all it has imported.
+
+        Before any of them is used: their links are threads, beside which nothing is forked.
+        """
+        if can_fork():
+            for worker in self.workers:
+                worker.fork()
 
     def run(self, job: Job) -> Outcome:
         """Do one job, as soon as a worker is free: the one that was used last, which is warm."""

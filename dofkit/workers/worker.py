@@ -37,6 +37,11 @@ class Worker:
         self._owner = os.getpid()
         self._lock = threading.Lock()
         self._link: _Link | None = None
+        self._begun: Process | None = None
+
+    def fork(self) -> None:
+        """Start now, as a copy of this process; what replaces it later is a fresh Python all the same."""
+        self._begun = Forked(self.memory, self.modules)
 
     def run(self, job: Job) -> Outcome:
         """Do one job; threads wait for each other. Never raises for what the job does; it is tried once."""
@@ -60,17 +65,22 @@ class Worker:
         link, self._link = self._link, None
         if link is not None:
             link.end()
+        begun, self._begun = self._begun, None
+        if begun is not None:
+            begun.kill()
+            begun.close()
 
     def _forget(self) -> None:
         """In a fork of the process that started it: that one's worker is left to it."""
-        self._owner, self._lock, self._link = os.getpid(), threading.Lock(), None
+        self._owner, self._lock, self._link, self._begun = os.getpid(), threading.Lock(), None, None
 
     def _started(self) -> _Link | Outcome:
         if self._link is not None and self._link.process.poll() is not None:
             self.kill()
         if self._link is None:
             try:
-                link = _Link(self._new(self.memory, self.modules))
+                begun, self._begun = self._begun, None
+                link = _Link(begun or self._new(self.memory, self.modules))
             except OSError as error:
                 return Outcome(None, "absent", f"no worker process could be started ({error})")
             self._link, link.finalizer = link, weakref.finalize(self, link.end)
