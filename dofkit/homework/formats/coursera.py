@@ -1,0 +1,49 @@
+"""Coursera's ``feedback.json``: a share of the points, and a text.
+
+Coursera takes a number and nothing else, and has no review by a person. So that an answer that could not be decided is
+neither zero nor full marks there, half of its points stand in for it, and the text begins with saying so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.formats.base import Format, Target
+from dofkit.homework.formats.documents import write_documents
+from dofkit.homework.formats.wording import feedback, number, open_points
+from dofkit.homework.result import Result
+
+#: The share of its points that stands for an open answer where a number has to stand.
+OPEN_SHARE = 0.5
+
+
+def provisional(result: Result) -> float:
+    """The points with those that stand in for what is open; no less than 0 and no more than there are."""
+    score = (result.score or 0.0) + OPEN_SHARE * open_points(result)
+    return min(max(float(score), 0.0), result.max_score)
+
+
+def document(result: Result) -> dict[str, Any]:
+    """What ``feedback.json`` says of a submission."""
+    told = feedback(result)
+    waiting = open_points(result)
+    if waiting:
+        told = (
+            f"Provisional: {number(OPEN_SHARE * waiting)} points stand in for answers worth {number(waiting)} that "
+            f"could not be decided.\n\n{told}"
+        )
+    return {
+        "fractionalScore": provisional(result) / result.max_score if result.max_score else 0.0,
+        "feedback": told,
+    }
+
+
+def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
+    """One ``feedback.json`` a student."""
+    del prepared
+    write_documents(results, target, document)
+
+
+COURSERA = Format("coursera", write)

@@ -1,0 +1,164 @@
+"""What all formats say alike: points, statuses, and texts that hold whatever a student wrote."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterator
+
+from dofkit.homework.result import Item, Result, Status
+
+#: How a status is told.
+STATUSES: dict[Status, str] = {
+    "right": "right",
+    "partly": "partly right",
+    "wrong": "wrong",
+    "unreadable": "could not be read",
+    "missing": "no answer",
+    "needs_review": "open: waits for review",
+}
+#: Characters that files, terminals or parsers stumble over: controls, halves of surrogate pairs, noncharacters.
+_UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
+#: Characters that turn the direction of what follows them.
+_TURNING = re.compile("[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
+_OTHER_SPACE = re.compile(r"[^\S ]|(?<= ) |[\u00ad\u200b-\u200d\u2060\ufeff]")
+_AROUND = re.compile("^ +| +$")
+_LINES = re.compile("\r\n?|[\u2028\u2029\u0085]")
+_PLAIN = re.compile(r"[a-z0-9][a-z0-9._@-]{0,59}")
+_MARKED = re.compile(r"(-[0-9a-f]+|\.)$")
+_RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d|index)(\..*)?$")
+
+
+def plain(text: str) -> str:
+    """A text without what cannot be shown: each such character is U+FFFD; marks that turn the direction are left out.
+
+    >>> plain("a\\x00b\\r\\n\\u202ec")
+    'a\ufffdb\\nc'
+    """
+    return _UNPRINTABLE.sub("\ufffd", _TURNING.sub("", _LINES.sub("\n", text)))
+
+
+def line(text: str) -> str:
+    """The same on one line.
+
+    >>> line("one\\n  two\\tthree ")
+    'one two three'
+    """
+    return " ".join(plain(text).split())
+
+
+def identity(student: str) -> str:
+    """A student's name where others are told apart by it: what cannot be shown is never left out.
+
+    Dropped, it would turn the name into another student's.
+
+    >>> identity("Ada B"), identity("ada\u200e"), identity(" ada\\n")
+    ('Ada B', 'ada�', '�ada�')
+    """
+    shown = _OTHER_SPACE.sub("�", _UNPRINTABLE.sub("�", _TURNING.sub("�", student)))
+    return _AROUND.sub(lambda found: "�" * len(found[0]), shown)
+
+
+def number(value: float) -> str:
+    """A number of points: four decimals at most, none that say nothing.
+
+    >>> number(2.0), number(1 / 3), number(0.5), number(0.0)
+    ('2', '0.3333', '0.5', '0')
+    """
+    return f"{value:.4f}".rstrip("0").rstrip(".")
+
+
+def points(item: Item) -> str:
+    """The points of one answer; none are named where they are open."""
+    if item.score is None:
+        return f"open, of {number(item.max_score)}"
+    return f"{number(item.score)} of {number(item.max_score)}"
+
+
+def open_points(result: Result) -> float:
+    """The points of the answers that wait for review."""
+    return sum(item.max_score for item in result.items if item.status == "needs_review")
+
+
+def decided(result: Result) -> bool:
+    """Whether every answer has its points, so that the score is final."""
+    return result.error is None and result.score is not None and not result.needs_review
+
+
+def standing(result: Result) -> str:
+    """How the submission stands, in a sentence or two."""
+    if result.error is not None:
+        return f"This submission could not be graded: {plain(result.error)}"
+    told = f"Points: {number(result.score or 0.0)} of {number(result.max_score)}."
+    if not result.needs_review:
+        return told
+    answers = "1 answer" if result.needs_review == 1 else f"{result.needs_review} answers"
+    waits = "waits" if result.needs_review == 1 else "wait"
+    return (
+        f"So far {number(result.score or 0.0)} of {number(result.max_score)} points are given, which is not final: "
+        f"{answers} worth {number(open_points(result))} points could not be decided automatically and {waits} for "
+        "review by a person."
+    )
+
+
+def told(item: Item) -> str:
+    """What is said of one answer: how it was read, and the feedback."""
+    where = "" if item.column is None else f" (column {item.column})"
+    lines = [f"{STATUSES[item.status].capitalize()}{where}."]
+    if item.read_as:
+        lines.append(f"Read as: {plain(item.read_as)}")
+    if item.feedback:
+        lines.append(plain(item.feedback))
+    return "\n".join(lines)
+
+
+def feedback(result: Result) -> str:
+    """Everything that is said of a submission, as plain text."""
+    return "\n\n".join([standing(result), *_answers(result)])
+
+
+def _answers(result: Result) -> Iterator[str]:
+    for item in result.items:
+        yield f"{title(item)}: {points(item)}. {told(item)}"
+
+
+def title(item: Item) -> str:
+    """The name of an answer, on one line."""
+    return f"{line(item.problem)}.{line(item.question)}"
+
+
+def shortened(text: str, most: int) -> str:
+    """A text of at most ``most`` characters, which says where it is cut.
+
+    >>> shortened("abcdefgh", 5), shortened("abc", 5)
+    ('ab...', 'abc')
+    """
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
+class FileNames:
+    """Names for files, one a submission: never two alike, on any file system, whatever the students are called."""
+
+    def __init__(self) -> None:
+        self._taken: dict[bytes, int] = {}
+
+    def of(self, student: str) -> str:
+        """A name without its ending.
+
+        >>> names = FileNames()
+        >>> names.of("ada"), names.of("ada"), names.of("../../etc").startswith("etc-")
+        ('ada', 'ada-2', True)
+        """
+        name = stem(student)
+        key = hashlib.blake2b(name.encode(), digest_size=8).digest()
+        count = self._taken[key] = self._taken.get(key, 0) + 1
+        return name if count == 1 else f"{name}-{count}"
+
+
+def stem(student: str) -> str:
+    """A file's name for a student: the student's own where that is harmless, else with a mark made from it."""
+    if _PLAIN.fullmatch(student) and not _MARKED.search(student) and not _RESERVED.match(student):
+        return student
+    mark = hashlib.sha256(student.encode("utf-8", "surrogatepass")).hexdigest()[:10]
+    kept = re.sub(r"[^a-z0-9]+", "-", student.lower())[:40].strip("-")
+    return f"{kept or 'student'}-{mark}"

@@ -1,0 +1,438 @@
+"""The forms in which results are written: every field by hand, and whatever a student may be called or write."""
+
+from __future__ import annotations
+
+import csv
+import doctest
+import importlib
+import io
+import json
+from collections.abc import Iterable, Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from dofkit.homework.assignment import Prepared, load_assignment
+from dofkit.homework.formats import FORMATS, FormatError
+from dofkit.homework.formats.cells import MOST_CHARACTERS, cell
+from dofkit.homework.formats.html.overview import Overview
+from dofkit.homework.formats.prairielearn import MOST_BYTES
+from dofkit.homework.formats.wording import FileNames
+from dofkit.homework.result import Item, Result, Status
+
+ROD = {
+    "dimension": 2,
+    "parameters": {"l": "positive"},
+    "particles": ["A"],
+    "constraints": [{"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": "l"}],
+}
+DOCUMENTS = ["gradescope", "prairielearn", "coursera", "lti"]
+MARKUP = "<script>alert(1)</script>"
+FORMULA = "=cmd|'/C calc'!A0"
+
+
+@pytest.fixture(scope="module")
+def prepared() -> Prepared:
+    questions = [
+        {"id": "f", "ask": "dof", "points": 2},
+        {"id": "rod", "ask": "equation", "constraint": "rod", "points": 8},
+    ]
+    return load_assignment({"title": "Sheet 1", "problems": [{"id": "p", "scene": ROD, "questions": questions}]})
+
+
+def item(status: Status, question: str, score: float | None, most: float, **more: Any) -> Item:
+    fields = {"problem": "p", "codes": [], "read_as": "", "feedback": "", **more}
+    return Item(question=question, score=score, max_score=most, status=status, **fields)
+
+
+def result(student: str, *items: Item) -> Result:
+    score = sum(i.score or 0.0 for i in items)
+    review = sum(i.status == "needs_review" for i in items)
+    return Result(student=student, score=score, max_score=10.0, items=list(items), needs_review=review)
+
+
+RIGHT = item("right", "f", 2.0, 2.0, read_as="1")
+PARTLY = item("partly", "rod", 4.0, 8.0, codes=["IRREGULAR"], read_as="x = 0", feedback="It is a square.")
+OPEN = item("needs_review", "rod", None, 8.0, read_as="x_A = 1", feedback="The time was not enough.")
+UNREADABLE = item("unreadable", "rod", 0.0, 8.0, feedback="'zz' is no name.", column=3)
+REFUSED = Result(student="ada", score=None, max_score=10.0, items=[], error="line 3: <b>no</b> JSON")
+
+
+def streamed(name: str, prepared: Prepared, *results: Result) -> str:
+    stream = io.StringIO()
+    FORMATS[name].write(iter(results), prepared, stream)
+    return stream.getvalue()
+
+
+def document(name: str, prepared: Prepared, *results: Result) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(streamed(name, prepared, *results))
+    return found
+
+
+def rows(name: str, prepared: Prepared, *results: Result) -> list[list[str]]:
+    return list(csv.reader(io.StringIO(streamed(name, prepared, *results), newline="")))
+
+
+def test_the_table() -> None:
+    assert list(FORMATS) == ["native", "gradescope", "prairielearn", "coursera", "canvas", "moodle", "lti", "html"]
+    assert [name for name, f in FORMATS.items() if f.name != name] == []
+
+
+@pytest.mark.parametrize("module", ["wording", "cells"])
+def test_documentation(module: str) -> None:
+    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.formats.{module}"))
+    assert outcome.failed == 0
+    assert outcome.attempted > 0
+
+
+def test_gradescope(prepared: Prepared) -> None:
+    assert document("gradescope", prepared, result("ada", RIGHT, PARTLY)) == {
+        "score": 6.0,
+        "output": "Points: 6 of 10.",
+        "output_format": "text",
+        "visibility": "visible",
+        "extra_data": {"student": "ada", "needs_review": 0, "open_points": 0, "error": None},
+        "tests": [
+            {
+                "name": "p.f", "number": "1.1", "score": 2.0, "max_score": 2.0, "status": "passed",
+                "output": "Right.\nRead as: 1", "output_format": "text", "tags": [], "visibility": "visible",
+                "extra_data": {"status": "right", "max_score": 2.0},
+            },
+            {
+                "name": "p.rod", "number": "1.2", "score": 4.0, "max_score": 8.0, "status": "failed",
+                "output": "Partly right.\nRead as: x = 0\nIt is a square.", "output_format": "text",
+                "tags": ["IRREGULAR"], "visibility": "visible",
+                "extra_data": {"status": "partly", "max_score": 8.0},
+            },
+        ],
+    }  # fmt: skip
+
+
+def test_gradescope_leaves_open_answers_without_points(prepared: Prepared) -> None:
+    found = document("gradescope", prepared, result("ada", RIGHT, OPEN))
+    assert found["score"] == 2.0
+    assert found["output"].startswith("So far 2 of 10 points are given, which is not final: 1 answer worth 8 points")
+    assert found["extra_data"]["open_points"] == 8.0
+    assert not {"score", "max_score", "status"} & set(found["tests"][1])
+    assert "The time was not enough." in found["tests"][1]["output"]
+    assert "hidden" not in json.dumps(found)
+
+
+def test_gradescope_of_a_refused_submission(prepared: Prepared) -> None:
+    found = document("gradescope", prepared, REFUSED)
+    assert found["score"] == 0.0
+    assert found["output"] == "This submission could not be graded: line 3: <b>no</b> JSON"
+    assert [test["status"] for test in found["tests"]] == ["failed"]
+
+
+def test_prairielearn(prepared: Prepared) -> None:
+    assert document("prairielearn", prepared, result("ada", RIGHT, PARTLY)) == {
+        "gradable": True,
+        "score": 0.6,
+        "message": "Points: 6 of 10.",
+        "tests": [
+            {"name": "p.f", "description": "Read as: 1", "points": 2.0, "max_points": 2.0,
+             "message": "Right.\nRead as: 1", "output": ""},
+            {"name": "p.rod", "description": "Read as: x = 0", "points": 4.0, "max_points": 8.0,
+             "message": "Partly right.\nRead as: x = 0\nIt is a square.", "output": ""},
+        ],
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("second", "error"),
+    [(UNREADABLE, "p.rod (column 3): 'zz' is no name."), (OPEN, "p.rod: The time was not enough.")],
+)
+def test_prairielearn_takes_no_attempt(second: Item, error: str, prepared: Prepared) -> None:
+    found = document("prairielearn", prepared, result("ada", RIGHT, second))
+    assert found["gradable"] is False
+    assert "score" not in found
+    assert found["format_errors"] == [error]
+    assert all("points" in test and "max_points" in test for test in found["tests"])
+
+
+def test_prairielearn_takes_no_attempt_for_a_refused_submission(prepared: Prepared) -> None:
+    found = document("prairielearn", prepared, REFUSED)
+    assert (found["gradable"], found["format_errors"]) == (False, ["line 3: <b>no</b> JSON"])
+
+
+@pytest.mark.parametrize("status", ["right", "unreadable"])
+def test_prairielearn_stays_below_a_megabyte(status: Status, prepared: Prepared) -> None:
+    long = [item(status, f"q{i}", 1.0, 1.0, read_as="ä" * 2000, feedback="é" * 9000) for i in range(20)]
+    many = [item(status, f"q{i}", 1.0, 1.0, feedback="é" * 10) for i in range(7000)]
+    for items in (long, many):
+        text = streamed("prairielearn", prepared, result("ada", *items))
+        assert len(text.encode()) <= MOST_BYTES
+        assert json.loads(text)["gradable"] is (status == "right")
+
+
+@pytest.mark.parametrize(
+    ("items", "share", "start"),
+    [
+        ((RIGHT, PARTLY), 0.6, "Points: 6 of 10."),
+        ((RIGHT, OPEN), 0.6, "Provisional: 4 points stand in for answers worth 8 that could not be decided."),
+        ((OPEN,), 0.4, "Provisional: "),
+        ((RIGHT, UNREADABLE), 0.2, "Points: 2 of 10."),
+        ((), 0.0, "Points: 0 of 10."),
+    ],
+)
+def test_coursera(items: tuple[Item, ...], share: float, start: str, prepared: Prepared) -> None:
+    found = document("coursera", prepared, result("ada", *items))
+    assert sorted(found) == ["feedback", "fractionalScore"]
+    assert found["fractionalScore"] == pytest.approx(share)
+    assert found["feedback"].startswith(start)
+
+
+def test_nothing_to_be_had_is_no_division(prepared: Prepared) -> None:
+    nothing = Result(student="ada", score=0.0, max_score=0.0, items=[])
+    assert document("coursera", prepared, nothing)["fractionalScore"] == 0.0
+    assert document("prairielearn", prepared, nothing)["score"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("given", "progress", "scores"),
+    [
+        (result("ada", RIGHT, PARTLY), "FullyGraded", {"scoreGiven": 6.0, "scoreMaximum": 10.0}),
+        (result("ada", RIGHT, OPEN), "PendingManual", {}),
+        (REFUSED, "Failed", {}),
+    ],
+)
+def test_lti(given: Result, progress: str, scores: dict[str, float], prepared: Prepared) -> None:
+    found = document("lti", prepared, given)
+    assert found["userId"] == "ada"
+    assert found["gradingProgress"] == progress
+    assert {key: value for key, value in found.items() if key.startswith("score")} == scores
+    assert found["activityProgress"] in ("Completed", "Submitted")
+    assert found["timestamp"].endswith("+00:00")
+    assert "." in found["timestamp"]
+
+
+def test_canvas(prepared: Prepared) -> None:
+    given = [result("ada", RIGHT, PARTLY), result("bob", RIGHT, OPEN), REFUSED, result("eve", UNREADABLE)]
+    assert rows("canvas", prepared, *given) == [
+        ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Sheet 1"],
+        ["Points Possible", "", "", "", "", "10"],
+        ["ada", "", "", "ada", "", "6"],
+        ["bob", "", "", "bob", "", ""],
+        ["eve", "", "", "eve", "", "0"],
+    ]
+
+
+def test_moodle(prepared: Prepared) -> None:
+    found = rows("moodle", prepared, result("a@b.org", RIGHT), result("c@d.org", OPEN), result("a@b.org", RIGHT))
+    assert found[0] == ["useremail", "Sheet 1", "Sheet 1 (feedback)"]
+    assert found[1] == ["a@b.org", "2", "Points: 2 of 10.\n\np.f: 2 of 2. Right.\nRead as: 1"]
+    assert found[2][:2] == ["c@d.org", ""]
+    assert "review by a person" in found[2][2]
+    assert len(found) == 3
+    assert rows("moodle", prepared, result("123", RIGHT))[0][0] == "useridnumber"
+    escaped = rows("moodle", prepared, result("1", item("right", "f", 2.0, 2.0, read_as="x<y")))
+    assert escaped[1][2].endswith("Read as: x&lt;y")
+
+
+def test_a_refused_submission_has_no_grade_in_moodle(prepared: Prepared) -> None:
+    assert rows("moodle", prepared, REFUSED)[1] == [
+        "ada", "", "This submission could not be graded: line 3: &lt;b&gt;no&lt;/b&gt; JSON",
+    ]  # fmt: skip
+
+
+HOSTILE = [
+    MARKUP, FORMULA, "+1+cmd", "-2+3", "@SUM(A1)", "\t=1", " =1", "\r=1", "＝1", "a\nb,c\"d", "a\0b", "\u202eabc",
+    "\ud800", "", "  ", "../../../etc/passwd", "con", "index", ".hidden", "x" * 5000, "אבג", "{{ 7*7 }}", "\x1b[31m",
+    "</title><b>", "a\u2028=b", "|calc",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_cells_hold_no_formula(text: str) -> None:
+    shown = cell(text)
+    assert not shown.lstrip().startswith(("=", "+", "-", "@", "\t", "\r", "＝", "|"))
+    assert len(shown) <= MOST_CHARACTERS + 1
+
+
+@pytest.mark.parametrize("number", ["0", "-2", "3.50", "+1", "1e-6", "-.5", ".5"])
+def test_cells_keep_numbers(number: str) -> None:
+    assert cell(number) == number
+
+
+@pytest.mark.parametrize(
+    "disguise", ["ada\u200e", "\u202eada", " ada", "ada ", "ada\n", "ada\0", "a\u200bda", "ada\u00a0"]
+)
+def test_no_student_is_taken_for_another(disguise: str, prepared: Prepared) -> None:
+    real, other = result("ada", RIGHT, PARTLY), result(disguise, RIGHT)
+    for name, column in (("canvas", 3), ("moodle", 0)):
+        found = [row[column] for row in rows(name, prepared, real, other)]
+        assert found[-2] == "ada"
+        assert found[-1].strip() != "ada"
+        assert "\ufffd" in found[-1]
+    assert "\ufffd" in document("lti", prepared, other)["userId"]
+
+
+def odd(text: str) -> Result:
+    answers = [item("wrong", "f", 0.0, 2.0, read_as=text, feedback=text, codes=[text]),
+               item("unreadable", text, 0.0, 0.0, problem=text, feedback=text)]  # fmt: skip
+    return result(text, *answers)
+
+
+@pytest.mark.parametrize("name", ["canvas", "moodle"])
+def test_tables_of_hostile_students(name: str, prepared: Prepared) -> None:
+    found = rows(name, prepared, *map(odd, HOSTILE), *map(odd, HOSTILE))
+    assert len(found) == len(HOSTILE) + (2 if name == "canvas" else 1)
+    assert {len(row) for row in found} == {len(found[0])}
+    assert [c for row in found for c in row if c.lstrip()[:1] in tuple("=+-@|＝")] == []
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_documents_of_hostile_students(name: str, prepared: Prepared, tmp_path: Path) -> None:
+    FORMATS[name].write(map(odd, HOSTILE), prepared, tmp_path / "out")
+    files = list((tmp_path / "out").iterdir())
+    assert len(files) == len(HOSTILE)
+    assert list(tmp_path.iterdir()) == [tmp_path / "out"]
+    for file in files:
+        text = file.read_text(encoding="ascii")
+        json.loads(text)
+        assert "\\u001b" not in text
+        assert "\\u0000" not in text
+        assert "\\ud8" not in text
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_a_file_holds_one_student(name: str, prepared: Prepared, tmp_path: Path) -> None:
+    target = tmp_path / "new" / "results.json"
+    FORMATS[name].write(iter([result("ada", RIGHT)]), prepared, target)
+    assert json.loads(target.read_text())
+    with pytest.raises(FormatError, match="--out"):
+        FORMATS[name].write(iter([result("ada", RIGHT), result("bob", RIGHT)]), prepared, target)
+    with pytest.raises(FormatError, match="no submission"):
+        FORMATS[name].write(iter([]), prepared, tmp_path / "none.json")
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_an_empty_run(name: str, prepared: Prepared, tmp_path: Path) -> None:
+    target = tmp_path / ("out.csv" if name in ("canvas", "moodle", "native") else "out")
+    FORMATS[name].write(iter([]), prepared, target)
+    expected = {"canvas": 2, "moodle": 1, "native": 0}
+    if target.is_file():
+        assert len(target.read_text().splitlines()) == expected[name]
+    elif name == "html":
+        assert "There are no submissions yet." in (target / "index.html").read_text()
+    else:
+        assert list(target.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_results_are_taken_as_they_come(name: str, prepared: Prepared, tmp_path: Path) -> None:
+    taken: list[str] = []
+
+    def coming() -> Iterator[Result]:
+        for student in ("ada", "bob", "eve"):
+            taken.append(student)
+            yield result(student, RIGHT, OPEN)
+
+    FORMATS[name].write(coming(), prepared, tmp_path / ("out.csv" if name in ("canvas", "moodle") else "out"))
+    assert taken == ["ada", "bob", "eve"]
+
+
+def test_names_of_files() -> None:
+    students = ["ada", "Ada", "ADA", "ada", "ada-2", "a/b", "a\\b", "", ".", "..", "con", "index", "nul.txt", *HOSTILE]
+    names = FileNames()
+    found = [names.of(student) for student in students]
+    assert len({name.lower() for name in found}) == len(found)
+    for name in found:
+        assert name.strip(".") == name
+        assert set(name) <= set("abcdefghijklmnopqrstuvwxyz0123456789._@-")
+        assert len(name) < 80
+        assert name.split(".")[0] not in ("", "con", "nul", "index")
+
+
+class Page(HTMLParser):
+    """What is in a page: its tags, and what they refer to."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: set[str] = set()
+        self.attributes: set[str] = set()
+        self.links: list[str] = []
+        self.shown = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.add(tag)
+        self.attributes |= {name for name, _ in attrs}
+        self.links += [value or "" for name, value in attrs if name in ("href", "src", "action", "data", "srcset")]
+
+    def handle_data(self, data: str) -> None:
+        self.shown += f" {data}"
+
+
+def pages(prepared: Prepared, folder: Path, results: Iterable[Result]) -> dict[str, Page]:
+    FORMATS["html"].write(iter(results), prepared, folder)
+    files = sorted(folder.rglob("*.html"))
+    return {str(file.relative_to(folder)): Page(file.read_text(encoding="utf-8")) for file in files}
+
+
+def test_pages_of_hostile_students(prepared: Prepared, tmp_path: Path) -> None:
+    reviews = [odd(text).model_copy(update={"student": f"{text}!"}) for text in HOSTILE]
+    for given in reviews:
+        given.items[0] = item("needs_review", "f", None, 2.0, read_as=MARKUP, feedback=MARKUP)
+    refused = [REFUSED.model_copy(update={"student": text, "error": text or "?"}) for text in HOSTILE]
+    found = pages(prepared, tmp_path, [*map(odd, HOSTILE), *reviews, *refused])
+    assert len(found) == 3 * len(HOSTILE) + 1
+    for page in found.values():
+        assert not page.tags & {"script", "img", "iframe", "object", "embed", "link", "base", "form", "b"}
+        assert not {name for name in page.attributes if name.startswith("on")}
+        assert "\0" not in page.shown
+        assert "\u202e" not in page.shown
+        assert "49" not in page.shown.replace("{{ 7*7 }}", "").split()
+    index = found.pop("index.html")
+    assert sorted(set(index.links)) == sorted(found)
+    assert all(not page.links for page in found.values())
+    assert MARKUP in index.shown
+    assert any(page.shown.count(MARKUP) >= 3 for page in found.values())
+
+
+def test_a_students_page(prepared: Prepared, tmp_path: Path) -> None:
+    unasked = item("unreadable", "g", 0.0, 0.0, feedback="There is no question 'g'")
+    found = pages(prepared, tmp_path, [result("ada", RIGHT, OPEN, unasked), result("bob", RIGHT, PARTLY)])
+    ada, bob = (" ".join(found[f"students/{name}.html"].shown.split()) for name in ("ada", "bob"))
+    assert "Points so far 2 / 10" in ada
+    assert "Not final. 1 answer worth 8 points could not be decided automatically." in ada
+    assert "rod the equation of one constraint, or the equations of several (rod) – / 8 … in review" in ada
+    assert "questions that were not asked g" in ada
+    assert "Points 6 / 10" in bob
+    assert "f the degrees of freedom 2 / 2 ✓ right Read as 1" in bob
+    assert "4 / 8 ◐ partly right Read as x = 0 It is a square. IRREGULAR" in bob
+    assert "Not final" not in bob
+
+
+def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
+    wrong = item("wrong", "f", 0.0, 2.0, codes=["PLANE_TWICE"])
+    given = [result("a", RIGHT, PARTLY), result("b", wrong, PARTLY), result("c", wrong, UNREADABLE),
+             result("d", RIGHT, OPEN), REFUSED]  # fmt: skip
+    shown = " ".join(pages(prepared, tmp_path, given)["index.html"].shown.split())
+    assert "5 submissions 3.33 mean of 10 points 4 median 1 answer to review 1 not gradable" in shown
+    assert "3 submissions by points; 1 with answers in review is not counted" in shown
+    assert "p.f the degrees of freedom 1 / 2 ✓ 2 right ✗ 2 wrong" in shown
+    assert "(rod) 2.67 / 8 ◐ 2 partly right ? 1 not readable … 1 in review" in shown
+    assert "2 IRREGULAR 2 PLANE_TWICE With two coordinates for each particle" in shown
+    assert "d p.rod (8) x_A = 1 The time was not enough." in shown
+
+
+def test_the_distribution_of_points(prepared: Prepared) -> None:
+    overview = Overview(prepared)
+    for score in (0.0, 0.99, 1.0, 5.0, 9.0, 10.0):
+        overview.add(Result(student="a", score=score, max_score=10.0, items=[]), "")
+    bars = overview.page()["bars"]
+    assert [bar.tally for bar in bars] == [2, 1, 0, 0, 0, 1, 0, 0, 0, 2]
+    assert (bars[0].label, bars[9].label) == ("0–1", "9–10")
+    assert overview.page()["median"] == 3.0
+
+
+def test_pages_need_a_folder(prepared: Prepared, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("mine")
+    for target in (io.StringIO(), tmp_path / "file"):
+        with pytest.raises(FormatError, match="folder"):
+            FORMATS["html"].write(iter([]), prepared, target)
+    assert (tmp_path / "file").read_text() == "mine"
