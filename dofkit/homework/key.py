@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -11,6 +12,11 @@ from dofkit.report import ConstraintEntry, Report
 from dofkit.scene import Scene
 from dofkit.survey import survey
 from dofkit.text import Names
+
+#: A question about a set of names of a scene, whose report is known.
+Chosen = Callable[[Scene, Sequence[str], Report], bool | None]
+#: Sets of names whose answers are kept.
+MOST_KNOWN = 4096
 
 Convention = Literal["configuration", "velocity"]
 #: Seconds for what dofkit says of an assignment's scene.
@@ -28,6 +34,20 @@ class Key:
     def report(self) -> Report:
         """What dofkit says of the scene."""
         return classify(self.scene)
+
+    @cached_property
+    def _known(self) -> dict[tuple[Chosen, frozenset[str]], bool | None]:
+        return {}
+
+    def known(self, what: Chosen, names: Iterable[str]) -> bool | None:
+        """``what(scene, names, report)``, worked out once for every set of names, in whatever order they come."""
+        chosen = frozenset(names)
+        if (what, chosen) not in self._known:
+            found = what(self.scene, sorted(chosen), self.report)
+            if len(self._known) == MOST_KNOWN:
+                return found
+            self._known[what, chosen] = found
+        return self._known[what, chosen]
 
     @cached_property
     def names(self) -> Names:

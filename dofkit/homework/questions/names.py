@@ -36,13 +36,13 @@ class Coordinates(QuestionBase):
         shown = ", ".join(names) or "none"
         if dof is None:
             return needs_review(shown, "dofkit does not know the degrees of freedom for certain.")
-        independent = determine(key.scene, names, report)
-        if len(names) == dof and independent is None:
-            return needs_review(shown, "whether these coordinates are independent was not decided.")
-        if len(names) > dof or (len(names) == dof and not independent):
-            return wrong(shown, "The constraints tie these coordinates to each other: they are dependent.", "DEPENDENT")
         if len(names) < dof:
             return wrong(shown, "These do not fix the configuration: the set is not complete.", "INCOMPLETE")
+        independent = len(names) == dof and key.known(determine, names)
+        if independent is None:
+            return needs_review(shown, "whether these coordinates are independent was not decided.")
+        if not independent:
+            return wrong(shown, "The constraints tie these coordinates to each other: they are dependent.", "DEPENDENT")
         return right(shown)
 
 
@@ -71,7 +71,7 @@ class Redundant(QuestionBase):
             return right(shown)
         if not names:
             return wrong(shown, "There are constraints that follow from the others.", "REDUNDANT_MISSED")
-        dropped = can_be_dropped(key.scene, names, report)
+        dropped = key.known(can_be_dropped, names)
         if dropped is None:
             return needs_review(shown, "whether these can be dropped together was not decided.")
         if not dropped:
