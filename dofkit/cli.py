@@ -192,7 +192,7 @@ def _complain(file: str, faults: Iterable[Fault]) -> None:
 def _fail(file: str, error: DofkitError | OSError) -> None:
     """Tell why nothing was done."""
     faults = getattr(error, "faults", None) or (Fault(str(error)),)
-    _complain(getattr(error, "source", None) or file, faults)
+    _complain(file, faults)
 
 
 def _line(value: Any) -> None:
