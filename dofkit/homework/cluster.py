@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
 from types import TracebackType
@@ -14,7 +15,7 @@ from dofkit.homework.sources import Handed
 from dofkit.workers.pool import cores
 
 #: How often a task is given to another machine where the first is lost, and seconds to reach the scheduler.
-RETRIES, CONNECTING = 10, 20.0
+RETRIES, CONNECTING = 10, 10.0
 
 
 class Cluster:
@@ -30,9 +31,9 @@ class Cluster:
             raise StoppedError(f"the scheduler at {address} does not answer ({type(error).__name__})") from None
         self.width = max(1, sum(self._client.nthreads().values()))
 
-    def submit(self, handed: Sequence[Handed]) -> Any:
+    def submit(self, handed: Sequence[Handed]) -> Task:
         """Begin with a batch."""
-        return self._client.submit(graded, self._orders, tuple(handed), pure=False, retries=RETRIES)
+        return Task(self._client.submit(graded, self._orders, tuple(handed), pure=False, retries=RETRIES))
 
     def __enter__(self) -> Cluster:
         return self
@@ -41,6 +42,21 @@ class Cluster:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._client.close()
+
+
+@dataclass(frozen=True)
+class Task:
+    """A batch under way."""
+
+    future: Any
+
+    def result(self) -> Graded:
+        """What was found. Raises StoppedError where the cluster gives it up."""
+        try:
+            return Graded(*self.future.result())
+        except Exception as error:
+            said = " ".join(str(error).split())[:200]
+            raise StoppedError(f"the cluster gave a batch up: {type(error).__name__}: {said}") from None
 
 
 def graded(orders: Orders, handed: tuple[Handed, ...]) -> Graded:
