@@ -57,7 +57,7 @@ def _words(name: str) -> list[str]:
 @cache
 def _files() -> dict[str, Traversable]:
     found: dict[str, Traversable] = {}
-    root = _root()
+    root = catalog_folder()
     folders = sorted((entry for entry in root.iterdir() if entry.is_dir()), key=lambda entry: entry.name)
     for folder in folders:
         for file in sorted(folder.iterdir(), key=lambda entry: entry.name.split(".")):
@@ -66,7 +66,8 @@ def _files() -> dict[str, Traversable]:
     return found
 
 
-def _root() -> Traversable:
+def catalog_folder() -> Traversable:
+    """Where the catalog's scenes are. Raises SceneError where they are not installed."""
     package = resources.files("dofkit")
     packaged = package / "_catalog"
     if packaged.is_dir():

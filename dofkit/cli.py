@@ -26,11 +26,15 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 assignment_app = typer.Typer(help="Write assignments.", no_args_is_help=True, rich_markup_mode=None)
+export_app = typer.Typer(
+    help="Write what a course platform needs to grade an assignment.", no_args_is_help=True, rich_markup_mode=None
+)
 catalog_app = typer.Typer(
     help="List the scenes of the catalog, or show one.", invoke_without_command=True, rich_markup_mode=None
 )
 app.add_typer(catalog_app, name="catalog")
 app.add_typer(assignment_app, name="assignment")
+app.add_typer(export_app, name="export")
 
 #: The exit status where something could not be read, and after Ctrl-C.
 UNREADABLE, INTERRUPTED = 2, 130
@@ -143,6 +147,30 @@ def assignment_new(
         raise typer.Exit(UNREADABLE) from None
 
 
+@export_app.command("gradescope")
+def export_gradescope(
+    assignment: Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="What was handed out: YAML or JSON.")],
+    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The zip to upload.")] = Path("autograder.zip"),
+    python: Annotated[
+        list[str] | None,
+        typer.Option("--python", metavar="VERSION", help="The Python there; may be given again. By default 3.12."),
+    ] = None,
+    wheels: Annotated[
+        bool, typer.Option(help="Put in dofkit and all it needs, so that no network is needed there.")
+    ] = True,
+) -> None:
+    """Write the autograder of an assignment for Gradescope, as one zip to upload."""
+    from dofkit.homework import export
+
+    try:
+        notes = export.export_gradescope(assignment, out, python or (export.PYTHON,), wheels=wheels)
+    except DofkitError as error:
+        _fail(assignment, error)
+        raise typer.Exit(UNREADABLE) from None
+    for note in notes:
+        typer.echo(f"{out}: {note}", err=True)
+
+
 @catalog_app.callback()
 def catalog(context: typer.Context, as_json: AsJson = False) -> None:
     """List the names of the catalog's scenes, one a line; with their titles on a terminal."""
@@ -175,11 +203,17 @@ def catalog_show(name: Annotated[str, typer.Argument(help="A scene's name.")]) -
 
 
 @app.command()
-def schema() -> None:
-    """Print the JSON Schema of a scene."""
-    from dofkit.scene import Scene
+def schema(
+    of: Annotated[
+        str, typer.Argument(metavar="[WHAT]", help="scene, assignment, submission, result or report.")
+    ] = "scene",
+) -> None:
+    """Print the JSON Schema of a scene, or of what is named."""
+    from dofkit.homework.schemas import SCHEMAS
 
-    typer.echo(json.dumps(Scene.model_json_schema(), indent=2))
+    if of not in SCHEMAS:
+        raise typer.BadParameter(f"'{of}' is none of {', '.join(SCHEMAS)}", param_hint="WHAT")
+    typer.echo(json.dumps(SCHEMAS[of](), indent=2))
 
 
 def _complain(file: str, faults: Iterable[Fault]) -> None:

@@ -12,7 +12,7 @@ from dofkit.errors import DofkitError
 from dofkit.homework.batch import Line, Orders, Task, graded
 from dofkit.homework.grading import Spot
 from dofkit.homework.sources import Handed
-from dofkit.workers import Job, Outcome, Pool
+from dofkit.workers import MEMORY, Job, Outcome, Pool
 
 #: What a student reads of an answer that broke its worker, by how that ended.
 _ENDED = {
@@ -35,11 +35,14 @@ class Graded(NamedTuple):
 
 
 class Keeper:
-    """Grades batches, from any thread, each in one of so many killable workers."""
+    """Grades batches, from any thread, each in one of so many killable workers.
 
-    def __init__(self, orders: Orders, workers: int) -> None:
+    ``memory``: the bytes of address space that each may take.
+    """
+
+    def __init__(self, orders: Orders, workers: int, memory: int = MEMORY) -> None:
         self.orders = orders
-        self._pool = Pool(workers, modules=("dofkit.homework.batch",))
+        self._pool = Pool(workers, memory, modules=("dofkit.homework.batch",))
         self._condemned: dict[Spot, str] = {}
         self._lock = threading.Lock()
         self._stopped = False

@@ -12,11 +12,8 @@ from typing import Any
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import write_documents
-from dofkit.homework.formats.wording import feedback, number, open_points
+from dofkit.homework.formats.wording import OPEN_SHARE, feedback, number, open_points
 from dofkit.homework.result import Result
-
-#: The share of its points that stands for an open answer where a number has to stand.
-OPEN_SHARE = 0.5
 
 
 def provisional(result: Result) -> float:

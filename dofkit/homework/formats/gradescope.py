@@ -10,7 +10,8 @@ says first that it is not final and how many points are open, and ``extra_data``
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from dofkit.homework.assignment import Prepared
@@ -19,20 +20,26 @@ from dofkit.homework.formats.documents import write_documents
 from dofkit.homework.formats.wording import line, open_points, plain, standing, title, told
 from dofkit.homework.result import Item, Result
 
-#: Where a problem and a question of the assignment stand, such as 2.1.
-Numbers = Mapping[tuple[str, str], str]
+
+def numbers(items: Sequence[Item]) -> list[str | None]:
+    """The number of every answer: its problem's, and its own within it; None for those to nothing that was asked.
+
+    They are the last ones, not readable and worth nothing.
+    """
+    most = len(items)
+    while most and items[most - 1].status == "unreadable" and not items[most - 1].max_score:
+        most -= 1
+    problems: dict[str, int] = {}
+    asked: Counter[str] = Counter()
+    found: list[str | None] = [None] * len(items)
+    for i, item in enumerate(items[:most]):
+        problems.setdefault(item.problem, len(problems) + 1)
+        asked[item.problem] += 1
+        found[i] = f"{problems[item.problem]}.{asked[item.problem]}"
+    return found
 
 
-def numbers(prepared: Prepared) -> Numbers:
-    """The number of every question: its problem's, and its own within it."""
-    return {
-        (problem.id, question.id): f"{i}.{j}"
-        for i, problem in enumerate(prepared.assignment.problems, 1)
-        for j, question in enumerate(problem.questions, 1)
-    }
-
-
-def document(result: Result, places: Numbers) -> dict[str, Any]:
+def document(result: Result) -> dict[str, Any]:
     """What ``results.json`` says of a submission."""
     found: dict[str, Any] = {
         "score": result.score or 0.0,
@@ -46,7 +53,7 @@ def document(result: Result, places: Numbers) -> dict[str, Any]:
             "error": None if result.error is None else plain(result.error),
         },
     }
-    tests = [_test(item, places.get((item.problem, item.question))) for item in result.items]
+    tests = [_test(item, place) for item, place in zip(result.items, numbers(result.items), strict=True)]
     if result.error is not None:
         tests = [{"name": "Reading the submission", "status": "failed", "output": plain(result.error),
                   "output_format": "text", "visibility": "visible"}]  # fmt: skip
@@ -76,8 +83,8 @@ def _test(item: Item, place: str | None) -> dict[str, Any]:
 
 def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
     """One ``results.json`` a student."""
-    places = numbers(prepared)
-    write_documents(results, target, lambda result: document(result, places))
+    del prepared
+    write_documents(results, target, document)
 
 
 GRADESCOPE = Format("gradescope", write)

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 
 from dofkit.homework.result import Item, Result, Status
 
+#: The share of its points that stands for an answer that could not be decided where a number has to stand.
+OPEN_SHARE = 0.5
 #: How a status is told.
 STATUSES: dict[Status, str] = {
     "right": "right",

@@ -1,0 +1,216 @@
+"""One submission, graded where a course platform has put it: ``python -m dofkit.homework.autograder SITE ASSIGNMENT``.
+
+A result is always written, first of all one in which every answer is open: it stands where the grading is cut short.
+What a student wrote says nothing of who the student is: that is the platform's to say, where it does.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from dofkit.errors import DofkitError
+from dofkit.homework.assignment import Prepared, load_assignment
+from dofkit.homework.batch import Orders
+from dofkit.homework.formats import coursera, gradescope, prairielearn
+from dofkit.homework.formats.documents import text
+from dofkit.homework.judgement import needs_review
+from dofkit.homework.keeper import Keeper, StoppedError
+from dofkit.homework.result import Item, Result
+from dofkit.homework.sources import DOCUMENTS, LINES, TABLES, Handed, handed
+from dofkit.homework.submission import Place, clean
+
+#: A longer file of a platform is not read.
+MOST_BYTES = 8_000_000
+#: Of several files that could be the submission, the one called so.
+_NAMES = ("answers", "submission")
+TOO_LONG = "the time for grading it was not enough."
+BROKEN = "the grader's assignment cannot be read. It is not your fault: please tell your teachers."
+
+
+@dataclass(frozen=True)
+class Site:
+    """A platform: where things are, below ``root``, and what its result looks like.
+
+    ``seconds``: after which a submission needs a review, within what the platform gives. ``excuses``: a result may say
+    that there is none, so that a grader that cannot work costs nobody points.
+    """
+
+    root: Path
+    folder: str
+    results: str
+    seconds: float
+    document: Callable[[Result], dict[str, Any]]
+    student: Callable[[Path], str]
+    form: Callable[[Path, Prepared], Handed | None] = lambda root, prepared: None
+    excuses: bool = True
+
+
+def _gradescope_student(root: Path) -> str:
+    """The addresses of those who handed in, or their names."""
+    users = _object(_json(root / "submission_metadata.json")).get("users")
+    known = [_object(user) for user in users] if isinstance(users, list) else []
+    return ", ".join(str(user.get("email") or user.get("name") or user.get("id")) for user in known)
+
+
+def _prairielearn_form(root: Path, prepared: Prepared) -> Handed | None:
+    """The answers that were typed into a question, in inputs named ``PROBLEM.QUESTION``, or with ``_`` or ``-``."""
+    given = _object(_json(root / "data" / "data.json")).get("submitted_answers")
+    if not isinstance(given, dict):
+        return None
+    answers: dict[str, dict[str, Any]] = {}
+    for problem, question in prepared.questions():
+        for sign in ".-_":
+            name = f"{problem.id}{sign}{question.id}"
+            if name in given:
+                answers.setdefault(problem.id, {})[question.id] = given[name]
+                break
+    return Handed("student", Place("data.json"), {"answers": answers})
+
+
+SITES: dict[str, Site] = {
+    "gradescope": Site(
+        Path("/autograder"), "submission", "results/results.json", 240.0, gradescope.document, _gradescope_student
+    ),
+    "prairielearn": Site(
+        Path("/grade"), "student", "results/results.json", 25.0, prairielearn.document, lambda _: "",
+        _prairielearn_form,
+    ),
+    "coursera": Site(
+        Path("/shared"), "submission", "feedback.json", 120.0, coursera.document, lambda _: "", excuses=False
+    ),
+}  # fmt: skip
+
+
+def undecided(prepared: Prepared, student: str, reason: str) -> Result:
+    """The result in which every answer needs a review."""
+    found = needs_review("", reason)
+    items = [
+        Item(problem=problem.id, question=question.id, score=None, max_score=float(question.points),
+             status=found.status, codes=[], read_as="", feedback=found.feedback)
+        for problem, question in prepared.questions()
+    ]  # fmt: skip
+    most = sum(item.max_score for item in items)
+    return Result(student=student, score=0.0, max_score=most, items=items, needs_review=len(items))
+
+
+def grade_at(site: Site, assignment: Path, memory: int) -> Result:
+    """Grade what was handed in and write the result. Raises AssignmentError, and OSError where nothing can be written.
+
+    ``memory``: the bytes that the process may take in which answers are judged.
+    """
+    student = clean(site.student(site.root)) or "student"
+    prepared = _prepared(site, assignment, student)
+    _write(site, undecided(prepared, student, "grading was cut short."))
+    one = _handed(site, prepared)
+    result = one if isinstance(one, Result) else _graded(one, prepared, site.seconds, memory, student)
+    result = result.model_copy(update={"student": student})
+    _write(site, result)
+    return result
+
+
+def _prepared(site: Site, assignment: Path, student: str) -> Prepared:
+    try:
+        return load_assignment(assignment)
+    except DofkitError:
+        if site.excuses:
+            _write(site, Result(student=student, score=None, max_score=0.0, items=[], error=BROKEN))
+        raise
+
+
+def _handed(site: Site, prepared: Prepared) -> Handed | Result:
+    """The one thing that was handed in, or the result that says why there is none."""
+    folder = site.root / site.folder
+    most = sum(float(question.points) for _, question in prepared.questions())
+    files = sorted(p for p in folder.glob("*") if not p.name.startswith(".") and p.is_file() and not p.is_symlink())
+    fit = [path for path in files if path.suffix.lower() in (*DOCUMENTS, *LINES, *TABLES)]
+    named = [path for path in fit if path.stem.lower() in _NAMES]
+    chosen = named if len(named) == 1 else fit
+    if not chosen and (typed := site.form(site.root, prepared)) is not None:
+        return typed
+    if len(chosen) == 1:
+        known = {f"{p.id}.{q.id}": (p.id, q.id) for p, q in prepared.questions()}
+        found = [replace(one, place=replace(one.place, file=chosen[0].name)) for one in handed([str(chosen[0])], known)]
+        if len(found) == 1:
+            return found[0]
+        why = f"{chosen[0].name} holds {len(found)} submissions, not one"
+    elif chosen:
+        why = f"there is more than one file: {', '.join(path.name for path in chosen)}; call one of them answers.yaml"
+    else:
+        why = "there is no file with answers: hand in one called answers.yaml, answers.json or answers.csv"
+    return Result(student="", score=None, max_score=most, items=[], error=clean(why))
+
+
+def _graded(one: Handed, prepared: Prepared, seconds: float, memory: int, student: str) -> Result:
+    """The result of what was handed in; each answer has its share of the time."""
+    count = sum(1 for _ in prepared.questions())
+    orders = Orders.of(prepared)
+    share = seconds / (2 * count + 2)
+    orders = replace(orders, seconds=min(orders.seconds, share), hard=min(orders.hard, 2 * share))
+    with Keeper(orders, 1, memory) as keeper:
+        keeper.fork()
+        watch = threading.Timer(seconds, keeper.close)
+        watch.start()
+        try:
+            lines = keeper.graded([one]).lines[0]
+        except StoppedError:
+            return undecided(prepared, student, TOO_LONG)
+        finally:
+            watch.cancel()
+    if len(lines) != 1:
+        why = f"{one.place}: it holds {len(lines)} submissions, not one"
+        return Result(student="", score=None, max_score=orders.max_score, items=[], error=why)
+    return Result.model_validate_json(lines[0].text)
+
+
+def _write(site: Site, result: Result) -> None:
+    """Write the result whole: it never stands there in part."""
+    path = site.root / site.results
+    path.parent.mkdir(parents=True, exist_ok=True)
+    beside = path.with_name(f".{path.name}.new")
+    beside.write_text(text(site.document(result)), encoding="ascii")
+    os.replace(beside, path)
+
+
+def _json(path: Path) -> Any:
+    """What a platform's file says; None where it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            return json.loads(file.read(MOST_BYTES))
+    except (OSError, ValueError, RecursionError):
+        return None
+
+
+def _object(value: object) -> Mapping[str, Any]:
+    return value if isinstance(value, dict) else {}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Grade at a platform; the exit status says whether a result was written."""
+    parser = argparse.ArgumentParser(prog="python -m dofkit.homework.autograder", description=__doc__)
+    parser.add_argument("site", choices=list(SITES))
+    parser.add_argument("assignment", type=Path)
+    parser.add_argument("--root", type=Path, help="the platform's folder, such as /autograder")
+    parser.add_argument("--seconds", type=float, help="for the whole submission")
+    parser.add_argument("--memory", type=int, default=2048, metavar="MB", help="address space for judging answers")
+    given = parser.parse_args(arguments)
+    site = SITES[given.site]
+    site = replace(site, root=given.root or site.root, seconds=given.seconds or site.seconds)
+    try:
+        result = grade_at(site, given.assignment, given.memory << 20)
+    except (DofkitError, OSError) as error:
+        print(f"no result: {error}", file=sys.stderr)
+        return 2
+    print(f"{len(result.items)} answers, {result.needs_review} to review" if result.error is None else result.error)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

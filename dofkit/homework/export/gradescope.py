@@ -1,0 +1,76 @@
+"""The autograder of an assignment for Gradescope: one zip, which needs no network to be installed."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import zipfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from dofkit.errors import DofkitError
+from dofkit.homework.assignment import load_assignment
+from dofkit.homework.autograder import undecided
+from dofkit.homework.export.inline import exact_json, inlined
+from dofkit.homework.export.wheels import download, own_wheel, requirements
+from dofkit.homework.formats.documents import text
+from dofkit.homework.formats.gradescope import document
+
+#: The Python of Ubuntu 24.04, which Gradescope offers.
+PYTHON = "3.12"
+SCRIPTS = Path(__file__).parent / "scripts"
+_EXECUTABLE = frozenset({"setup.sh", "run_autograder"})
+_TIME = (1980, 1, 1, 0, 0, 0)
+
+
+class ExportError(DofkitError):
+    """An autograder that cannot be written."""
+
+
+def export_gradescope(
+    assignment: str | os.PathLike[str], out: Path, pythons: Sequence[str] = (PYTHON,), *, wheels: bool = True
+) -> list[str]:
+    """Write the zip to upload; what its user has to know.
+
+    It holds ``setup.sh`` and ``run_autograder``, the assignment with its scenes in place, the result that stands until
+    there is another, and, with ``wheels``, dofkit and all it needs for the versions of Python in ``pythons``. Raises
+    AssignmentError for what is no assignment, ExportError where the zip cannot be written.
+    """
+    prepared = load_assignment(assignment)
+    files = {path.name: path.read_bytes() for path in sorted(SCRIPTS.iterdir()) if path.is_file()}
+    files["assignment.json"] = f"{exact_json(inlined(assignment))}\n".encode()
+    files["fallback.json"] = text(document(undecided(prepared, "", "grading was cut short."))).encode()
+    files["pythons"] = "".join(f"{python}\n" for python in pythons).encode()
+    with tempfile.TemporaryDirectory() as folder:
+        notes = _wheels(Path(folder), pythons) if wheels else ["dofkit comes without wheels: it is installed by pip"]
+        files |= {f"wheels/{path.name}": path.read_bytes() for path in sorted(Path(folder).iterdir())}
+    try:
+        _zip(files, out)
+    except OSError as error:
+        raise ExportError(f"{out} cannot be written: {error.strerror or error}") from None
+    return notes
+
+
+def _wheels(folder: Path, pythons: Sequence[str]) -> list[str]:
+    """Put the wheels into a folder."""
+    own_wheel(folder)
+    needed = requirements()
+    notes = [] if needed else ["dofkit is not installed, so that it is not known what it needs"]
+    for python in pythons:
+        why = download(folder, python, [*needed, "pip"])
+        if why is not None:
+            notes.append(f"wheels for Python {python} could not be had ({why}): setup.sh will need a network")
+    return notes
+
+
+def _zip(files: dict[str, bytes], out: Path) -> None:
+    """Write the zip whole: the same files give the same zip."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    beside = out.with_name(f".{out.name}.new")
+    with zipfile.ZipFile(beside, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files.items():
+            info = zipfile.ZipInfo(name, _TIME)
+            info.external_attr = (0o755 if name in _EXECUTABLE else 0o644) << 16
+            packed = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
+            archive.writestr(info, data, packed)
+    os.replace(beside, out)

@@ -1,0 +1,43 @@
+"""Points for a cell that nbgrader grades: its last line is ``points(...)``.
+
+nbgrader takes the value of a cell's last line through ``float()``. ``-1``, ``True``, ``nan`` and any object give full
+marks, and a word on standard error gives none, so that `points` returns a builtin float within the question's points
+and writes to standard output alone. (Old versions of nbgrader took 0.0 for full marks, too: there, begin the cell with
+``assert points(...) > 0``.)
+
+>>> from dofkit.homework.nbgrader import points
+>>> rod = {"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": 1}
+>>> scene = {"dimension": 2, "particles": ["A"], "constraints": [rod]}
+>>> questions = [{"id": "f", "ask": "dof", "points": 2}]
+>>> sheet = {"title": "Sheet 1", "problems": [{"id": "pendulum", "scene": scene, "questions": questions}]}
+>>> points(sheet, "pendulum", "f", "f = 1")
+pendulum.f: 2 of 2. Right.
+Read as: 1
+2.0
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from dofkit.homework.formats.wording import OPEN_SHARE, title, told
+from dofkit.homework.formats.wording import points as told_points
+from dofkit.homework.notebooks import Source, judged
+
+
+def points(
+    assignment: Source, problem: str, question: str, answer: object, others: Mapping[str, object] | None = None
+) -> float:
+    """The points of one answer, with the feedback printed.
+
+    ``others``: the student's answers to other questions of the problem, for what follows from them. An answer that
+    could not be decided has half of its points, since a cell is all that nbgrader knows: the feedback says that a
+    person has to look, who then sets the points in the formgrader. Raises AssignmentError, and QuestionError for a
+    question that is not asked.
+    """
+    item = judged(assignment, problem, question, answer, others or {})
+    print(f"{title(item)}: {told_points(item)}. {told(item)}")
+    score = OPEN_SHARE * item.max_score if item.score is None else item.score
+    if item.score is None:
+        print("Half of the points stand in until a person has looked.")
+    return min(max(float(score), 0.0), float(item.max_score))
