@@ -171,6 +171,22 @@ def export_gradescope(
         typer.echo(f"{out}: {note}", err=True)
 
 
+@export_app.command("otter")
+def export_otter(
+    assignment: Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="What was handed out: YAML or JSON.")],
+    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where the test files go.")] = Path("tests"),
+) -> None:
+    """Write otter-grader's test files for an assignment, and assignment.json beside their folder."""
+    from dofkit.homework import otter
+
+    try:
+        for path in otter.write_tests(assignment, out):
+            typer.echo(path)
+    except (DofkitError, OSError) as error:
+        _fail(assignment, error)
+        raise typer.Exit(UNREADABLE) from None
+
+
 @catalog_app.callback()
 def catalog(context: typer.Context, as_json: AsJson = False) -> None:
     """List the names of the catalog's scenes, one a line; with their titles on a terminal."""

@@ -20,7 +20,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from typer.testing import CliRunner
 
+from dofkit.cli import app
 from dofkit.homework import notebooks, otter
 from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.autograder import SITES, grade_at, main, undecided
@@ -405,6 +407,22 @@ def test_otter(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
         assert all(set(case.fields) == {"name", "points", "hidden"} for case in cases)
         given[scope["name"]] = sum(case.fields["points"] * passes(case) for case in cases)
     assert given == {"pendulum_f": 2.0, "pendulum_rod": 4.0, "disc_f": 0.0}
+
+
+def test_the_commands(sheet: Path, tmp_path: Path) -> None:
+    runner = CliRunner()
+    zipped = runner.invoke(app, ["export", "gradescope", str(sheet), "--no-wheels", "--out", str(tmp_path / "a.zip")])
+    assert (zipped.exit_code, zipfile.is_zipfile(tmp_path / "a.zip")) == (0, True)
+    tests = runner.invoke(app, ["export", "otter", str(sheet), "--out", str(tmp_path / "otter" / "tests")])
+    assert [Path(line).name for line in tests.stdout.split()] == ["pendulum_f.py", "pendulum_rod.py", "disc_f.py"]
+    for command in ("gradescope", "otter"):
+        refused = runner.invoke(app, ["export", command, str(tmp_path / "none.yaml"), "--out", str(tmp_path / "no")])
+        assert refused.exit_code == 2
+        assert "there is no file" in refused.stderr
+    for what in ("scene", "assignment", "submission", "result", "report"):
+        printed = runner.invoke(app, ["schema", what] if what != "scene" else ["schema"])
+        assert json.loads(printed.stdout)["title"].lower() == what
+    assert runner.invoke(app, ["schema", "homework"]).exit_code == 2
 
 
 def passes(case: Case) -> bool:

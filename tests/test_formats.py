@@ -7,6 +7,8 @@ import doctest
 import importlib
 import io
 import json
+import shutil
+import subprocess
 from collections.abc import Iterable, Iterator
 from html.parser import HTMLParser
 from pathlib import Path
@@ -220,6 +222,17 @@ def test_canvas(prepared: Prepared) -> None:
     ]
 
 
+@pytest.mark.parametrize(("name", "column", "grade"), [("canvas", 3, 5), ("moodle", 0, 1)])
+def test_what_could_not_be_graded_never_takes_a_row_from_what_was(
+    name: str, column: int, grade: int, prepared: Prepared
+) -> None:
+    alone = REFUSED.model_copy(update={"student": "eve"})
+    for given in ([REFUSED, result("ada", RIGHT), alone], [alone, result("ada", RIGHT), REFUSED, alone]):
+        found = rows(name, prepared, *given)
+        assert [(row[column], row[grade]) for row in found[-2:]] == [("ada", "2"), ("eve", "")]
+        assert [row[column] for row in found].count("ada") == 1
+
+
 def test_moodle(prepared: Prepared) -> None:
     found = rows("moodle", prepared, result("a@b.org", RIGHT), result("c@d.org", OPEN), result("a@b.org", RIGHT))
     assert found[0] == ["useremail", "Sheet 1", "Sheet 1 (feedback)"]
@@ -228,6 +241,7 @@ def test_moodle(prepared: Prepared) -> None:
     assert "review by a person" in found[2][2]
     assert len(found) == 3
     assert rows("moodle", prepared, result("123", RIGHT))[0][0] == "useridnumber"
+    assert rows("moodle", prepared, REFUSED, result("a@b.org", RIGHT))[0][0] == "useremail"
     escaped = rows("moodle", prepared, result("1", item("right", "f", 2.0, 2.0, read_as="x<y")))
     assert escaped[1][2].endswith("Read as: x&lt;y")
 
@@ -418,6 +432,27 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
     assert "(rod) 2.67 / 8 ◐ 2 partly right ? 1 not readable … 1 in review" in shown
     assert "2 IRREGULAR 2 PLANE_TWICE With two coordinates for each particle" in shown
     assert "d p.rod (8) x_A = 1 The time was not enough." in shown
+
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+FRAME = """<iframe id=f src="{page}" width={width} height=900></iframe><p id=o></p><script>
+onload = () => {{ const d = f.contentDocument; o.textContent =
+  "fits:" + (d.documentElement.scrollWidth <= d.documentElement.clientWidth) + " shown:" + d.body.innerText.includes("Points"); }}</script>"""
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium")
+@pytest.mark.parametrize("page", ["index.html", "students/long.html"])
+def test_pages_fit_a_telephone(page: str, prepared: Prepared, tmp_path: Path) -> None:
+    assert CHROMIUM is not None
+    review = item("needs_review", "rod", None, 8.0, read_as="x" * 400, feedback="y" * 400)
+    long = [review, RIGHT, odd("z" * 300).items[1]]
+    given = [result("long", *long), result("n" * 300, RIGHT, PARTLY), REFUSED.model_copy(update={"error": "e" * 300})]
+    pages(prepared, tmp_path, given)
+    (tmp_path / "frame.html").write_text(FRAME.format(page=page, width=360))
+    options = ["--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", "--dump-dom"]
+    command = [CHROMIUM, *options, f"--user-data-dir={tmp_path / 'profile'}", (tmp_path / "frame.html").as_uri()]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+    assert "fits:true shown:true" in done.stdout
 
 
 def test_the_distribution_of_points(prepared: Prepared) -> None:

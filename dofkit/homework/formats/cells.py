@@ -5,9 +5,11 @@ from __future__ import annotations
 import csv
 import hashlib
 import re
+from collections.abc import Iterable, Iterator
 from typing import Any, TextIO
 
 from dofkit.homework.formats.wording import plain
+from dofkit.homework.result import Result
 
 #: What spreadsheets take for the beginning of a formula, also behind spaces, and in its full-width forms.
 _FORMULA = re.compile("\\s*[=+\\-@|\uff1d\uff0b\uff0d\uff20\u2212]|[\t\r\n]")
@@ -33,16 +35,25 @@ def table(stream: TextIO) -> Any:
     return csv.writer(stream, lineterminator="\r\n")
 
 
-class Seen:
-    """The students who have a row already, as short marks: a gradebook takes one row a student."""
+def one_each(results: Iterable[Result]) -> Iterator[Result]:
+    """One result a student, for a gradebook takes one row of each, and a second one could wipe the grade of the first.
 
-    def __init__(self) -> None:
-        self._marks: set[bytes] = set()
+    What could not be graded comes last, and only of students of whom nothing else is there.
+    """
+    seen: set[bytes] = set()
+    refused: list[Result] = []
+    for result in results:
+        if result.error is not None:
+            refused.append(result)
+        elif _new(result.student, seen):
+            yield result
+    yield from (result for result in refused if _new(result.student, seen))
 
-    def again(self, student: str) -> bool:
-        """Whether the student was here before."""
-        mark = hashlib.blake2b(student.encode("utf-8", "surrogatepass"), digest_size=12).digest()
-        if mark in self._marks:
-            return True
-        self._marks.add(mark)
+
+def _new(student: str, seen: set[bytes]) -> bool:
+    """Was the student not there before? Kept as a short mark."""
+    mark = hashlib.blake2b(student.encode("utf-8", "surrogatepass"), digest_size=12).digest()
+    if mark in seen:
         return False
+    seen.add(mark)
+    return True
