@@ -436,8 +436,10 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 FRAME = """<iframe id=f src="{page}" width={width} height=900></iframe><p id=o></p><script>
-onload = () => {{ const d = f.contentDocument; o.textContent =
-  "fits:" + (d.documentElement.scrollWidth <= d.documentElement.clientWidth) + " shown:" + d.body.innerText.includes("Points"); }}</script>"""
+onload = () => {{
+  const d = f.contentDocument, e = d.documentElement;
+  o.textContent = "fits:" + (e.scrollWidth <= e.clientWidth) + " shown:" + d.body.innerText.includes("Points");
+}}</script>"""
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium")
