@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -306,9 +307,10 @@ def test_results_are_the_same_with_any_number_of_workers_and_in_any_order(
     assert once == graded(table, 2) == graded(back, 2)[::-1]
 
 
-def started(assignment: str, table: Path, out: Path) -> subprocess.Popen[bytes]:
+def started(assignment: str, table: Path, out: Path, stderr: int = subprocess.PIPE) -> subprocess.Popen[bytes]:
     command = [sys.executable, "-m", "dofkit", "grade", assignment, str(table), "--out", str(out)]
-    return subprocess.Popen(command, env={**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)})
+    path = os.pathsep.join(place for place in sys.path if place)
+    return subprocess.Popen(command, env={**os.environ, "PYTHONPATH": path}, stderr=stderr)
 
 
 def length(path: Path) -> int:
@@ -325,6 +327,8 @@ def test_a_run_interrupted_twice_ends_as_one_that_was_not(assignment: str, tmp_p
             while length(out) < reached + 1000 and process.poll() is None and time.monotonic() < until:
                 time.sleep(0.01)
             process.send_signal(number)
+            said = process.communicate()[1]
+        assert said == b""
         assert process.returncode in (-number, cli.INTERRUPTED)
         assert reached < length(out) < 10_000
         reached = length(out)
@@ -337,6 +341,21 @@ def test_a_run_interrupted_twice_ends_as_one_that_was_not(assignment: str, tmp_p
     assert out.read_bytes()[:100_000] == before
     assert length(out) == 10_000
     assert sorted(path.name for path in tmp_path.iterdir()) == ["assignment.json", "out.jsonl", "t.csv", "whole.jsonl"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no pseudo-terminals")
+def test_a_terminal_sees_how_far_it_is(assignment: str, tmp_path: Path) -> None:
+    table = tmp_path / "t.csv"
+    table.write_text(rows(50))
+    ours, theirs = os.openpty()
+    process, told = started(assignment, table, tmp_path / "out.jsonl", theirs), b""
+    os.close(theirs)
+    with suppress(OSError):
+        while part := os.read(ours, 10_000):
+            told += part
+    os.close(ours)
+    assert process.wait() == 0
+    assert b"50 graded" in told
 
 
 def journal(path: Path, mark: str = "m") -> Journal:
