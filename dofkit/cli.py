@@ -225,10 +225,15 @@ def schema(
     ] = "scene",
 ) -> None:
     """Print the JSON Schema of a scene, or of what is named."""
+    if of == "scene":
+        from dofkit.scene import Scene
+
+        typer.echo(json.dumps(Scene.model_json_schema(), indent=2))
+        return
     from dofkit.homework.schemas import SCHEMAS
 
     if of not in SCHEMAS:
-        raise typer.BadParameter(f"'{of}' is none of {', '.join(SCHEMAS)}", param_hint="WHAT")
+        raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(SCHEMAS)}", param_hint="WHAT")
     typer.echo(json.dumps(SCHEMAS[of](), indent=2))
 
 

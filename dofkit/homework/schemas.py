@@ -1,4 +1,4 @@
-"""The JSON Schemas of everything that is read and written."""
+"""The JSON Schemas of what is read and written besides scenes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import Any
 from dofkit.homework.assignment import Assignment
 from dofkit.homework.result import Result
 from dofkit.report import Report
-from dofkit.scene import Scene
 
 _ANSWER = {
     "description": "a text, a number, or a list of these",
@@ -39,7 +38,6 @@ def submission_schema() -> dict[str, Any]:
 
 #: By what they describe.
 SCHEMAS: dict[str, Callable[[], dict[str, Any]]] = {
-    "scene": Scene.model_json_schema,
     "assignment": Assignment.model_json_schema,
     "submission": submission_schema,
     "result": lambda: Result.model_json_schema(mode="serialization"),
