@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -183,6 +184,56 @@ def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys:
     assert told[3]["error"] == f"{table}, line 5: the row has 2 cells, the header 5"
 
 
+def test_one_submission_is_graded_in_python(tmp_path: Path) -> None:
+    prepared, table = dofkit.load_assignment(ASSIGNMENT), tmp_path / "t.csv"
+    table.write_text("student;p.f\nana;1\n")
+    assert dofkit.grade(prepared, table).score == 2.0
+    table.write_text("student;p.f\nana;1\nbo;1\n")
+    assert "more than one" in str(dofkit.grade(prepared, table).error)
+    assert "no such file" in str(dofkit.grade(prepared, tmp_path / "no.yaml").error)
+    assert dofkit.grade(ASSIGNMENT, {"student": 7}).error == "'answers' is a mapping of problems to mappings of " + (
+        "questions to answers"
+    )
+
+
+def nested(depth: int) -> list[Any]:
+    made: list[Any] = []
+    for _ in range(depth):
+        made = [made]
+    return made
+
+
+ODD = {
+    "a long number": 10**100_000,
+    "a large one": Decimal("1e999999"),
+    "none": Decimal("nan"),
+    "infinity": float("inf"),
+    "lists in lists": nested(100_000),
+    "a mapping": {"a": 1},
+    "nothing in a list": [None],
+    "an object": object(),
+    "bytes": b"1",
+    "half a character": "\ud800",
+}
+
+
+@pytest.mark.parametrize("kind", list(ODD))
+def test_python_objects_that_are_no_answers_are_unreadable(kind: str) -> None:
+    given = dict.fromkeys(("f", "label", "eq"), ODD[kind])
+    result = dofkit.grade(ASSIGNMENT, {"student": "ana", "answers": {"p": given}})
+    assert [item.status for item in result.items[:2]] == ["unreadable", "unreadable"]
+    assert result.items[2].status in ("unreadable", "wrong")
+    assert all(item.column for item in result.items[:2])
+    assert json.loads(result.model_dump_json())["score"] == 0
+
+
+def test_answers_to_what_was_not_asked_are_bounded() -> None:
+    odd = {"p" * 10**6: {"q": 1}, "p": {f"{i}q": 1 for i in range(10**5)}}
+    result = dofkit.grade(ASSIGNMENT, {"student": "ana", "answers": odd})
+    assert len(result.items) == 3 + 100
+    assert len(result.model_dump_json()) < 50_000
+
+
 def test_check_only_tells_how_answers_are_read(
     assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -277,7 +328,10 @@ def test_an_answer_that_breaks_its_worker_needs_a_review_and_touches_no_other() 
         ["needs_review", "missing"],
     ]
     review = "This could not be decided and will be looked at: "
-    assert told[3][2] == [f"{review}dofkit failed here (ValueError).", f"{review}working on it took too much memory."]
+    assert told[3][2] == [
+        f"{review}dofkit failed here (ValueError).",
+        f"{review}working on it took too long or too much memory.",
+    ]
     assert told[1][2][0] == told[5][2][0]
 
 

@@ -82,6 +82,10 @@ class Prepared:
             for question in problem.questions:
                 yield problem, question
 
+    def columns(self) -> dict[str, tuple[str, str]]:
+        """The problem and the question of every column ``PROBLEM.QUESTION`` of a table of answers."""
+        return {f"{problem.id}.{question.id}": (problem.id, question.id) for problem, question in self.questions()}
+
 
 def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Path | None = None) -> Prepared:
     """The assignment of a YAML or JSON file, or of a mapping, with its scenes.

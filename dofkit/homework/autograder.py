@@ -136,7 +136,7 @@ def _handed(site: Site, prepared: Prepared) -> Handed | Result:
     if not chosen and (typed := site.form(site.root, prepared)) is not None:
         return typed
     if len(chosen) == 1:
-        known = {f"{p.id}.{q.id}": (p.id, q.id) for p, q in prepared.questions()}
+        known = prepared.columns()
         found = [replace(one, place=replace(one.place, file=chosen[0].name)) for one in handed([str(chosen[0])], known)]
         if len(found) == 1:
             return found[0]

@@ -78,11 +78,12 @@ def graded(task: Task) -> Iterator[Json]:
     """The answers that come next, from time to time; at the end ``{"lines": ...}``, a list for each of ``handed``."""
     grader = _grader(task.orders)
     grader.condemned = task.condemned
-    allow_processor(task.orders.hard)
     last, lines = time.monotonic(), list[list[Line]]()
     for one in task.handed:
         lines.append([])
+        allow_processor(task.orders.hard)
         for submission in one.submissions():
+            allow_processor(task.orders.hard)
             steps = _steps(grader, submission, task.orders.check_only)
             while True:
                 try:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Mapping
 from fractions import Fraction
+from itertools import islice
 from typing import Any, cast
 
 from dofkit.deadline import OutOfTimeError, by_processor
 from dofkit.errors import TextError
-from dofkit.homework.assignment import Prepared, Problem
+from dofkit.homework.assignment import Prepared, Problem, load_assignment
 from dofkit.homework.judgement import NOTHING, Given, Judgement, needs_review
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result
+from dofkit.homework.sources import read_submission
 from dofkit.homework.submission import Submission
 from dofkit.values import nearest
 
@@ -19,6 +21,8 @@ from dofkit.values import nearest
 ANSWER_SECONDS = 5.0
 #: Answers that are remembered, each of at most so many characters.
 MOST_REMEMBERED, LONGEST_REMEMBERED = 10_000, 4000
+#: Answers to what was not asked that are told, and characters of their names.
+MOST_UNASKED, LONGEST_NAME = 100, 200
 
 #: An answer to judge, as a text: its problem, its question, what it says, and the numbers that it may follow from.
 Spot = str
@@ -140,10 +144,12 @@ def _spot(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapp
     return repr((problem.id, question.id, answer, *sorted(earlier.items())))
 
 
-def _number(question: QuestionBase, answer: Given | None) -> Fraction | None:
+def _number(question: QuestionBase, answer: Given) -> Fraction | None:
     try:
-        return None if answer is None else question.number(answer)
-    except TextError:
+        return question.number(answer)
+    except MemoryError:
+        raise
+    except Exception:
         return None
 
 
@@ -152,35 +158,33 @@ def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
     asked: dict[str, list[str]] = {}
     for problem, question in prepared.questions():
         asked.setdefault(problem.id, []).append(question.id)
-    for problem_id, answers in submission.answers.items():
-        for question_id in answers:
-            if question_id in asked.get(problem_id, ()):
-                continue
-            what, word, known = (
-                ("question", question_id, asked[problem_id])
-                if problem_id in asked
-                else (
-                    "problem",
-                    problem_id,
-                    list(asked),
-                )
-            )
-            near = nearest(word, known)
-            hint = f": did you mean '{near}'?" if near else f": there are {', '.join(known[:12])}"
-            yield Item(
-                problem=problem_id, question=question_id, score=0.0, max_score=0.0, status="unreadable",
-                codes=[], read_as="", feedback=f"There is no {what} '{word}'{hint}",
-            )  # fmt: skip
+    places = (
+        (problem, question)
+        for problem, answers in submission.answers.items()
+        for question in answers
+        if question not in asked.get(problem, ())
+    )
+    for problem_id, question_id in islice(places, MOST_UNASKED):
+        known = asked.get(problem_id)
+        what, word, names = ("problem", problem_id, [*asked]) if known is None else ("question", question_id, known)
+        near = nearest(word, names)
+        hint = f": did you mean '{near}'?" if near else f": there are {', '.join(names[:12])}"
+        yield Item(
+            problem=problem_id[:LONGEST_NAME], question=question_id[:LONGEST_NAME], score=0.0, max_score=0.0,
+            status="unreadable", codes=[], read_as="", feedback=f"There is no {what} '{word[:LONGEST_NAME]}'{hint}",
+        )  # fmt: skip
 
 
 def grade(assignment: Any, submission: Any) -> Result:
     """Grade one submission: both are paths, mappings, or what was made of them.
 
     Raises AssignmentError for what is no assignment; a submission that cannot be read is a result with its error.
-    """
-    from dofkit.homework.assignment import load_assignment
-    from dofkit.homework.submission import read_submission
 
+    >>> scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}
+    >>> asked = {"id": "circle", "scene": scene, "questions": [{"id": "f", "ask": "dof", "points": 2}]}
+    >>> grade({"title": "One", "problems": [asked]}, {"student": "Ana", "answers": {"circle": {"f": "f = 1"}}}).score
+    2.0
+    """
     prepared = assignment if isinstance(assignment, Prepared) else load_assignment(assignment)
-    given = submission if isinstance(submission, Submission) else read_submission(submission)
+    given = submission if isinstance(submission, Submission) else read_submission(submission, prepared.columns())
     return Grader(prepared).grade(given)

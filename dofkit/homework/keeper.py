@@ -16,9 +16,9 @@ from dofkit.workers import MEMORY, Job, Outcome, Pool
 
 #: What a student reads of an answer that broke its worker, by how that ended.
 _ENDED = {
-    "overrun": "working on it took too long.",
-    "memory": "working on it took too much memory.",
-    "died": "working on it was ended by the system: it took too long, or too much memory.",
+    "overrun": "working on it took too long or too much memory.",
+    "memory": "working on it took too long or too much memory.",
+    "died": "working on it took too long or too much memory.",
     "failed": "dofkit failed here.",
 }
 

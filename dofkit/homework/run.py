@@ -56,7 +56,7 @@ def run(assignment: str, sources: list[str], options: Options) -> bool:
     form = options.format
     prepared = load_assignment(assignment)
     orders = Orders.of(prepared, options.check_only)
-    stream = handed(sources, {f"{p.id}.{q.id}": (p.id, q.id) for p, q in prepared.questions()})
+    stream = handed(sources, prepared.columns())
     with _runner(orders, options) as runner, closing(Seen()) as seen:
         one = _Run(form, prepared, orders, runner, seen)
         if options.out is None:

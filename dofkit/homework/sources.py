@@ -12,6 +12,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
+from itertools import islice
 from typing import Any, BinaryIO
 
 from dofkit.homework.submission import MOST_BYTES, Place, Submission, clean, of_text, of_value, reason, refused
@@ -53,6 +54,17 @@ class Handed:
     def size(self) -> int:
         """About how many bytes it holds."""
         return len(self.data) if isinstance(self.data, bytes) else 200
+
+
+def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], known: Columns) -> Submission:
+    """The one submission of a file or folder, or of a mapping ``{student, answers}``."""
+    if isinstance(source, Mapping):
+        return of_value(source, "")
+    path = os.fspath(source)
+    found = list(islice((one for h in handed([path], known) for one in h.submissions()), 2))
+    if len(found) == 1:
+        return found[0]
+    return refused(_stem(clean(path)), Place(clean(path)), "it holds more than one submission")
 
 
 def handed(sources: Sequence[str], known: Columns) -> Iterator[Handed]:

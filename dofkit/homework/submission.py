@@ -5,22 +5,25 @@ Nothing here raises for what a student wrote: what cannot be read is a submissio
 
 from __future__ import annotations
 
-import os
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral
-from pathlib import Path
 from typing import Any
 
 from dofkit.documents import Document, read_document
 from dofkit.errors import Fault
 from dofkit.homework.judgement import Given
+from dofkit.values import LARGEST_EXPONENT
 
 #: A longer text of submissions is refused.
 MOST_BYTES = 8_000_000
+#: Lists within lists that are an answer.
+DEEPEST = 10
+#: Stands for what can be no answer, such as a mapping; no question reads it.
+NO_ANSWER = "{…}"
 #: Faults that an error tells.
 MOST_FAULTS = 5
 _SHAPE = "write 'student: NAME' and 'answers: {PROBLEM: {QUESTION: answer}}'"
@@ -62,21 +65,6 @@ class Submission:
 
 
 _NOWHERE = Place()
-
-
-def read_submission(source: str | os.PathLike[str] | Mapping[str, Any]) -> Submission:
-    """The one submission of a JSON or YAML file, or of a mapping ``{student, answers}``."""
-    if isinstance(source, Mapping):
-        return of_value(source, "")
-    shown = clean(os.fspath(source))
-    name, place = Path(shown).stem, Place(shown)
-    try:
-        with open(source, "rb") as file:
-            data = file.read(MOST_BYTES + 1)
-    except (OSError, ValueError) as error:
-        return refused(name, place, f"it cannot be read: {reason(error)}")
-    found = of_text(data, name, place)
-    return found[0] if len(found) == 1 else refused(name, place, f"it holds {len(found)} submissions, not one")
 
 
 def of_text(data: bytes | str, name: str, place: Place) -> list[Submission]:
@@ -147,19 +135,28 @@ def clean(text: str) -> str:
     return text if text.isascii() else _SURROGATES.sub("\ufffd", text)
 
 
-def _given(answer: Any) -> Given:
+def _given(answer: Any, depth: int = 0) -> Given:
     """An answer as plain texts and exact numbers."""
     if isinstance(answer, str):
         return clean(answer)
-    if isinstance(answer, bool | float | Fraction):
+    if isinstance(answer, bool | float):
         return answer
-    if isinstance(answer, Integral):
-        return int(answer)
-    if isinstance(answer, Decimal):
-        return Fraction(answer) if answer.is_finite() else str(answer)
-    if isinstance(answer, Sequence):
-        return tuple(_given(part) for part in answer)
-    return () if isinstance(answer, Mapping) else clean(str(answer))
+    if isinstance(answer, Integral | Decimal | Fraction):
+        return _exact(answer)
+    if isinstance(answer, list | tuple) and depth < DEEPEST:
+        return tuple(_given(part, depth + 1) for part in answer)
+    return NO_ANSWER
+
+
+def _exact(number: Any) -> Given:
+    """A number, or as a text what is none or far too long to be written."""
+    if isinstance(number, Decimal) and (not number.is_finite() or abs(number.adjusted()) > LARGEST_EXPONENT):
+        return str(number)
+    found = Fraction(number)
+    size = max(found.numerator.bit_length(), found.denominator.bit_length())
+    if size > 4 * LARGEST_EXPONENT:
+        return f"1e{size // 4}"
+    return int(found) if isinstance(number, Integral) else found
 
 
 def _student(value: object, name: str, document: Document | None, path: tuple[str | int, ...]) -> str:
