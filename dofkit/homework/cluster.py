@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib import import_module
 from types import TracebackType
 from typing import Any
 
@@ -24,7 +23,10 @@ class Cluster:
     def __init__(self, address: str, orders: Orders) -> None:
         self._orders = orders
         try:
-            self._client: Any = import_module("distributed").Client(address, timeout=CONNECTING, set_as_default=False)
+            import distributed
+
+            library: Any = distributed
+            self._client = library.Client(address, timeout=CONNECTING, set_as_default=False)
         except ImportError:
             raise StoppedError("--scheduler needs distributed: pip install 'dofkit[cluster]'") from None
         except (OSError, ValueError, TimeoutError) as error:
