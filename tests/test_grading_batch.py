@@ -184,6 +184,24 @@ def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys:
     assert told[3]["error"] == f"{table}, line 5: the row has 2 cells, the header 5"
 
 
+def test_results_within_the_folder_are_no_submissions(
+    assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "z.csv").write_text("student,p.f\nana,1\n")
+    for form, out in (("native", "a.jsonl"), ("native", "a.jsonl"), ("html", "b"), ("html", "b")):
+        assert called(capsys, "grade", assignment, str(tmp_path), "--format", form, "--out", str(tmp_path / out)) == (
+            (0, [], "") if form == "native" else (2, [], "")
+        )
+    assert length(tmp_path / "a.jsonl") == 1
+
+
+def test_nothing_that_is_read_is_overwritten(assignment: str, capsys: pytest.CaptureFixture[str]) -> None:
+    before = Path(assignment).read_bytes()
+    status, _, err = called(capsys, "grade", assignment, assignment, "--out", assignment)
+    assert (status, Path(assignment).read_bytes()) == (2, before)
+    assert "--out would overwrite" in err
+
+
 def test_one_submission_is_graded_in_python(tmp_path: Path) -> None:
     prepared, table = dofkit.load_assignment(ASSIGNMENT), tmp_path / "t.csv"
     table.write_text("student;p.f\nana;1\n")

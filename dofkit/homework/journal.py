@@ -34,6 +34,11 @@ def fingerprint(prepared: Prepared, check_only: bool) -> str:
     return hashlib.blake2b("\0".join(parts).encode("utf-8", "replace"), digest_size=16).hexdigest()
 
 
+def ledger(path: Path) -> Path:
+    """Where the ledger of results at ``path`` stands."""
+    return path.with_name(path.name + ".unfinished")
+
+
 class BusyError(DofkitError):
     """Another run writes to the same file."""
 
@@ -47,7 +52,7 @@ class Journal:
     def __init__(self, path: Path, mark: str) -> None:
         self.path = path
         self.failed = 0
-        self.ledger = path.with_name(path.name + ".unfinished")
+        self.ledger = ledger(path)
         path.parent.mkdir(parents=True, exist_ok=True)
         known = self._head() == mark and path.exists()
         self._marks: BinaryIO = self.ledger.open("r+b" if known else "a+b")

@@ -16,7 +16,7 @@ from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.batch import Line, Orders
 from dofkit.homework.cluster import Cluster
 from dofkit.homework.formats import FORMATS, Format, FormatError
-from dofkit.homework.journal import Journal, fingerprint
+from dofkit.homework.journal import Journal, fingerprint, ledger
 from dofkit.homework.keeper import Keeper
 from dofkit.homework.result import Result
 from dofkit.homework.running import Local, Runner, Seen, in_order, once
@@ -47,6 +47,19 @@ class Options:
             raise FormatError(f"the format {self.form} needs --out PATH")
         return FORMATS[self.form]
 
+    @property
+    def written(self) -> list[Path]:
+        """The paths that are written to. Raises FormatError."""
+        if self.out is None:
+            return []
+        path = _native(self.format, self.out)
+        return [self.out, path, ledger(path)]
+
+
+def _native(form: Format, out: Path) -> Path:
+    """Where results stand in our own format, before they are written in another."""
+    return out if form.name == NATIVE else out.with_name(out.name + ".results.jsonl")
+
 
 def run(assignment: str, sources: list[str], options: Options) -> bool:
     """Grade everything, in the order given; was every submission read?
@@ -54,9 +67,12 @@ def run(assignment: str, sources: list[str], options: Options) -> bool:
     Raises AssignmentError, FormatError, OSError for what cannot be written, and StoppedError.
     """
     form = options.format
+    for path in options.written:
+        if path.resolve() in [Path(given).resolve() for given in (assignment, *sources)]:
+            raise FormatError(f"--out would overwrite {path}, which is read")
     prepared = load_assignment(assignment)
     orders = Orders.of(prepared, options.check_only)
-    stream = handed(sources, prepared.columns())
+    stream = handed(sources, prepared.columns(), [assignment, *options.written])
     with _runner(orders, options) as runner, closing(Seen()) as seen:
         one = _Run(form, prepared, orders, runner, seen)
         if options.out is None:
@@ -102,7 +118,7 @@ class _Run:
 
     def to_path(self, stream: Iterator[Handed], out: Path) -> None:
         """Write to a path what is not there yet; a format other than our own is made of our own at the end."""
-        path = out if self.form.name == NATIVE else out.with_name(out.name + ".results.jsonl")
+        path = _native(self.form, out)
         with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only))) as journal:
             left = journal.taken_over(stream, self.seen)
             self.failed += journal.failed

@@ -9,7 +9,7 @@ import hashlib
 import os
 import stat
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
 from itertools import islice
@@ -67,24 +67,28 @@ def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], known: C
     return refused(_stem(clean(path)), Place(clean(path)), "it holds more than one submission")
 
 
-def handed(sources: Sequence[str], known: Columns) -> Iterator[Handed]:
-    """All submissions of files, folders and standard input (``-``), in the order given; those of a folder sorted."""
+def handed(sources: Sequence[str], known: Columns, others: Iterable[str | os.PathLike[str]] = ()) -> Iterator[Handed]:
+    """All submissions of files, folders and standard input (``-``), in the order given; those of a folder sorted.
+
+    ``others``: paths within the folders that hold no submissions, such as that of the results.
+    """
+    left_out = frozenset(os.path.realpath(path) for path in others)
     for source in sources:
         nothing = True
-        for one in _source(source, known):
+        for one in _source(source, known, left_out):
             yield one
             nothing = False
         if nothing:
             yield _unreadable(source, "there is no submission in it")
 
 
-def _source(source: str, known: Columns) -> Iterator[Handed]:
+def _source(source: str, known: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
     if source == STDIN:
         return _stream(BytesIO() if sys.stdin is None else sys.stdin.buffer, "stdin", known)
-    return _folder(source, known) if os.path.isdir(source) else _file(source, known)
+    return _folder(source, known, left_out) if os.path.isdir(source) else _file(source, known)
 
 
-def _folder(folder: str, known: Columns) -> Iterator[Handed]:
+def _folder(folder: str, known: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
     """All files below a folder, sorted by their names; links are not followed."""
     try:
         with os.scandir(folder) as found:
@@ -94,12 +98,12 @@ def _folder(folder: str, known: Columns) -> Iterator[Handed]:
         return
     for name, is_folder, is_link in entries:
         path = os.path.join(folder, name)
-        if name.startswith(".") or name.lower() in _LEFT:
+        if name.startswith(".") or name.lower() in _LEFT or os.path.realpath(path) in left_out:
             continue
         if is_link:
             yield _unreadable(path, "it is a link, which is not followed")
         elif is_folder:
-            yield from _folder(path, known)
+            yield from _folder(path, known, left_out)
         else:
             yield from _file(path, known, within=True)
 
