@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from dofkit.linkage import Linkage, linkage, redundant_links
     from dofkit.reading import load, loads
     from dofkit.report import Report
+    from dofkit.sampling import configurations
     from dofkit.scene import Scene
 
 __version__ = "0.1.0"
@@ -34,6 +35,7 @@ __all__ = [
     "catalog_names",
     "catalog_text",
     "classify",
+    "configurations",
     "derived_flag",
     "linkage",
     "load",
@@ -49,6 +51,7 @@ _HOMES = {
     "catalog_names": "dofkit.catalog",
     "catalog_text": "dofkit.catalog",
     "classify": "dofkit.classify",
+    "configurations": "dofkit.sampling",
     "derived_flag": "dofkit.classify",
     "linkage": "dofkit.linkage",
     "load": "dofkit.reading",

@@ -91,7 +91,7 @@ def _classified(scene: Scene | System, seconds: float, method: MethodName) -> Re
         return system
     try:
         with limited(until - time.monotonic()), ctx.workprec(PRECISION):
-            reduced, setting = _prepared(system)
+            reduced, setting = prepared(system)
             setting = replace(setting, engines=METHODS[method].engines)
             with part(SOLVING):
                 outcome = solve(system, reduced, setting)
@@ -113,7 +113,7 @@ def _with_special_cases(
 
 def _generic(system: System) -> Report:
     """The report without special cases."""
-    reduced, setting = _prepared(system)
+    reduced, setting = prepared(system)
     return _report(system, reduced, setting, solve(system, reduced, setting))
 
 
@@ -128,7 +128,7 @@ def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int
     system = scene if isinstance(scene, System) else lower(scene)
     try:
         with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
-            reduced, setting = _prepared(system)
+            reduced, setting = prepared(system)
             outcome = solve(system, reduced, replace(setting, flag=True))
     except OutOfTimeError:
         return None
@@ -141,7 +141,7 @@ def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int
     return [sum(r[min(k, len(r) - 1)] for r in known) for k in range(max(map(len, known), default=0))]
 
 
-def _prepared(system: System) -> tuple[list[Reduced], Setting]:
+def prepared(system: System) -> tuple[list[Reduced], Setting]:
     """Each relation as what it says, and what may be assumed of the symbols."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))

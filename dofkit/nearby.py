@@ -251,10 +251,10 @@ def _back(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
     return None
 
 
-def damped(j: np.ndarray, f: np.ndarray) -> np.ndarray:
-    """The step -J^T (J J^T + |f| I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
+def damped(j: np.ndarray, f: np.ndarray, power: int = 1) -> np.ndarray:
+    """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
     left, singular, right = np.linalg.svd(j, full_matrices=False)
-    factors = singular / (singular * singular + float(np.linalg.norm(f)) + 1e-300)
+    factors = singular / (singular * singular + float(np.linalg.norm(f)) ** power + 1e-300)
     return np.asarray(-(right.T @ (factors * (left.T @ f))))
 
 
