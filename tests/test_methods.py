@@ -33,6 +33,11 @@ KNOWN: dict[tuple[str, MethodName], tuple[tuple[str, ...], str]] = {
         "three lengths with AC = AB + BC are met by complex points on a larger set than by real ones; no drawing is "
         "given, so only a real point, which the field alone does not look for, shows that the rod is straight",
     ),
+    ("heureka-jitterbug", "balls"): (
+        ("ball12.circuit",),
+        "balls keep which equations depend on which, without the weights: a circuit of constraints of several equations "
+        "each may hold one that other weights would spare",
+    ),
 }
 
 
