@@ -35,8 +35,8 @@ KNOWN: dict[tuple[str, MethodName], tuple[tuple[str, ...], str]] = {
     ),
     ("heureka-jitterbug", "balls"): (
         ("ball12.circuit",),
-        "balls keep which equations depend on which, without the weights: a circuit of constraints of several equations "
-        "each may hold one that other weights would spare",
+        "balls keep which equations depend on which, without the weights: a circuit of constraints of several equations"
+        " each may hold one too many",
     ),
 }
 
