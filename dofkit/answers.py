@@ -32,7 +32,8 @@ class Answer:
     """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
 
     ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
-    redundancy; ``hidden`` the finite relations that the differential ones force; ``doubt``: functions or numbers
+    redundancy; ``supports``: for every row that depends on rows before it a minimal set of those, where more than the
+    matrix tells it; ``hidden`` the finite relations that the differential ones force; ``doubt``: functions or numbers
     occur that may be related in a way that GF(p) does not show; ``late``: there was no time for it;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one.
     """
@@ -46,6 +47,7 @@ class Answer:
     hidden: list[Expr] = field(default_factory=list)
     matrix: list[SparseRow] = field(default_factory=list)
     modulus: int = 2
+    supports: Mapping[int, Sequence[int]] | None = None
     degenerate: bool = False
     instantaneous: int | None = None
     curved: bool = False
@@ -63,7 +65,8 @@ class Setting:
     """What the engines may assume of the symbols, which of them may be asked, and what is asked beyond the labels.
 
     ``grows``: the growth vector; ``flag``: the derived flag.
-    ``distances``: those that constraints hold, by constraint, in a world of ``dimension``.
+    ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
+    that rigid links join, by constraint.
     """
 
     positive: frozenset[Expr]
@@ -78,3 +81,4 @@ class Setting:
     flag: bool = False
     dimension: int = 3
     distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
+    links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)

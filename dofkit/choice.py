@@ -41,7 +41,8 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     if a.dof == 0:
         return []
     turning = [r for r in rotations if r.chart == "gibbs" and set(r.names) & set(block.coordinates)]
-    direct = [c for c in block.coordinates if c not in set(a.dependent)]
+    dependent = set(a.dependent)
+    direct = [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         return direct
     if setting.engines != BOTH:

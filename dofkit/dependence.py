@@ -84,7 +84,8 @@ def _of_part(
         elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
             found.append(unless_late(partial(_by_leaving_out, block, setting, a, nullity), left_open(owners)))
         else:
-            parts.append(Rows(matrix, owners, finite, a.modulus, [numbered.get(id(r.piece), -1) for r in block.rows]))
+            own_equations = [numbered.get(id(r.piece), -1) for r in block.rows]
+            parts.append(Rows(matrix, owners, finite, a.modulus, own_equations, a.supports))
     by_rank = [
         unless_late(partial(_analysed, group), left_open(o for part in group for o in part.owners))
         for group in _sharing(parts)
