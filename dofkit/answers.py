@@ -35,7 +35,8 @@ class Answer:
     redundancy; ``supports``: for every row that depends on rows before it a minimal set of those, where more than the
     matrix tells it; ``hidden`` the finite relations that the differential ones force; ``doubt``: functions or numbers
     occur that may be related in a way that GF(p) does not show; ``late``: there was no time for it;
-    ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one.
+    ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
+    ``apart``: how many relations are in no dependent set, and were not followed.
     """
 
     consistent: bool | None = True
@@ -58,6 +59,7 @@ class Answer:
     method: str = ""
     late: bool = False
     conflict: tuple[int, ...] = ()
+    apart: int = 0
 
 
 @dataclass(frozen=True)

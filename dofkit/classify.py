@@ -338,6 +338,10 @@ def _modelled(system: System, outcome: Outcome) -> str:
     finite = sum(not b.forms and not b.nonlinear for b in outcome.blocks)
     if finite:
         parts.append("no integrability test where all relations are finite (d(dg) = 0)")
+    apart = sum(a.apart for a in outcome.answers)
+    if apart:
+        many = sum(len(b.rows) for b in outcome.blocks)
+        parts.append(f"{apart} of {many} relations are in no dependent set (trees and the like): not followed")
     if system.forces:
         parts.append("forces are left out: they do not constrain")
     return "; ".join(parts) or "nothing constrains anything"

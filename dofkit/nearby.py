@@ -13,13 +13,14 @@ from dofkit.exact.balls import PRECISION, BallPoint, FloatPoint, OutsideDomainEr
 from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.manifold import Manifold
+from dofkit.wide import fails_afar
 
 #: How far a curve of independent relations is followed, in the columns' scales, at the most and at the least.
 FAR, NEAR, STEPS = 0.25, 2.0**-24, 6
 #: The least cosine between steps, and what a correction may add to one.
 STRAIGHT = 0.9
-#: What counts as not 0 there, relative to the relation's gradient: in high precision, and for many columns in floats.
-SURE, ROUGH, MANY = 2.0**-150, 1e-8, 60
+#: What counts as not 0 there, relative to the relation's gradient; with more relations floats have to do (`wide`).
+SURE, MANY = 2.0**-150, 60
 #: The step of a difference of gradients, and rounds of Newton's method on the critical set.
 DIFFERENCE, ROUNDS = 2.0**-80, 8
 FAULTS = (ValueError, ZeroDivisionError, OverflowError, OutsideDomainError, np.linalg.LinAlgError)
@@ -127,6 +128,8 @@ def fails_away(ball: Manifold, direction: Sequence[float]) -> bool:
     False also where the curve could not be followed far enough to see.
     """
     try:
+        if len(ball.rows) > MANY:
+            return fails_afar(ball, direction)
         here = Neighbourhood(ball)
         reach = FAR
         while reach > NEAR:
@@ -141,8 +144,6 @@ def fails_away(ball: Manifold, direction: Sequence[float]) -> bool:
 
 def _fails_at(here: Neighbourhood, u: np.ndarray) -> bool:
     ball = here.ball
-    if len(ball.rows) > MANY:
-        return bool(np.max(np.abs(here.floats(u, ball.others)[0])) > ROUGH)
     rows, columns = independent(here.floats(u, ball.rows)[1], 0.0) if ball.rows else ([], [])
     if len(rows) < len(ball.rows):
         return False

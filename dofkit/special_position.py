@@ -81,7 +81,7 @@ def special(system: System, placement: Placement, sets: Sequence[Sequence[int]],
     geometry = Geometry(system, placement, tolerance)
     found: list[str] = []
     for members in sets:
-        own = [c for c in system.connections if c.constraint in set(members)]
+        own = [system.connections[i] for i in members]
         found += list(_facts(geometry, own)) or [_OTHERWISE]
     return list(dict.fromkeys(found))
 

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 import dofkit
+from dofkit import local
 from dofkit.constraints import TYPES
 from dofkit.exact.sparse import rank_of_rows
 from dofkit.lowering import lower
@@ -258,3 +259,76 @@ def test_twists_have_the_rank_of_the_coordinates(scene: Scene) -> None:
 
 def test_every_type_is_known_as_a_connection_or_as_a_text() -> None:
     assert KINDS | {"equation", "on", "string", "roll"} == set(TYPES)
+
+
+# No more than the scene needs
+
+
+def cranks(more: list[dict[str, Any]] | None = None, bodies: list[str] | None = None) -> Report:
+    """A rod on three parallel cranks, hinged, and what hangs on it."""
+    joints = [("ground", "k1", [0, 0]), ("k1", "rod", [1, 2]), ("ground", "k2", [3, 0]), ("k2", "rod", [4, 2])]
+    joints += [("ground", "k3", [7, 1]), ("k3", "rod", [8, 3])]
+    constraints: list[dict[str, Any]] = [{"type": "revolute", "between": [a, b], "at": at} for a, b, at in joints]
+    names = ["k1", "k2", "k3", "rod", *(bodies or [])]
+    return dofkit.classify(dofkit.load({"dimension": 2, "bodies": names, "constraints": [*constraints, *(more or [])]}))
+
+
+def test_a_tree_that_hangs_on_a_mechanism_is_not_followed() -> None:
+    """60 pendulums in a chain under the rod: 60 more freedoms, and 120 relations that are in no dependent set."""
+    names = [f"p{i}" for i in range(60)]
+    chain = [
+        {"type": "revolute", "between": [names[i - 1] if i else "rod", name], "at": [4, 2 - i]}
+        for i, name in enumerate(names)
+    ]
+    alone, hung = cranks(), cranks(chain, names)
+    assert (alone.dof, hung.dof) == (1, 61)
+    assert (alone.verdict, alone.redundant_equations) == (hung.verdict, hung.redundant_equations)
+    assert "120 of 132 relations are in no dependent set" in hung.modelled
+
+
+def test_a_grid_of_squares_with_braces_is_settled() -> None:
+    """Squares with braces, the rows and columns a graph (Bolker and Crapo).
+
+    Without braces 12 rows and columns turn by an angle each, and the whole shifts: 14. The braces at (0, 0), (0, 1),
+    (1, 0) hold two rows and two columns to one angle, which leaves 11, and the one at (1, 1) is too many.
+    """
+    n = 6
+    particles = [{"name": f"p{i}_{j}", "at": [i, j]} for i in range(n + 1) for j in range(n + 1)]
+    links = [(f"p{i}_{j}", f"p{i + 1}_{j}") for i in range(n) for j in range(n + 1)]
+    links += [(f"p{i}_{j}", f"p{i}_{j + 1}") for i in range(n + 1) for j in range(n)]
+    links += [(f"p{i}_{j}", f"p{i + 1}_{j + 1}") for i in (0, 1) for j in (0, 1)]
+    constraints = [{"type": "link", "between": list(pair)} for pair in links]
+    report = dofkit.classify(dofkit.load({"dimension": 2, "particles": particles, "constraints": constraints}))
+    assert (report.dof, report.instantaneous_dof) == (11, 11)
+    # 98 coordinates, 88 links: one of them does nothing at this drawing.
+    assert report.redundant_equations == 1
+    assert "are in no dependent set" in report.modelled
+
+
+def redundant_scenes() -> list[Any]:
+    """Scenes in which some equations are too many where they are drawn."""
+    found = []
+    for path in sorted(SCENES.glob("mechanisms/*.yaml")):
+        if dofkit.load(path).expect.get("redundant_equations"):
+            found.append(pytest.param(path.stem, id=path.stem))
+    return found
+
+
+@pytest.mark.parametrize("name", redundant_scenes())
+def test_looking_at_dependent_relations_alone_changes_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    apart = told(name)
+    monkeypatch.setattr(local, "_by_parts", lambda *_: None)
+    whole = dofkit.classify(dofkit.load(next(SCENES.glob(f"*/{name}.yaml"))))
+    kept = (
+        "consistent",
+        "dof",
+        "velocity_dof",
+        "instantaneous_dof",
+        "singular",
+        "redundant",
+        "redundancies",
+        "generic",
+    )
+    for field in kept:
+        assert getattr(apart, field) == getattr(whole, field)
+    assert apart.constraints == whole.constraints
