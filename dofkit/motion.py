@@ -24,13 +24,14 @@ from dofkit.exact.balls import PRECISION
 from dofkit.exact.program import reachable
 from dofkit.exact.ring import ADD, MUL, POW, VAR, Ring, Scalar
 from dofkit.manifold import Local, Manifold, is_zero
-from dofkit.nearby import fails_away
+from dofkit.nearby import holds_away
 
 #: Orders to which the other relations are followed; the second where one motion is in question.
 ORDER, LONG_ORDER = 8, 16
 #: Relations of this degree are not followed, over balls beyond the long order: their series may begin later.
 LONGEST = 64
 INDEPENDENT = "all relations are independent here (implicit function theorem)"
+UNSEEN = {False: "and yet not at a distance", None: "which could not be followed to a distance"}
 FLAT = "may be flat here to a higher order than is followed"
 WHOLE = "nothing but motions of the whole is possible to first order"
 
@@ -57,8 +58,9 @@ def _local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: i
     order = max(LONG_ORDER if m - rigid <= 1 else ORDER, degree + 1)
     along = field.follow([field.base.random() for _ in range(m)], order)
     if all(s.poly.degree() < 0 for s in along):
-        if ball is not None and fails_away(ball, _away(ball)):
-            why = f"the dependent relations hold along a random curve to order {order - 1}, and yet not at a distance"
+        seen = True if ball is None else holds_away(ball, _away(ball), True)
+        if not seen:
+            why = f"the dependent relations hold along a random curve to order {order - 1}, {UNSEEN[seen]}"
             return Local(None, "undecided", why)
         why = f"the dependent relations hold along a random curve to order {order - 1}: the motion is finite"
         return _timed(field, Local(m, "probable", why), time)
@@ -85,10 +87,9 @@ def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Lo
         return Local(None, "undecided", f"a relation {FLAT}")
     along = ball.follow(_random(ball), order)
     if all(s.coefficient(k).contains(0) for s in along for k in range(order)):
-        if fails_away(ball, _away(ball)):
-            return Local(
-                None, "undecided", "the dependent relations hold along a random curve, and yet not at a distance"
-            )
+        seen = holds_away(ball, _away(ball), False)
+        if not seen:
+            return Local(None, "undecided", f"the dependent relations hold along a random curve, {UNSEEN[seen]}")
         why = "the dependent relations hold along a random curve within the precision"
         return _numeric(_timed(ball, Local(m, "numeric", why), time))
     if m - rigid == 1:

@@ -5,22 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from flint import arb, arb_mat
+from flint import arb, arb_mat, ctx
 
 from dofkit.critical import Split
 from dofkit.deadline import check
-from dofkit.exact.balls import PRECISION, BallPoint, FloatPoint, OutsideDomainError, jacobian
+from dofkit.exact.balls import BallPoint, FloatPoint, OutsideDomainError, jacobian
 from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.manifold import Manifold
 from dofkit.wide import fails_afar
 
 #: How far a curve of independent relations is followed, in the columns' scales, at the most and at the least.
-FAR, NEAR, STEPS = 0.25, 2.0**-24, 6
+FAR, NEAR, STEPS = 0.5, 2.0**-24, 8
 #: The least cosine between steps, and what a correction may add to one.
 STRAIGHT = 0.9
 #: What counts as not 0 there, relative to the relation's gradient; with more relations floats have to do (`wide`).
 SURE, MANY = 2.0**-150, 60
+#: Bits, and what is not 0, where a curve begins at exact coordinates.
+DEEP, DEEP_SURE = 1024, 2.0**-900
 #: The step of a difference of gradients, and rounds of Newton's method on the critical set.
 DIFFERENCE, ROUNDS = 2.0**-80, 8
 FAULTS = (ValueError, ZeroDivisionError, OverflowError, OutsideDomainError, np.linalg.LinAlgError)
@@ -81,7 +83,7 @@ class Neighbourhood:
             for a, i in enumerate(moved):
                 symbols[self.keys[i]] = (symbols[self.keys[i]] - step[a, 0]).mid()
                 last = max(last, abs(step[a, 0].mid()) / float(self.scales[i]))
-            if last < arb(2) ** (20 - PRECISION):
+            if last < arb(2) ** (20 - ctx.prec):
                 return symbols
         return None
 
@@ -122,33 +124,35 @@ class Neighbourhood:
         return max((abs(float(at[n].mid())) / self.norm_of[n] for n in nodes), default=0.0)
 
 
-def fails_away(ball: Manifold, direction: Sequence[float]) -> bool:
-    """Is a dependent relation, at a point of M some way along a curve, certainly not 0?
+def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool | None:
+    """Are the dependent relations 0, to high precision, at a point of M some way along a curve?
 
-    False also where the curve could not be followed far enough to see.
+    ``deep``: the curve begins at exact coordinates, so that what is flat there shows to an order of several hundreds.
+    None where the curve could not be followed far enough to see.
     """
     try:
         if len(ball.rows) > MANY:
-            return fails_afar(ball, direction)
+            return not fails_afar(ball, direction)
         here = Neighbourhood(ball)
         reach = FAR
         while reach > NEAR:
             u = _walk(here, direction, reach)
             if u is not None:
-                return _fails_at(here, u)
+                with ctx.workprec(DEEP if deep else ctx.prec):
+                    return _holds_at(here, u, DEEP_SURE if deep else SURE)
             reach /= 4
     except FAULTS:
-        return False
-    return False
+        return None
+    return None
 
 
-def _fails_at(here: Neighbourhood, u: np.ndarray) -> bool:
+def _holds_at(here: Neighbourhood, u: np.ndarray, sure: float) -> bool | None:
     ball = here.ball
     rows, columns = independent(here.floats(u, ball.rows)[1], 0.0) if ball.rows else ([], [])
     if len(rows) < len(ball.rows):
-        return False
+        return None
     symbols = here.newton(here.exactly(u), [ball.rows[r] for r in rows], columns)
-    return symbols is not None and here.residual(symbols, ball.others) > SURE
+    return None if symbols is None else here.residual(symbols, ball.others) <= sure
 
 
 def holds_on_critical(ball: Manifold, parts: Split, direction: Sequence[float]) -> bool:
