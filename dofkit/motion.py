@@ -20,9 +20,9 @@ from dataclasses import replace
 from flint import arb, ctx
 
 from dofkit.crossing import UNDECIDED, by_signs, decide
+from dofkit.degrees import degree as degree_of
 from dofkit.exact.balls import PRECISION
-from dofkit.exact.program import reachable
-from dofkit.exact.ring import ADD, MUL, POW, VAR, Ring, Scalar
+from dofkit.exact.ring import Scalar
 from dofkit.manifold import Local, Manifold, is_zero
 from dofkit.nearby import holds_away
 
@@ -52,7 +52,7 @@ def _local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: i
         return _timed(field, Local(m, "proved", INDEPENDENT), time)
     if m == rigid:
         return Local(m, "proved", WHOLE, time is not None)
-    degree = _degree(field.ring, field.others)
+    degree = degree_of(field)
     if degree >= LONGEST:
         return Local(None, "undecided", f"a relation of degree {degree} {FLAT}")
     order = max(LONG_ORDER if m - rigid <= 1 else ORDER, degree + 1)
@@ -82,7 +82,7 @@ def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Lo
         )
     if m == rigid:
         return Local(m, "numeric", WHOLE, time is not None)
-    order = max(ORDER, _degree(ball.ring, ball.others) + 1)
+    order = max(ORDER, degree_of(ball) + 1)
     if order > LONG_ORDER:
         return Local(None, "undecided", f"a relation {FLAT}")
     along = ball.follow(_random(ball), order)
@@ -97,22 +97,6 @@ def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Lo
     if time is not None:
         return _numeric(_signs_in_time(ball, rigid, time))
     return _numeric(by_signs(ball.quadratic_forms(), rigid) or UNDECIDED)
-
-
-def _degree(ring: Ring, nodes: Sequence[int]) -> int:
-    """A bound on the degree of some expressions in the generators."""
-    degrees: dict[int, int] = {}
-    for i in reversed(reachable(ring, nodes, through_generators=False)):
-        op, payload = ring.code[i]
-        if op == MUL:
-            degrees[i] = sum(degrees[j] for j in payload)
-        elif op == ADD:
-            degrees[i] = max(degrees[j] for j in payload)
-        elif op == POW:
-            degrees[i] = abs(payload[1]) * degrees[payload[0]]
-        else:
-            degrees[i] = int(op == VAR)
-    return max((degrees[n] for n in nodes), default=0)
 
 
 def _numeric(told: Local) -> Local:
