@@ -10,12 +10,14 @@ from dofkit.deadline import unless_late
 from dofkit.exact.sparse import echelon
 from dofkit.general import General, has_geometry, in_general_position
 from dofkit.mobility import mobility
+from dofkit.nearly import MOST, nearly_dependent
 from dofkit.normal import Finite
 from dofkit.placed import Placement, drawn, measured
 from dofkit.report import Generic, Mobility, Report
 from dofkit.solving import Outcome, Reduced
 from dofkit.special_position import special
 from dofkit.system import System
+from dofkit.twists import KINDS
 
 #: Dependent sets of rows that are looked at, and sentences about them that are told.
 MOST_SETS, MOST_TOLD = 40, 6
@@ -83,6 +85,16 @@ class Beside:
         unique = sorted(map(list, {tuple(s) for s in sets}))
         return [s for s in unique if not any(set(t) < set(s) for t in unique)]
 
+    def nearly(self) -> str | None:
+        """What to say of a near-dependence at an exact drawing."""
+        here, system = self.report.instantaneous_dof, self.system
+        if here is None or system.tolerance is not None or not has_geometry(system):
+            return None
+        columns = len(system.coordinates)
+        small = columns <= MOST and all(c.type in KINDS for c in system.connections)
+        placement = measured(system) if small else None
+        return None if placement is None else nearly_dependent(placement, system.dimension, columns, columns - here)
+
     def _exact(self) -> Placement | None:
         return None if self.system.tolerance is not None else self._placement
 
@@ -102,4 +114,6 @@ def with_counts(
 ) -> Report:
     """The report with the counts beside its own."""
     beside = Beside(system, reduced, setting, outcome, report)
-    return report.model_copy(update={"generic": beside.generic(), "mobility": unless_late(beside.mobility, None)})
+    found = {"generic": beside.generic(), "mobility": unless_late(beside.mobility, None)}
+    near = unless_late(beside.nearly, None)
+    return report.model_copy(update=found if near is None else {**found, "warnings": [*report.warnings, near]})

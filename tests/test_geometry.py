@@ -340,3 +340,59 @@ def test_looking_at_dependent_relations_alone_changes_nothing(name: str, monkeyp
     for field in kept:
         assert getattr(apart, field) == getattr(whole, field)
     assert apart.constraints == whole.constraints
+
+
+# Nearly special drawings
+
+
+def three_bars(off: str, scale: int = 1, tolerance: float | None = None) -> Report:
+    """A body on three bars whose lines meet in (0, 0), but that the third is drawn off by a little."""
+    bars = [("1", "0", "2", "0"), ("0", "1", "0", "3"), ("-1", "-1", "-2", f"-2 + {off}")]
+    constraints = [
+        {
+            "type": "link",
+            "between": [
+                [f"{scale} * ({c})", f"{scale} * ({d})"],
+                {"on": "body", "at": [f"{scale} * ({a})", f"{scale} * ({b})"]},
+            ],
+        }
+        for a, b, c, d in bars
+    ]
+    scene: dict[str, Any] = {"dimension": 2, "bodies": ["body"], "constraints": constraints}
+    return dofkit.classify(dofkit.load(scene if tolerance is None else scene | {"tolerance": tolerance}))
+
+
+@pytest.mark.parametrize("off", ["10^-4", "10^-7", "10^-10"])
+@pytest.mark.parametrize("scale", [1, 1000])
+def test_a_near_dependence_suggests_a_tolerance(off: str, scale: int) -> None:
+    exact = three_bars(off, scale)
+    assert exact.instantaneous_dof == 0
+    said = next(warning for warning in exact.warnings if "nearly dependent" in warning)
+    suggested = float(said.partition("`tolerance: ")[2].partition("`")[0])
+    assert three_bars(off, scale, suggested).instantaneous_dof == 1
+
+
+@pytest.mark.parametrize("off", ["0", "1/10", "1"])
+def test_what_is_special_or_far_from_it_is_not_nearly_so(off: str) -> None:
+    assert not any("nearly dependent" in warning for warning in three_bars(off).warnings)
+
+
+def test_no_scene_of_the_tables_is_nearly_dependent() -> None:
+    names = [row[0] for row in COUNTS] + [row[0] for row in GENERIC]
+    assert not any("nearly dependent" in warning for name in names for warning in told(name).warnings)
+
+
+def test_a_small_body_in_a_large_scene_is_not_nearly_dependent() -> None:
+    """A wheel of size 1/1000, far out, on a frame of size 1: only its sizes differ."""
+    scene = {
+        "dimension": 2,
+        "bodies": ["frame", "wheel"],
+        "constraints": [
+            {"type": "revolute", "between": ["ground", "frame"], "at": [0, 0]},
+            {"type": "revolute", "between": ["frame", "wheel"], "at": [1, 0]},
+            {"type": "link", "between": [[2, 0], {"on": "wheel", "at": ["1001/1000", "1/2000"]}]},
+        ],
+    }
+    report = dofkit.classify(dofkit.load(scene))
+    assert report.instantaneous_dof == 1
+    assert not any("nearly dependent" in warning for warning in report.warnings)
