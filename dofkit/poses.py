@@ -121,7 +121,7 @@ class Relations:
         rng = np.random.default_rng(1)
         found = np.zeros(len(self.finite))
         for _ in range(USUAL):
-            turns = rng.standard_normal((len(self.rotations), 4))
+            turns = np.hstack([np.ones((len(self.rotations), 1)), rng.uniform(-1, 1, (len(self.rotations), 3))])
             turns = turns / np.linalg.norm(turns, axis=1, keepdims=True)
             try:
                 _, j = self._evaluated(Pose(self.scales * rng.standard_normal(len(self.plain)), turns), self._values)

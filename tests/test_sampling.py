@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -187,6 +188,14 @@ def test_generic_lengths_and_parameters_are_chosen_and_told() -> None:
     assert {q["r"] for q in found} == {found[0]["r"]}
     assert all(abs(math.hypot(q["x_A"], q["y_A"]) - q["r"]) < 1e-11 for q in found)
     assert all(q["r"] == 3 for q in along(scene, 5, 0.1, values={"r": 3}))
+
+
+def test_a_ring_of_seven_hinges_in_general_position() -> None:
+    bodies = [f"b{i}" for i in range(1, 7)]
+    ring = [{"type": "revolute", "between": list(pair)} for pair in pairwise(["ground", *bodies, "ground"])]
+    found = along({"bodies": bodies, "constraints": ring}, 3, 0.1)
+    assert len(found) == 7
+    assert all(found[i] != found[i + 1] for i in range(6))
 
 
 def test_a_way_ends_before_an_inequality_is_broken() -> None:

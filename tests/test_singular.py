@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from itertools import combinations, pairwise
+from itertools import accumulate, combinations, pairwise
 from typing import Any
 
 import pytest
@@ -198,6 +199,28 @@ def test_what_moves_and_what_only_seems_to(scene: Scene, dof: int, instantaneous
     assert (report.consistent, report.dof, report.velocity_dof) == (True, dof, dof)
     assert report.instantaneous_dof == instantaneous
     assert report.singular is (dof != instantaneous)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_chains_of_bars_on_a_line_by_their_signature(seed: int) -> None:
+    """Links l_i in directions e_i = 1 or -1 from one fixed point to another, d = sum e_i l_i > 0 apart.
+
+    Across the line, with sum delta_i = 0, the distance is d - sum e_i delta_i^2 / 2 l_i. On that hyperplane the form
+    has a positive square less than there are e_i = 1: definite where there is one of these, or nothing else.
+    """
+    rng = random.Random(seed)
+    n, dimension = rng.randint(2, 6), rng.choice((2, 3))
+    while True:
+        signs, sizes = [rng.choice((1, 1, -1)) for _ in range(n)], [rng.randint(1, 9) for _ in range(n)]
+        places = [0, *accumulate(e * size for e, size in zip(signs, sizes, strict=True))]
+        if places[-1] > 0:
+            break
+    points = {f"P{i}": (x, *[0] * (dimension - 1)) for i, x in enumerate(places)}
+    report = dofkit.classify(dofkit.load(bars(points, pairwise(points), f"P0 P{n}")))
+    free = (n - 1) * (dimension - 1)
+    definite = signs.count(1) in (1, n)
+    assert report.instantaneous_dof == free
+    assert report.dof == (0 if definite else free - 1)
 
 
 @cases(
