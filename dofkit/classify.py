@@ -257,10 +257,10 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
 def _all_needed(found: Redundancies, reduced: Sequence[Reduced], outcome: Outcome) -> Redundancies:
     """With no equation too many, what was left open is needed, where every equation takes one freedom at most.
 
-    One that says several things (a sum of squares), or hidden relations, may hide that another follows.
+    One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
-    if several or any(a.hidden for a in outcome.answers):
+    if several or any(a.hidden or a.degenerate for a in outcome.answers):
         return found
     needed = {i: reduced[i].equations for i in found.undecided}
     return replace(found, independent={**found.independent, **needed}, undecided=())

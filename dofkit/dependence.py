@@ -81,6 +81,8 @@ def _of_part(
         if nullity <= 0 and a.hidden and not a.degenerate:
             counted = {o: owners.count(o) for o in owners}
             found.append(Redundancies(counted, [], [], {}, equations=dict.fromkeys(owners, ())))
+        elif a.degenerate and "balls" not in setting.engines:
+            found.append(left_open(owners))
         elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
             found.append(unless_late(partial(_by_leaving_out, block, setting, a, nullity), left_open(owners)))
         else:
