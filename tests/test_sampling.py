@@ -109,7 +109,7 @@ def test_a_slider_crank_passes_both_dead_centres() -> None:
 
 
 def test_a_piston_drawn_in_from_its_dead_centre_moves_from_then_until_the_other() -> None:
-    found = along(slider_crank(drive="-t"), 60, 0.1)
+    found = along(slider_crank(drive="-t"), 25, 0.1)
     assert [round(q["t"], 9) for q in found] == [round(0.1 * k, 9) for k in range(len(found))]
     assert 1.8 < found[-1]["t"] <= 2
     assert all(abs(q["x_piston"] + q["t"]) < 1e-11 for q in found)
@@ -123,19 +123,19 @@ def test_a_disc_that_is_turned_at_a_constant_rate_rolls_in_a_circle() -> None:
         "constraints": ["dx = 2 cos(theta) dphi", "dy = 2 sin(theta) dphi", "theta = t"],
         "configuration": {"x": 0, "y": 0, "theta": 0, "phi": 0},
     }
-    found = along(scene, 30, 0.1, along="phi")
+    found = along(scene, 12, 0.2, along="phi")
     rate = found[-1]["phi"] / found[-1]["t"]
     assert rate > 0.1
     for q in found:
         t = q["t"]
         assert abs(q["theta"] - t) < 1e-12
-        assert abs(q["phi"] - rate * t) < 1e-5
-        assert math.hypot(q["x"] - 2 * rate * math.sin(t), q["y"] - 2 * rate * (1 - math.cos(t))) < 1e-5
+        assert abs(q["phi"] - rate * t) < 1e-4
+        assert math.hypot(q["x"] - 2 * rate * math.sin(t), q["y"] - 2 * rate * (1 - math.cos(t))) < 1e-4
 
 
 def test_a_form_keeps_what_it_integrates_to() -> None:
     scene = {"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"], "configuration": {"x": 2, "y": 1}}
-    assert all(abs(q["x"] * q["y"] - 2) < 1e-6 for q in along(scene, 20, 0.1))
+    assert all(abs(q["x"] * q["y"] - 2) < 1e-6 for q in along(scene, 8, 0.1))
 
 
 def test_the_coordinate_that_is_driven_leads() -> None:
@@ -163,9 +163,9 @@ BENNETT = [
 
 def test_a_linkage_with_more_equations_than_it_needs() -> None:
     scene = {"bodies": ["l1", "l2", "l3"], "constraints": BENNETT}
-    found = along(scene, 25, 0.2)
+    found = along(scene, 12, 0.3)
     joints_close(scene, found, 65)
-    assert len(found) == 51
+    assert len(found) == 25
 
 
 def test_a_motion_that_begins_in_a_cusp() -> None:
