@@ -316,6 +316,11 @@ def test_compiled_loops_give_the_same(d: int, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(compiled, "WORTH_COMPILING", 0)
     assert [answers(dofkit.linkage(links, d)) for links in lists] == plain
     assert compiled.engine_for(pebbles, 0).compiled
+    monkeypatch.setattr(compiled, "WORTH_COMPILING", 10**9)
+    monkeypatch.setattr(compiled, "WORTH_CALLING", 0)
+    assert [answers(dofkit.linkage(links, d)) for links in lists] == plain  # compiled ones are there, and used in part
+    monkeypatch.setattr(plane, "WORTH_WORDS", 0)
+    assert [answers(dofkit.linkage(links, d)) for links in lists] == plain
 
 
 def test_many_circuits_at_once_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
