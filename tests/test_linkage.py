@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import dofkit
-from dofkit.linkage import LinkageError, compiled, pebbles, plane, space
+from dofkit.linkage import LinkageError, compiled, large, pebbles, plane, space
 
 Link = tuple[Any, Any]
 Pairs = Sequence[tuple[int, int]]
@@ -421,6 +421,19 @@ def test_a_dependence_that_no_count_proves_is_probable(monkeypatch: pytest.Monke
     told = dofkit.linkage(BANANAS, 3)
     assert (told.rank, told.verdict) == (17, "probable")
     assert "chance below" in told.proof("redundant").reason
+
+
+def test_a_core_too_large_for_a_dense_matrix(monkeypatch: pytest.MonkeyPatch) -> None:
+    lists = [middling(seed, 3, 9 + seed) for seed in range(12)]
+    dense = [dofkit.linkage(links, 3) for links in lists]
+    monkeypatch.setattr(large, "DENSE", 0)
+    for links, known in zip(lists, dense, strict=True):
+        told = dofkit.linkage(links, 3)
+        assert (told.rank, told.redundant, told.circuit_places) == (known.rank, known.redundant, known.circuit_places)
+        assert told.verdict == ("probable" if len(told.redundant) > len(links) - len(set(links)) else "proved")
+    assert dofkit.linkage(complete("ABCDEF"), 3).clusters == [list("ABCDEF")]
+    with pytest.raises(LinkageError, match="too many to tell apart"):
+        _ = dofkit.linkage(BANANAS, 3).clusters
 
 
 def test_every_run_gives_the_same() -> None:
