@@ -11,6 +11,7 @@ from dofkit.exact.sparse import SparseRow
 from dofkit.exact.trust import Doubt
 from dofkit.expr import Expr
 from dofkit.report import Verdict
+from dofkit.separate import Looked
 from dofkit.system import Coordinate, Distance
 
 
@@ -36,7 +37,7 @@ class Answer:
     matrix tells it; ``hidden`` the finite relations that the differential ones force; ``doubt``: functions or numbers
     occur that may be related in a way that GF(p) does not show; ``late``: there was no time for it;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
-    ``apart``: how many relations are in no dependent set, and were not followed.
+    ``looked``: what was looked at of the relations.
     """
 
     consistent: bool | None = True
@@ -59,7 +60,7 @@ class Answer:
     method: str = ""
     late: bool = False
     conflict: tuple[int, ...] = ()
-    apart: int = 0
+    looked: Looked = field(default_factory=Looked)
 
 
 @dataclass(frozen=True)

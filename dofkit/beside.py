@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import cached_property, partial
 
 from dofkit.answers import Setting
-from dofkit.deadline import unless_late
+from dofkit.deadline import part, unless_late
 from dofkit.exact.sparse import echelon
 from dofkit.general import General, has_geometry, in_general_position
 from dofkit.mobility import mobility
@@ -21,6 +21,8 @@ from dofkit.twists import KINDS
 
 #: Dependent sets of rows that are looked at, and sentences about them that are told.
 MOST_SETS, MOST_TOLD = 40, 6
+#: Of the time that is left, for the count in general position.
+SHARE = 0.4
 #: Measured lines count as parallel, and so on, within so many tolerances.
 SLACK = 10
 _LATE = General(None, why="there was no time to count")
@@ -58,7 +60,7 @@ class Beside:
         if here is None or here == dof:
             return None
         if here < dof:
-            return "what the texts say fits the drawing only at a special place"
+            return "the drawing allows less than general position: what the texts say is special there"
         many = here - dof
         start = f"at the drawing {many} equation{'s' * (many > 1)} more depend{'s' * (many == 1)} on the others"
         placement = self._placement
@@ -114,6 +116,8 @@ def with_counts(
 ) -> Report:
     """The report with the counts beside its own."""
     beside = Beside(system, reduced, setting, outcome, report)
-    found = {"generic": beside.generic(), "mobility": unless_late(beside.mobility, None)}
+    with part(SHARE):
+        generic = beside.generic()
+    found = {"generic": generic, "mobility": unless_late(beside.mobility, None)}
     near = unless_late(beside.nearly, None)
     return report.model_copy(update=found if near is None else {**found, "warnings": [*report.warnings, near]})

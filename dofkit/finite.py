@@ -76,7 +76,7 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         return _measured_answer(chart, setting, found)
     result = Answer(True, found.local.dimension, found.local.dimension, found.local.verdict)
     result.method = "rank over GF(p) at the given configuration"
-    result.instantaneous, result.apart = found.instantaneous, found.apart
+    result.instantaneous, result.looked = found.instantaneous, found.looked
     result.matrix, result.modulus = found.matrix, found.modulus
     if found.dependent is None:
         result.dependent = dependent_names(found.matrix, chart, found.modulus)

@@ -72,7 +72,7 @@ def test_why_kutzbach_errs_is_the_span_of_the_screws(name: str, span: int) -> No
     found = told(name).mobility
     assert found is not None
     assert found.differs is not None
-    assert f"span {span} dimensions" in found.differs
+    assert f"span {span} dimension" in found.differs
     assert f"with {span} for 6" in found.differs
 
 
@@ -396,3 +396,27 @@ def test_a_small_body_in_a_large_scene_is_not_nearly_dependent() -> None:
     report = dofkit.classify(dofkit.load(scene))
     assert report.instantaneous_dof == 1
     assert not any("nearly dependent" in warning for warning in report.warnings)
+
+
+def test_what_is_rigid_is_one_body() -> None:
+    """A square with both diagonals, rigid with one bar too many, and a swinging triangle at its corner."""
+    names = "ABCDEF"
+    places = [[0, 0], [3, 0], [3, 3], [0, 3], [5, 4], [4, 6]]
+    pairs = ["AB", "BC", "CD", "DA", "AC", "BD", "CE", "EF", "FC"]
+    scene = {
+        "dimension": 2,
+        "particles": [{"name": n, "at": at} for n, at in zip(names, places, strict=True)],
+        "constraints": [{"type": "link", "between": list(pair)} for pair in pairs],
+    }
+    report = dofkit.classify(dofkit.load(scene))
+    assert (report.dof, report.verdict, report.redundant) == (4, "proved", ["c6"])
+    assert "1 dependent set taken for one rigid body" in report.modelled
+    assert "3 of 9 relations are in no dependent set" in report.modelled
+
+
+def test_a_driven_count_adds_up() -> None:
+    """Bennett's loop with one hinge driven: 3(4 - 1 - 4) + 4 - 1 = 0."""
+    found = told("bennett-driven").mobility
+    assert found is not None
+    assert found.differs is not None
+    assert found.differs.endswith("3(4 - 1 - 4) + 4 - 1 = 0")
