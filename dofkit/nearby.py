@@ -9,7 +9,7 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.critical import Split
 from dofkit.deadline import check
-from dofkit.exact.balls import BallPoint, FloatPoint, OutsideDomainError, jacobian
+from dofkit.exact.balls import BallPoint, OutsideDomainError, jacobian
 from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.manifold import Manifold
@@ -21,8 +21,12 @@ FAR, NEAR, STEPS = 0.5, 2.0**-24, 8
 STRAIGHT = 0.9
 #: What counts as not 0 there, relative to the relation's gradient; with more relations floats have to do (`wide`).
 SURE, MANY = 2.0**-150, 60
+#: Bits that large numbers which cancel may cost: a million sizes from the origin, squared, and more.
+LOST = 90
 #: Bits, and what is not 0, where a curve begins at exact coordinates.
 DEEP, DEEP_SURE = 1024, 2.0**-900
+#: Bits in which relations are evaluated before they are rounded.
+WIDE = 256
 #: The step of a difference of gradients, and rounds of Newton's method on the critical set.
 DIFFERENCE, ROUNDS = 2.0**-80, 8
 FAULTS = (ValueError, ZeroDivisionError, OverflowError, OutsideDomainError, np.linalg.LinAlgError)
@@ -41,7 +45,6 @@ class Neighbourhood:
         self.keys = [ball.ring.vars[c].key for c in self.columns]
         self.scales = np.array([ball.scales[i] for i in self.place])
         self.middle: dict[Expr, arb] = {s: arb(v).mid() for s, v in ball.base.symbols.items()}
-        self.origin = np.array([float(self.middle[k]) for k in self.keys])
         _, j = self.floats(np.zeros(len(self.columns)), ball.nodes, weighed=False)
         norms = np.linalg.norm(j, axis=1)
         self.norms = np.where(norms > 0, norms, 1.0)
@@ -49,12 +52,12 @@ class Neighbourhood:
 
     def floats(self, u: np.ndarray, nodes: Sequence[int], weighed: bool = True) -> tuple[np.ndarray, np.ndarray]:
         """The relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
-        symbols = {s: float(v) for s, v in self.middle.items()}
-        symbols.update(zip(self.keys, (float(v) for v in self.origin + self.scales * u), strict=True))
-        point = FloatPoint(symbols, 0)
-        at = values(self.ring, point)
-        f = np.array([at[n] for n in nodes], dtype=float)
-        j = np.array(jacobian(self.ring, at, point, nodes, self.columns, 0.0), dtype=float)
+        with ctx.workprec(WIDE):
+            point = BallPoint(self.exactly(u), 0)
+            at = values(self.ring, point)
+            f = np.array([float(at[n].mid()) for n in nodes], dtype=float)
+            rows = jacobian(self.ring, at, point, nodes, self.columns, arb(0))
+            j = np.array([[float(v.mid()) for v in row] for row in rows], dtype=float)
         j = j.reshape(len(nodes), len(self.columns)) * self.scales
         if weighed:
             norms = np.array([self.norm_of[n] for n in nodes])
@@ -83,7 +86,7 @@ class Neighbourhood:
             for a, i in enumerate(moved):
                 symbols[self.keys[i]] = (symbols[self.keys[i]] - step[a, 0]).mid()
                 last = max(last, abs(step[a, 0].mid()) / float(self.scales[i]))
-            if last < arb(2) ** (20 - ctx.prec):
+            if last < arb(2) ** (LOST - ctx.prec):
                 return symbols
         return None
 
