@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from dofkit.exact.engines import BOTH, Engines
-from dofkit.exact.sparse import SparseRow
+from dofkit.exact.sparse import SparseRow, Supports
 from dofkit.exact.trust import Doubt
 from dofkit.expr import Expr
 from dofkit.report import Verdict
@@ -33,9 +33,9 @@ class Answer:
     """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
 
     ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
-    redundancy; ``supports``: for every row that depends on rows before it a minimal set of those, where more than the
-    matrix tells it; ``hidden`` the finite relations that the differential ones force; ``doubt``: functions or numbers
-    occur that may be related in a way that GF(p) does not show; ``late``: there was no time for it;
+    redundancy; ``supports``: where something else than the matrix tells what depends on what; ``hidden`` the finite
+    relations that the differential ones force; ``doubt``: functions or numbers occur that may be related in a way that
+    GF(p) does not show; ``late``: there was no time for it;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
     ``looked``: what was looked at of the relations.
     """
@@ -49,7 +49,7 @@ class Answer:
     hidden: list[Expr] = field(default_factory=list)
     matrix: list[SparseRow] = field(default_factory=list)
     modulus: int = 2
-    supports: Mapping[int, Sequence[int]] | None = None
+    supports: Supports | None = None
     degenerate: bool = False
     instantaneous: int | None = None
     curved: bool = False

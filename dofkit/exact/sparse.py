@@ -7,7 +7,7 @@ fewest rows, so a chain or a tree fills in nothing and a grid little more than i
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import Any
@@ -15,6 +15,8 @@ from typing import Any
 from dofkit.deadline import check
 
 SparseRow = dict[int, int]
+#: For every row that depends on rows before it a minimal set of those; told where it is asked for.
+Supports = Callable[[], Mapping[int, Sequence[int]]]
 
 #: Rows between two looks at the clock.
 LOOK = 64
