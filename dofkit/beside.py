@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property, partial
+from typing import TypeVar
+
+from flint.utils.flint_exceptions import DomainError
 
 from dofkit.answers import Setting
 from dofkit.deadline import part, unless_late
+from dofkit.exact.field import NoPointError
 from dofkit.exact.sparse import echelon
 from dofkit.general import General, has_geometry, in_general_position
 from dofkit.mobility import mobility
@@ -25,6 +29,7 @@ MOST_SETS, MOST_TOLD = 40, 6
 SHARE = 0.4
 #: Measured lines count as parallel, and so on, within so many tolerances.
 SLACK = 10
+T = TypeVar("T")
 _LATE = General(None, why="there was no time to count")
 
 
@@ -111,13 +116,21 @@ class Beside:
         return mobility(self.system, equations, others, self.report.velocity_dof, self._exact)
 
 
+def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
+    """What was found; None where there was no time, or the drawing has no value (a root of what is negative)."""
+    try:
+        return unless_late(work, None)
+    except (ArithmeticError, ValueError, NoPointError, DomainError):
+        return None
+
+
 def with_counts(
     system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report
 ) -> Report:
     """The report with the counts beside its own."""
     beside = Beside(system, reduced, setting, outcome, report)
     with part(SHARE):
-        generic = beside.generic()
-    found = {"generic": generic, "mobility": unless_late(beside.mobility, None)}
-    near = unless_late(beside.nearly, None)
+        generic = _if_it_has_a_value(beside.generic)
+    found = {"generic": generic, "mobility": _if_it_has_a_value(beside.mobility)}
+    near = _if_it_has_a_value(beside.nearly)
     return report.model_copy(update=found if near is None else {**found, "warnings": [*report.warnings, near]})
