@@ -300,3 +300,21 @@ def test_a_long_flag_is_followed_to_its_end() -> None:
     report = dofkit.classify(dofkit.load(made))
     assert (report.dof, report.velocity_dof) == (53, 2)
     assert report.growth_vector == list(range(2, 54))
+
+
+@pytest.mark.parametrize("size", ["1/3", "3"])
+def test_a_form_that_is_zero_but_for_rounding_is_no_form(size: str) -> None:
+    """Sarrus's linkage with both chains stretched, any size: alpha = beta and alpha = -beta cross."""
+    sides = [("a", (2, 0), [0, 1, 0]), ("b", (0, 2), [1, 0, 0])]
+    joints = [
+        {
+            "type": "revolute",
+            "between": list(pair),
+            "at": [f"{x} * {size}", f"{y} * {size}", f"{z} * {size}"],
+            "axis": axis,
+        }
+        for name, (x, y), axis in sides
+        for z, pair in enumerate(pairwise(("ground", f"{name}1", f"{name}2", "plate")))
+    ]
+    report = dofkit.classify(dofkit.load({"bodies": ["a1", "a2", "plate", "b1", "b2"], "constraints": joints}))
+    assert (report.dof, report.instantaneous_dof) == (1, 2)
