@@ -82,8 +82,8 @@ def special(system: System, placement: Placement, sets: Sequence[Sequence[int]],
     found: list[str] = []
     for members in sets:
         own = [system.connections[i] for i in members]
-        found += list(_facts(geometry, own)) or [_OTHERWISE]
-    return list(dict.fromkeys(found))
+        found += _facts(geometry, own)
+    return list(dict.fromkeys(found)) or [_OTHERWISE]
 
 
 def _facts(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rich.console import Console
 
 import dofkit
 from dofkit import local
@@ -16,6 +17,7 @@ from dofkit.lowering import lower
 from dofkit.placed import drawn
 from dofkit.report import Report
 from dofkit.scene import Scene
+from dofkit.show.terminal import as_text
 from dofkit.system import System
 from dofkit.twists import KINDS, rows_of
 
@@ -420,3 +422,11 @@ def test_a_driven_count_adds_up() -> None:
     assert found is not None
     assert found.differs is not None
     assert found.differs.endswith("3(4 - 1 - 4) + 4 - 1 = 0")
+
+
+def test_both_counts_and_why_they_err_are_shown() -> None:
+    text = " ".join(as_text(told("sarrus-linkage"), None, Console(width=200)).split())
+    assert "Gruebler-Kutzbach M = 6(N - 1 - j) + sum f = 6(6 - 1 - 6) + 6 = 0" in text
+    assert "with 5 for 6 the count is 5(6 - 1 - 6) + 6 = 1" in text
+    assert "generic 0 degrees of freedom in general position" in text
+    assert "1 follows from those before: no rotation about (0, 0, 1)" in text
