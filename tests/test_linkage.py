@@ -109,6 +109,11 @@ KNOWN = {
     "a cube": Known(CUBE, 3, 12, 6, (2,) * 12, (), (1,) * 8),
     # 18 = 3 8 - 6 links, yet each half is K5 less the same link, which would have been redundant once
     "a double banana": Known(BANANAS, 3, 17, 1, (5, 5), ((1, 18),), (2,)),
+    # a door ABFG on the hinge AB of one body; at F it carries another: F is a cut joint, and was lost to the door
+    "a body on a door": Known(
+        [*complete("ABCDE"), *read("AF BF AG BG FG"), *complete("HIJKL"), *read("FH FI FJ")],
+        3, 26, 4, (5, 4, 6), ((1, 10), (1, 10)), (2, 1),
+    ),
     "a double banana with its hinge": Known([*BANANAS, ("A", "B")], 3, 17, 1, (5, 5), ((2, 19),), (2,)),
     "a double banana across": Known([*BANANAS, ("c", "f")], 3, 18, 0, (8,), ((1, 18),)),
 }  # fmt: skip
