@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from dofkit.linkage import Linkage, linkage, redundant_links
     from dofkit.reading import load, loads
     from dofkit.report import Report
+    from dofkit.sampling import configurations
     from dofkit.scene import Scene
 
 __version__ = "0.1.0"
@@ -36,6 +37,7 @@ __all__ = [
     "catalog_names",
     "catalog_text",
     "classify",
+    "configurations",
     "derived_flag",
     "grade",
     "linkage",
@@ -53,6 +55,7 @@ _HOMES = {
     "catalog_names": "dofkit.catalog",
     "catalog_text": "dofkit.catalog",
     "classify": "dofkit.classify",
+    "configurations": "dofkit.sampling",
     "derived_flag": "dofkit.classify",
     "grade": "dofkit.homework.grading",
     "linkage": "dofkit.linkage",

@@ -24,6 +24,7 @@ from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.trust import doubt, independent_generators
 from dofkit.expr import Expr
 from dofkit.finite import finite_answer
+from dofkit.frameworks import framework_answer
 from dofkit.held import held, numeric
 from dofkit.report import weakest
 from dofkit.unmet import lengths_unmet
@@ -37,6 +38,10 @@ MAX_HIDDEN_BRANCHES = 6
 
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block; where its functions may be related in unseen ways, balls have the last word."""
+    if setting.links and setting.engines == BOTH:
+        framework = framework_answer(block, setting)
+        if framework is not None:
+            return framework
     if setting.distances and setting.engines == BOTH:
         unmet = lengths_unmet(block, setting)
         if unmet is not None:

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from dofkit.exact.engines import BOTH, Engines
-from dofkit.exact.sparse import SparseRow
+from dofkit.exact.sparse import SparseRow, Supports
 from dofkit.exact.trust import Doubt
 from dofkit.expr import Expr
 from dofkit.report import Verdict
+from dofkit.separate import Looked
 from dofkit.system import Coordinate, Distance
 
 
@@ -32,9 +33,11 @@ class Answer:
     """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
 
     ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
-    redundancy; ``hidden`` the finite relations that the differential ones force; ``doubt``: functions or numbers
-    occur that may be related in a way that GF(p) does not show; ``late``: there was no time for it;
-    ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one.
+    redundancy; ``supports``: where something else than the matrix tells what depends on what; ``hidden`` the finite
+    relations that the differential ones force; ``doubt``: functions or numbers occur that may be related in a way that
+    GF(p) does not show; ``late``: there was no time for it;
+    ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
+    ``looked``: what was looked at of the relations.
     """
 
     consistent: bool | None = True
@@ -46,6 +49,7 @@ class Answer:
     hidden: list[Expr] = field(default_factory=list)
     matrix: list[SparseRow] = field(default_factory=list)
     modulus: int = 2
+    supports: Supports | None = None
     degenerate: bool = False
     instantaneous: int | None = None
     curved: bool = False
@@ -56,6 +60,7 @@ class Answer:
     method: str = ""
     late: bool = False
     conflict: tuple[int, ...] = ()
+    looked: Looked = field(default_factory=Looked)
 
 
 @dataclass(frozen=True)
@@ -63,7 +68,8 @@ class Setting:
     """What the engines may assume of the symbols, which of them may be asked, and what is asked beyond the labels.
 
     ``grows``: the growth vector; ``flag``: the derived flag.
-    ``distances``: those that constraints hold, by constraint, in a world of ``dimension``.
+    ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
+    that rigid links join, by constraint.
     """
 
     positive: frozenset[Expr]
@@ -78,3 +84,4 @@ class Setting:
     flag: bool = False
     dimension: int = 3
     distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
+    links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)

@@ -2,25 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property, partial
+from typing import TypeVar
+
+from flint.utils.flint_exceptions import DomainError
 
 from dofkit.answers import Setting
-from dofkit.deadline import unless_late
+from dofkit.deadline import part, unless_late
+from dofkit.exact.field import NoPointError
 from dofkit.exact.sparse import echelon
 from dofkit.general import General, has_geometry, in_general_position
 from dofkit.mobility import mobility
+from dofkit.nearly import MOST, nearly_dependent
 from dofkit.normal import Finite
 from dofkit.placed import Placement, drawn, measured
 from dofkit.report import Generic, Mobility, Report
 from dofkit.solving import Outcome, Reduced
 from dofkit.special_position import special
 from dofkit.system import System
+from dofkit.twists import KINDS
 
 #: Dependent sets of rows that are looked at, and sentences about them that are told.
 MOST_SETS, MOST_TOLD = 40, 6
+#: Of the time that is left, for the count in general position.
+SHARE = 0.4
 #: Measured lines count as parallel, and so on, within so many tolerances.
 SLACK = 10
+T = TypeVar("T")
 _LATE = General(None, why="there was no time to count")
 
 
@@ -56,7 +65,7 @@ class Beside:
         if here is None or here == dof:
             return None
         if here < dof:
-            return "what the texts say fits the drawing only at a special place"
+            return "the drawing allows less than general position: what the texts say is special there"
         many = here - dof
         start = f"at the drawing {many} equation{'s' * (many > 1)} more depend{'s' * (many == 1)} on the others"
         placement = self._placement
@@ -83,6 +92,16 @@ class Beside:
         unique = sorted(map(list, {tuple(s) for s in sets}))
         return [s for s in unique if not any(set(t) < set(s) for t in unique)]
 
+    def nearly(self) -> str | None:
+        """What to say of a near-dependence at an exact drawing."""
+        here, system = self.report.instantaneous_dof, self.system
+        if here is None or system.tolerance is not None or not has_geometry(system):
+            return None
+        columns = len(system.coordinates)
+        small = columns <= MOST and all(c.type in KINDS for c in system.connections)
+        placement = measured(system) if small else None
+        return None if placement is None else nearly_dependent(placement, system.dimension, columns, columns - here)
+
     def _exact(self) -> Placement | None:
         return None if self.system.tolerance is not None else self._placement
 
@@ -97,9 +116,21 @@ class Beside:
         return mobility(self.system, equations, others, self.report.velocity_dof, self._exact)
 
 
+def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
+    """What was found; None where there was no time, or the drawing has no value (a root of what is negative)."""
+    try:
+        return unless_late(work, None)
+    except (ArithmeticError, ValueError, NoPointError, DomainError):
+        return None
+
+
 def with_counts(
     system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report
 ) -> Report:
     """The report with the counts beside its own."""
     beside = Beside(system, reduced, setting, outcome, report)
-    return report.model_copy(update={"generic": beside.generic(), "mobility": unless_late(beside.mobility, None)})
+    with part(SHARE):
+        generic = _if_it_has_a_value(beside.generic)
+    found = {"generic": generic, "mobility": _if_it_has_a_value(beside.mobility)}
+    near = _if_it_has_a_value(beside.nearly)
+    return report.model_copy(update=found if near is None else {**found, "warnings": [*report.warnings, near]})

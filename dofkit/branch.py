@@ -59,7 +59,9 @@ def _beginnings(here: Neighbourhood, forms: Sequence[Form]) -> list[np.ndarray]:
         _, j = here.floats(np.zeros(len(here.place)), ball.rows)
         tangent[dependent] = -np.linalg.solve(j[:, dependent], j @ tangent)
     scales = np.array([ball.scales[c] for c in ball.frame.free])
-    cut = np.array([[[float(v.mid()) for v in row] for row in f] for f in forms]) * np.outer(scales, scales)
+    cut = np.array([[[0.0 if v.contains(0) else float(v.mid()) for v in row] for row in f] for f in forms]) * np.outer(
+        scales, scales
+    )
     sizes = np.abs(cut).max(axis=(1, 2))
     cut = cut / np.where(sizes > 0, sizes, 1.0)[:, None, None]
     rng = np.random.default_rng(7)

@@ -25,6 +25,8 @@ from dofkit.variety import pose_point
 
 #: How far a singular or special configuration is left to look at the set nearby, and what counts as 0 there.
 AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7
+#: The same where there are just as many relations as the freedom asks for: far from the origin they look nearly alike.
+FAINT = 1e-10
 #: The length of secants, and the least of those that count against it: the set is curved, and found to half its digits.
 SECANT, SPREAD, SETTLING = 1e-4, 3e-2, 60
 #: So many steps without half the error are the end: rounding, far from the origin, allows no less.
@@ -41,7 +43,8 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     if a.dof == 0:
         return []
     turning = [r for r in rotations if r.chart == "gibbs" and set(r.names) & set(block.coordinates)]
-    direct = [c for c in block.coordinates if c not in set(a.dependent)]
+    dependent = set(a.dependent)
+    direct = [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         return direct
     if setting.engines != BOTH:
@@ -63,10 +66,11 @@ def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation
             symbols[s] = v + away * (symbols[s] / 2 if s.args[0] == "coordinate" else 0)
         if search.descend(symbols, seed) is None:
             continue
-        tangent = _tangent(chart, symbols, turning)
+        tangent = _tangent(chart, symbols, turning, setting, dof)
         if tangent.shape[0] == dof:
             return _columns(chart, tangent)
-        secants = None if tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
+        regular = len(chart.nodes) == len(block.coordinates) - dof
+        secants = None if regular or tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
         if secants is not None:
             return _columns(chart, _in_angles(chart, symbols, secants, turning))
     return None
@@ -115,17 +119,34 @@ def _start(chart: Chart, setting: Setting) -> dict[Expr, float]:
     return {} if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
 
 
-def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation]) -> Any:
-    """A basis of the tangent space at fixed time over the block's coordinates, as rows."""
+def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation], setting: Setting, dof: int) -> Any:
+    """A basis of the tangent space at fixed time over the block's coordinates, as rows.
+
+    Lengths, angles and other coordinates are each measured in the unit in which they change the relations as much.
+    """
     point = FloatPoint(symbols, 0)
     at = values(chart.ring, point)
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
     j = np.array(jacobian(chart.ring, at, point, chart.nodes, columns, 0.0), dtype=float).reshape(-1, len(columns))
     norms = np.linalg.norm(j, axis=1, keepdims=True)
     j = j / np.where(norms > ZERO, norms, 1.0)
+    for group in _groups(chart, setting):
+        j[:, group] /= np.max(np.abs(j[:, group]), initial=0) or 1.0
     _, singular, right = np.linalg.svd(j)
     rank = int(np.sum(singular > ZERO))
+    if len(j) == len(columns) - dof < len(columns) and singular[-1] > FAINT:
+        rank = len(j)
     return _in_angles(chart, symbols, right[rank:], turning)
+
+
+def _groups(chart: Chart, setting: Setting) -> list[list[int]]:
+    """The columns of lengths, of angles, and of other coordinates."""
+    roles = {c.name: c.role for c in setting.roles}
+    kinds: dict[str, list[int]] = {}
+    for i, s in enumerate(s for s in chart.symbols if s != ex.TIME):
+        role = roles.get(str(s.args[1]), "free")
+        kinds.setdefault("length" if role in ("x", "y", "z") else "free" if role == "free" else "angle", []).append(i)
+    return list(kinds.values())
 
 
 def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:

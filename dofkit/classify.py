@@ -229,10 +229,10 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
 def _all_needed(found: Redundancies, reduced: Sequence[Reduced], outcome: Outcome) -> Redundancies:
     """With no equation too many, what was left open is needed, where every equation takes one freedom at most.
 
-    One that says several things (a sum of squares), or hidden relations, may hide that another follows.
+    One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
-    if several or any(a.hidden for a in outcome.answers):
+    if several or any(a.hidden or a.degenerate for a in outcome.answers):
         return found
     needed = {i: reduced[i].equations for i in found.undecided}
     return replace(found, independent={**found.independent, **needed}, undecided=())
@@ -310,9 +310,27 @@ def _modelled(system: System, outcome: Outcome) -> str:
     finite = sum(not b.forms and not b.nonlinear for b in outcome.blocks)
     if finite:
         parts.append("no integrability test where all relations are finite (d(dg) = 0)")
+    parts += _looked_at(outcome)
     if system.forces:
         parts.append("forces are left out: they do not constrain")
     return "; ".join(parts) or "nothing constrains anything"
+
+
+def _looked_at(outcome: Outcome) -> Iterator[str]:
+    """What of the relations had to be followed to tell motions from shakes."""
+    looked = [a.looked for a in outcome.answers]
+    left_out, rigid, followed = (
+        sum(k.left_out for k in looked),
+        sum(k.rigid for k in looked),
+        sum(k.followed for k in looked),
+    )
+    if left_out:
+        many = sum(len(b.rows) for b in outcome.blocks)
+        yield f"{left_out} of {many} relations are in no dependent set (trees and the like): not followed"
+    if rigid:
+        yield f"{rigid} dependent set{'s' * (rigid > 1)} taken for one rigid body each"
+    if followed and left_out:
+        yield f"{followed} other dependent set{'s' * (followed > 1)} followed apart from all else"
 
 
 def _warnings(system: System, reduced: Sequence[Reduced], outcome: Outcome) -> list[str]:

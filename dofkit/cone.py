@@ -100,7 +100,7 @@ def _search(forms: Sequence[Form], rank_wanted: int) -> np.ndarray | None:
     w is the point nearest to 0 of the convex hull of the vectors (v.B_i v): where it is not 0 its B(w) is positive
     on every v (Gilbert's algorithm, with the least eigenvector as the next v).
     """
-    floats = np.array([[[float(v.mid()) for v in row] for row in f] for f in forms])
+    floats = np.array([[[0.0 if v.contains(0) else float(v.mid()) for v in row] for row in f] for f in forms])
     sizes = np.abs(floats).max(axis=(1, 2))
     if not sizes.max() > 0:
         return None

@@ -5,7 +5,8 @@ In the order in which it is asked, with m the dimension of M and mu that of the 
 - one relation f: it changes sign (an indefinite second order, or what is left of it on its kernel): f separates M, and
   the set has dimension m - 1; definite: mu; one sign and zero on its critical set N: the set is N;
 - several: a definite combination leaves mu (prestress stability); a bound of the second-order cone over the complex
-  numbers that is mu does so too; else the bound stands where a branch of that dimension is found.
+  numbers that is mu does so too; else the bound stands where a branch of that dimension is found;
+- where two motions are in question, initial forms of higher degree without a common zero leave mu (`initial`).
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from flint import arb
 from dofkit.branch import largest_branch
 from dofkit.cone import bound, definite_combination, signature_of
 from dofkit.critical import Split, along, split
+from dofkit.initial import by_initial_forms
 from dofkit.manifold import Form, Local, Manifold
 from dofkit.nearby import holds_on_critical
 
@@ -48,9 +50,8 @@ def decide(field: Manifold, ball: Manifold | None, rigid: int) -> Local:
     if told is not None:
         return told
     forms = field.quadratic_forms()
-    if len(forms) == 1:
-        return _one(field, ball, forms, signs, rigid)
-    return _several(field, ball, forms, signs, rigid)
+    told = (_one if len(forms) == 1 else _several)(field, ball, forms, signs, rigid)
+    return told if told.dimension is not None else by_initial_forms(field, ball, rigid) or UNDECIDED
 
 
 def _one(field: Manifold, ball: Manifold, forms: Sequence[Form], signs: Sequence[Form], rigid: int) -> Local:

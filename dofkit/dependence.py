@@ -81,10 +81,13 @@ def _of_part(
         if nullity <= 0 and a.hidden and not a.degenerate:
             counted = {o: owners.count(o) for o in owners}
             found.append(Redundancies(counted, [], [], {}, equations=dict.fromkeys(owners, ())))
+        elif a.degenerate and "balls" not in setting.engines:
+            found.append(left_open(owners))
         elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
             found.append(unless_late(partial(_by_leaving_out, block, setting, a, nullity), left_open(owners)))
         else:
-            parts.append(Rows(matrix, owners, finite, a.modulus, [numbered.get(id(r.piece), -1) for r in block.rows]))
+            own_equations = [numbered.get(id(r.piece), -1) for r in block.rows]
+            parts.append(Rows(matrix, owners, finite, a.modulus, own_equations, a.supports))
     by_rank = [
         unless_late(partial(_analysed, group), left_open(o for part in group for o in part.owners))
         for group in _sharing(parts)

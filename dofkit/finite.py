@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import isfinite
 
 from dofkit import expr as ex
 from dofkit.answers import Answer, Setting
@@ -76,7 +77,7 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         return _measured_answer(chart, setting, found)
     result = Answer(True, found.local.dimension, found.local.dimension, found.local.verdict)
     result.method = "rank over GF(p) at the given configuration"
-    result.instantaneous = found.instantaneous
+    result.instantaneous, result.looked = found.instantaneous, found.looked
     result.matrix, result.modulus = found.matrix, found.modulus
     if found.dependent is None:
         result.dependent = dependent_names(found.matrix, chart, found.modulus)
@@ -118,7 +119,9 @@ def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answ
     result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
     result.method = "singular values within the tolerance at the given configuration"
     result.instantaneous = told.instantaneous
-    result.reasons.append(f"{told.reason}; the gap between singular values is {told.gap:.1e}")
+    exact = "no singular value but 0 itself is taken for 0"
+    gap = f"the gap between singular values is {told.gap:.1e}" if isfinite(told.gap) else exact
+    result.reasons.append(f"{told.reason}; {gap}")
     result.matrix, result.modulus = sparse(told.dependencies), 2
     result.dependent = tuple(str(chart.symbols[c].args[1]) for c in told.columns)
     result.degenerate = told.dimension != told.instantaneous

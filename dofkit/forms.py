@@ -60,7 +60,8 @@ def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Frame:
     """The same for rows without their zeros."""
     kept = echelon(rows, p).independent
     dependent = last_columns([rows[i] for i in kept], n, p)
-    return Frame(kept, dependent, tuple(c for c in range(n) if c not in set(dependent)))
+    solved = set(dependent)
+    return Frame(kept, dependent, tuple(c for c in range(n) if c not in solved))
 
 
 def pivots(matrix: nmod_mat) -> list[int]:

@@ -52,14 +52,10 @@ def in_general_position(system: System, outcome: Outcome, setting: Setting) -> G
     """The rank of the finite relations with all given geometry random."""
     if any(not isinstance(row.piece, Finite) for row in outcome.rows):
         return General(None, why=DIFFERENTIAL)
-    if all(c.type in ("link", "rigid") and c.members == _particles(c.members, system) for c in system.connections):
+    particles = set(system.particles)
+    if all(c.type in ("link", "rigid") and particles.issuperset(c.members) for c in system.connections):
         return _of_links(system)
     return _of_rows(system, outcome, setting)
-
-
-def _particles(members: Sequence[str], system: System) -> tuple[str, ...]:
-    known = set(system.particles)
-    return tuple(m for m in members if m in known)
 
 
 def _of_links(system: System) -> General:

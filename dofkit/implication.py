@@ -94,12 +94,13 @@ def _held(
 ) -> bool | None:
     """Does a branch vanish at every state that is drawn? ``given`` conditions hold there, those ``asked`` have to.
 
-    ``smaller``: over the reals the set may be smaller than over GF(p), where nothing is refuted then.
+    ``smaller``: over the reals the set may be smaller than over GF(p), where nothing is refuted then. Nor is it where
+    the set may have parts without real points.
     """
     drawn = [p for k in range(STATES) if (p := states.draw(k)) is not None]
     seen = [_some_vanish(states, p, branches) for p in drawn if _all_vanish(states, p, written)]
     plain = not written and not given and states.independent and not smaller
-    if plain and False in seen:
+    if plain and False in seen and states.rational:
         return False
     if seen and all(seen) and not asked and not states.chosen:
         return True

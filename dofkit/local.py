@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from flint import arb, ctx
@@ -15,17 +15,20 @@ from dofkit.exact.balls import PRECISION, BallPoint, OutsideDomainError, jacobia
 from dofkit.exact.program import values
 from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.ring import Ring
-from dofkit.exact.sparse import SparseRow, rank_of_rows, sparse
+from dofkit.exact.sparse import SparseRow, echelon, rank_of_rows, sparse
 from dofkit.expr import Expr
 from dofkit.forms import Frame
 from dofkit.manifold import Local, Manifold
-from dofkit.motion import numeric_dimension
+from dofkit.motion import INDEPENDENT, WHOLE, numeric_dimension
 from dofkit.rank import without_time
+from dofkit.report import weakest
 from dofkit.rigid import rigid_motions, rigid_motions_real
+from dofkit.separate import Looked, chart_of, dependent_parts
 from dofkit.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
 
 #: A gap between singular values that tells them apart.
 CLEAR = 1e3
+RIGID = f"what is dependent is rigid: {WHOLE}"
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class AtReference:
     """``instantaneous``: velocities allowed to first order; ``local``: the dimension of the finite motion.
 
     ``matrix`` is the Jacobian there over GF(``modulus``), or the pattern of its dependent rows. ``dependent``: columns
-    that the others determine, where the matrix does not tell.
+    that the others determine, where the matrix does not tell. ``looked``: what was looked at of the relations.
     """
 
     instantaneous: int
@@ -44,6 +47,7 @@ class AtReference:
     rigid: int
     ball: BallPoint | None
     dependent: tuple[int, ...] | None = None
+    looked: Looked = field(default_factory=Looked)
 
 
 def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = True) -> AtReference | None:
@@ -69,10 +73,55 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
         local = Local(None, "undecided", "measured")
         return AtReference(n - rank_q, local, [], point.p, rank, rigid, ball)
     few = len(chart.columns) - rank - timed - rigid <= BALL_COLUMNS
+    apart = None if timed or rank == n - rigid else _by_parts(chart, known, matrix, point.p, rank)
+    if apart is not None:
+        local, looked = apart
+        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
     if rank < len(matrix) and few and "balls" in chart.engines:
         ball = ball_point(chart, known, point.rng)
     local = _at_fixed_time(local_at(chart, point, ball, rigid, chart.time), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball)
+
+
+def _by_parts(
+    chart: Chart, known: Mapping[Expr, Expr], matrix: Sequence[SparseRow], p: int, rank: int
+) -> tuple[Local, Looked] | None:
+    """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
+
+    See `separate`. None where one does not, or is not known to, or is all there is: then all have to be looked at
+    together.
+    """
+    dimension = len(chart.columns) - rank
+    if rank == len(matrix):
+        return Local(dimension, "proved", INDEPENDENT), Looked(rank)
+    parts = dependent_parts(chart, echelon(matrix, p, supports=True))
+    if len(parts) == 1 and len(parts[0].rows) == len(matrix):
+        return None
+    found = []
+    for part in parts:
+        local = _of_part(chart_of(chart, part.rows), known, part.rank)
+        if local is None:
+            return None
+        found.append(local)
+    reasons = dict.fromkeys(local.reason for local in found)
+    looked_at = {row for part in parts for row in part.rows}
+    local = Local(dimension, weakest(*(local.verdict for local in found)), "; ".join(reasons))
+    rigid = sum(local.reason == RIGID for local in found)
+    return local, Looked(len(matrix) - len(looked_at), rigid, len(found) - rigid)
+
+
+def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> Local | None:
+    """One class by itself; None where its set is not known to be a manifold of the codimension of its rank."""
+    point = pose_point(chart, known, 3)
+    if point is None:
+        return None
+    left = len(chart.columns) - rank
+    rigid = rigid_motions(chart, point)
+    if left == rigid:
+        return Local(left, "proved", RIGID)
+    looked = left - rigid <= BALL_COLUMNS and "balls" in chart.engines
+    local = local_at(chart, point, ball_point(chart, known, point.rng) if looked else None, rigid)
+    return local if local.dimension == left else None
 
 
 def _at_fixed_time(local: Local, timed: int) -> Local:

@@ -13,6 +13,7 @@ from dofkit.deadline import check
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, Scalar
 from dofkit.exact.series import Series, SeriesPoint, monomial, series_values, zero_poly
+from dofkit.exact.sparse import Solved
 from dofkit.forms import Frame, solve
 from dofkit.report import Verdict
 
@@ -85,6 +86,11 @@ class Manifold:
         """The inverse of the independent rows by the dependent columns, at the point."""
         at = values(self.ring, self.base)
         one = self.sample + 1
+        if isinstance(self.sample, nmod):
+            place = {self.columns[c]: k for k, c in enumerate(self.frame.dependent)}
+            slopes = (gradient(self.ring, at, self.base, [(node, one)]) for node in self.rows)
+            sparse_rows = [{place[c]: int(v) for c, v in g.items() if c in place and v != 0} for g in slopes]
+            return Solved(sparse_rows, self.sample.modulus())
         rows = []
         for node in self.rows:
             g = gradient(self.ring, at, self.base, [(node, one)])
@@ -175,7 +181,10 @@ def inverse(rows: list[list[Scalar]]) -> Any:
 
 
 def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
-    """A matrix of flint times a vector."""
+    """The inverse of a matrix times a vector."""
+    if isinstance(matrix, Solved):
+        found_by_parts: list[Scalar] = [nmod(v, matrix.p) for v in matrix.solve([int(v) for v in vector])]
+        return found_by_parts
     over_field = isinstance(matrix, nmod_mat)
     column = nmod_mat([[int(v)] for v in vector], matrix.modulus()) if over_field else arb_mat([[v] for v in vector])
     found = matrix * column

@@ -119,15 +119,15 @@ def _of_screws(system: System, joints: Sequence[Joint], freedom: int, drawn: Pla
     screws = {j: allowed(drawn.located[j.constraint], d, drawn.p) for j in joints}
     span = rank_of_rows([s for j in joints for s in screws[j]], drawn.p)
     alone = len(system.constraints) == len(joints)
-    if span < whole and alone:
-        said = f"the screws of all joints span {span} dimensions only, not {whole}"
-        bodies, total = len(system.bodies), sum(j.freedom for j in joints)
-        count = span * (bodies - len(joints)) + total - sum(j.driven for j in joints)
-        if count == freedom:
-            said += (
-                f"; with {span} for {whole} the count is {span}({bodies + 1} - 1 - {len(joints)}) + {total} = {count}"
-            )
-        return said
+    bodies, total = len(system.bodies), sum(j.freedom for j in joints)
+    driven = sum(j.driven for j in joints)
+    count = span * (bodies - len(joints)) + total - driven
+    if span < whole and alone and count == freedom:
+        numbers = f"{span}({bodies + 1} - 1 - {len(joints)}) + {total}{f' - {driven}' if driven else ''} = {count}"
+        return (
+            f"the screws of all joints span {span} dimension{'s' * (span > 1)} only, not {whole}; "
+            f"with {span} for {whole} the count is {numbers}"
+        )
     told = []
     loops = _loops(joints)
     for loop in loops[:MOST_LOOPS]:

@@ -20,17 +20,18 @@ from dataclasses import replace
 from flint import arb, ctx
 
 from dofkit.crossing import UNDECIDED, by_signs, decide
+from dofkit.degrees import degree as degree_of
 from dofkit.exact.balls import PRECISION
-from dofkit.exact.program import reachable
-from dofkit.exact.ring import ADD, MUL, POW, VAR, Ring, Scalar
+from dofkit.exact.ring import Scalar
 from dofkit.manifold import Local, Manifold, is_zero
-from dofkit.nearby import fails_away
+from dofkit.nearby import holds_away
 
 #: Orders to which the other relations are followed; the second where one motion is in question.
 ORDER, LONG_ORDER = 8, 16
 #: Relations of this degree are not followed, over balls beyond the long order: their series may begin later.
 LONGEST = 64
 INDEPENDENT = "all relations are independent here (implicit function theorem)"
+UNSEEN = {False: "and yet not at a distance", None: "which could not be followed to a distance"}
 FLAT = "may be flat here to a higher order than is followed"
 WHOLE = "nothing but motions of the whole is possible to first order"
 
@@ -51,14 +52,15 @@ def _local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: i
         return _timed(field, Local(m, "proved", INDEPENDENT), time)
     if m == rigid:
         return Local(m, "proved", WHOLE, time is not None)
-    degree = _degree(field.ring, field.others)
+    degree = degree_of(field)
     if degree >= LONGEST:
         return Local(None, "undecided", f"a relation of degree {degree} {FLAT}")
     order = max(LONG_ORDER if m - rigid <= 1 else ORDER, degree + 1)
     along = field.follow([field.base.random() for _ in range(m)], order)
     if all(s.poly.degree() < 0 for s in along):
-        if ball is not None and fails_away(ball, _away(ball)):
-            why = f"the dependent relations hold along a random curve to order {order - 1}, and yet not at a distance"
+        seen = True if ball is None else holds_away(ball, _away(ball), True)
+        if not seen:
+            why = f"the dependent relations hold along a random curve to order {order - 1}, {UNSEEN[seen]}"
             return Local(None, "undecided", why)
         why = f"the dependent relations hold along a random curve to order {order - 1}: the motion is finite"
         return _timed(field, Local(m, "probable", why), time)
@@ -80,15 +82,14 @@ def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Lo
         )
     if m == rigid:
         return Local(m, "numeric", WHOLE, time is not None)
-    order = max(ORDER, _degree(ball.ring, ball.others) + 1)
+    order = max(ORDER, degree_of(ball) + 1)
     if order > LONG_ORDER:
         return Local(None, "undecided", f"a relation {FLAT}")
     along = ball.follow(_random(ball), order)
     if all(s.coefficient(k).contains(0) for s in along for k in range(order)):
-        if fails_away(ball, _away(ball)):
-            return Local(
-                None, "undecided", "the dependent relations hold along a random curve, and yet not at a distance"
-            )
+        seen = holds_away(ball, _away(ball), False)
+        if not seen:
+            return Local(None, "undecided", f"the dependent relations hold along a random curve, {UNSEEN[seen]}")
         why = "the dependent relations hold along a random curve within the precision"
         return _numeric(_timed(ball, Local(m, "numeric", why), time))
     if m - rigid == 1:
@@ -96,22 +97,6 @@ def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Lo
     if time is not None:
         return _numeric(_signs_in_time(ball, rigid, time))
     return _numeric(by_signs(ball.quadratic_forms(), rigid) or UNDECIDED)
-
-
-def _degree(ring: Ring, nodes: Sequence[int]) -> int:
-    """A bound on the degree of some expressions in the generators."""
-    degrees: dict[int, int] = {}
-    for i in reversed(reachable(ring, nodes, through_generators=False)):
-        op, payload = ring.code[i]
-        if op == MUL:
-            degrees[i] = sum(degrees[j] for j in payload)
-        elif op == ADD:
-            degrees[i] = max(degrees[j] for j in payload)
-        elif op == POW:
-            degrees[i] = abs(payload[1]) * degrees[payload[0]]
-        else:
-            degrees[i] = int(op == VAR)
-    return max((degrees[n] for n in nodes), default=0)
 
 
 def _numeric(told: Local) -> Local:

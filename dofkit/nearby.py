@@ -5,21 +5,28 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from flint import arb, arb_mat
+from flint import arb, arb_mat, ctx
 
 from dofkit.critical import Split
 from dofkit.deadline import check
-from dofkit.exact.balls import PRECISION, BallPoint, FloatPoint, OutsideDomainError, jacobian
+from dofkit.exact.balls import BallPoint, OutsideDomainError, jacobian
 from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.manifold import Manifold
+from dofkit.wide import fails_afar
 
 #: How far a curve of independent relations is followed, in the columns' scales, at the most and at the least.
-FAR, NEAR, STEPS = 0.25, 2.0**-24, 6
+FAR, NEAR, STEPS = 0.5, 2.0**-24, 8
 #: The least cosine between steps, and what a correction may add to one.
 STRAIGHT = 0.9
-#: What counts as not 0 there, relative to the relation's gradient: in high precision, and for many columns in floats.
-SURE, ROUGH, MANY = 2.0**-150, 1e-8, 60
+#: What counts as not 0 there, relative to the relation's gradient; with more relations floats have to do (`wide`).
+SURE, MANY = 2.0**-150, 60
+#: Bits that large numbers which cancel may cost: a million sizes from the origin, squared, and more.
+LOST = 90
+#: Bits, and what is not 0, where a curve begins at exact coordinates.
+DEEP, DEEP_SURE = 1024, 2.0**-900
+#: Bits in which relations are evaluated before they are rounded.
+WIDE = 256
 #: The step of a difference of gradients, and rounds of Newton's method on the critical set.
 DIFFERENCE, ROUNDS = 2.0**-80, 8
 FAULTS = (ValueError, ZeroDivisionError, OverflowError, OutsideDomainError, np.linalg.LinAlgError)
@@ -38,7 +45,6 @@ class Neighbourhood:
         self.keys = [ball.ring.vars[c].key for c in self.columns]
         self.scales = np.array([ball.scales[i] for i in self.place])
         self.middle: dict[Expr, arb] = {s: arb(v).mid() for s, v in ball.base.symbols.items()}
-        self.origin = np.array([float(self.middle[k]) for k in self.keys])
         _, j = self.floats(np.zeros(len(self.columns)), ball.nodes, weighed=False)
         norms = np.linalg.norm(j, axis=1)
         self.norms = np.where(norms > 0, norms, 1.0)
@@ -46,12 +52,12 @@ class Neighbourhood:
 
     def floats(self, u: np.ndarray, nodes: Sequence[int], weighed: bool = True) -> tuple[np.ndarray, np.ndarray]:
         """The relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
-        symbols = {s: float(v) for s, v in self.middle.items()}
-        symbols.update(zip(self.keys, (float(v) for v in self.origin + self.scales * u), strict=True))
-        point = FloatPoint(symbols, 0)
-        at = values(self.ring, point)
-        f = np.array([at[n] for n in nodes], dtype=float)
-        j = np.array(jacobian(self.ring, at, point, nodes, self.columns, 0.0), dtype=float)
+        with ctx.workprec(WIDE):
+            point = BallPoint(self.exactly(u), 0)
+            at = values(self.ring, point)
+            f = np.array([float(at[n].mid()) for n in nodes], dtype=float)
+            rows = jacobian(self.ring, at, point, nodes, self.columns, arb(0))
+            j = np.array([[float(v.mid()) for v in row] for row in rows], dtype=float)
         j = j.reshape(len(nodes), len(self.columns)) * self.scales
         if weighed:
             norms = np.array([self.norm_of[n] for n in nodes])
@@ -80,7 +86,7 @@ class Neighbourhood:
             for a, i in enumerate(moved):
                 symbols[self.keys[i]] = (symbols[self.keys[i]] - step[a, 0]).mid()
                 last = max(last, abs(step[a, 0].mid()) / float(self.scales[i]))
-            if last < arb(2) ** (20 - PRECISION):
+            if last < arb(2) ** (LOST - ctx.prec):
                 return symbols
         return None
 
@@ -121,33 +127,35 @@ class Neighbourhood:
         return max((abs(float(at[n].mid())) / self.norm_of[n] for n in nodes), default=0.0)
 
 
-def fails_away(ball: Manifold, direction: Sequence[float]) -> bool:
-    """Is a dependent relation, at a point of M some way along a curve, certainly not 0?
+def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool | None:
+    """Are the dependent relations 0, to high precision, at a point of M some way along a curve?
 
-    False also where the curve could not be followed far enough to see.
+    ``deep``: the curve begins at exact coordinates, so that what is flat there shows to an order of several hundreds.
+    None where the curve could not be followed far enough to see.
     """
     try:
+        if len(ball.rows) > MANY:
+            return not fails_afar(ball, direction)
         here = Neighbourhood(ball)
         reach = FAR
         while reach > NEAR:
             u = _walk(here, direction, reach)
             if u is not None:
-                return _fails_at(here, u)
+                with ctx.workprec(DEEP if deep else ctx.prec):
+                    return _holds_at(here, u, DEEP_SURE if deep else SURE)
             reach /= 4
     except FAULTS:
-        return False
-    return False
+        return None
+    return None
 
 
-def _fails_at(here: Neighbourhood, u: np.ndarray) -> bool:
+def _holds_at(here: Neighbourhood, u: np.ndarray, sure: float) -> bool | None:
     ball = here.ball
-    if len(ball.rows) > MANY:
-        return bool(np.max(np.abs(here.floats(u, ball.others)[0])) > ROUGH)
     rows, columns = independent(here.floats(u, ball.rows)[1], 0.0) if ball.rows else ([], [])
     if len(rows) < len(ball.rows):
-        return False
+        return None
     symbols = here.newton(here.exactly(u), [ball.rows[r] for r in rows], columns)
-    return symbols is not None and here.residual(symbols, ball.others) > SURE
+    return None if symbols is None else here.residual(symbols, ball.others) <= sure
 
 
 def holds_on_critical(ball: Manifold, parts: Split, direction: Sequence[float]) -> bool:
@@ -251,10 +259,10 @@ def _back(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
     return None
 
 
-def damped(j: np.ndarray, f: np.ndarray) -> np.ndarray:
-    """The step -J^T (J J^T + |f| I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
+def damped(j: np.ndarray, f: np.ndarray, power: int = 1) -> np.ndarray:
+    """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
     left, singular, right = np.linalg.svd(j, full_matrices=False)
-    factors = singular / (singular * singular + float(np.linalg.norm(f)) + 1e-300)
+    factors = singular / (singular * singular + float(np.linalg.norm(f)) ** power + 1e-300)
     return np.asarray(-(right.T @ (factors * (left.T @ f))))
 
 

@@ -23,5 +23,14 @@ def prepared(system: System) -> tuple[list[Reduced], Setting]:
         system.size,
         dimension=system.dimension,
         distances={} if system.tolerance else system.distances,
+        links=_links(system),
     )
     return reduced, setting
+
+
+def _links(system: System) -> dict[int, list[tuple[str, str]]]:
+    """The particles that rigid links join, by constraint."""
+    found: dict[int, list[tuple[str, str]]] = {}
+    for i, a, b in system.links:
+        found.setdefault(i, []).append((a, b))
+    return found

@@ -13,7 +13,7 @@ from itertools import combinations
 
 import networkx as nx
 
-from dofkit.exact.sparse import SparseRow, echelon, rank_of_rows
+from dofkit.exact.sparse import SparseRow, Supports, echelon, rank_of_rows
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
 SEARCHED = 12
@@ -44,6 +44,7 @@ class Rows:
     """The matrix of a block, without zeros: ``owners[i]`` wrote row i, ``finite[i]`` tells a finite row.
 
     ``equations[i]`` is the number of the scalar equation that row i is of; -1 where it is not known.
+    ``supports``: what each row depends on, of those before it, where something else than the matrix tells it.
     """
 
     matrix: Sequence[SparseRow]
@@ -51,6 +52,7 @@ class Rows:
     finite: Sequence[bool]
     p: int
     equations: Sequence[int] = ()
+    supports: Supports | None = None
 
     def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
         """The rows that some constraints wrote."""
@@ -97,14 +99,24 @@ class _Basis:
 
     def __init__(self, rows: Rows) -> None:
         self.owners = rows.owners
-        numbers = sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
-        found = echelon([rows.matrix[i] for i in numbers], rows.p, supports=True)
-        self.pivots = [numbers[k] for k in found.independent]
-        self.supports = {numbers[k]: [numbers[j] for j in support] for k, support in found.supports.items()}
+        known = self._by_elimination(rows) if rows.supports is None else self._known(rows, rows.supports)
+        self.pivots, self.supports = known
         self.pivot_owners = {self.owners[i] for i in self.pivots}
         self.circuits: dict[int, set[int]] = {}
         for i, support in self.supports.items():
             self.circuits.setdefault(self.owners[i], set()).update(self.owners[j] for j in support)
+
+    @staticmethod
+    def _known(rows: Rows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
+        supports = {i: list(support) for i, support in tell().items()}
+        return [i for i in range(len(rows.owners)) if i not in supports], supports
+
+    @staticmethod
+    def _by_elimination(rows: Rows) -> tuple[list[int], dict[int, list[int]]]:
+        numbers = sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
+        found = echelon([rows.matrix[i] for i in numbers], rows.p, supports=True)
+        pivots = [numbers[k] for k in found.independent]
+        return pivots, {numbers[k]: [numbers[j] for j in support] for k, support in found.supports.items()}
 
 
 def _order(parts: Sequence[Rows]) -> list[int]:

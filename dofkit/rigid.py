@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -27,7 +27,8 @@ def rigid_motions(chart: Chart, point: FieldPoint) -> int:
     away = free_point(chart, 11) if fields else None
     if away is None:
         return 0
-    kept = [f for f in fields if _keeps(chart, away, f)]
+    slopes = _slopes(chart, away)
+    kept = [f for f in fields if _keeps(chart, away, f, slopes)]
     vectors = [_at(chart, point, f) for f in kept]
     return rank_of(vectors, point.p) if vectors else 0
 
@@ -45,8 +46,9 @@ def displacements_real(chart: Chart, value: Callable[[int], float]) -> Any:
     if away is None:
         return np.zeros((0, 0))
     rows = []
+    slopes = _slopes(chart, away)
     for field in fields:
-        if not _keeps(chart, away, field):
+        if not _keeps(chart, away, field, slopes):
             continue
         row = [0.0] * len(chart.columns)
         for column, terms in field.items():
@@ -82,13 +84,20 @@ def _at(chart: Chart, point: FieldPoint | BallPoint, field: Displacement) -> lis
     return vector
 
 
-def _keeps(chart: Chart, point: FieldPoint | BallPoint, field: Displacement) -> bool:
-    vector = _at(chart, point, field)
+def _slopes(chart: Chart, point: FieldPoint | BallPoint) -> list[dict[int, Any]]:
+    """The derivatives of every relation by the generators."""
     at = values(chart.ring, point)
     one = point.number(ex.ONE.args[0])
+    return [gradient(chart.ring, at, point, [(node, one)]) for node in chart.nodes]
+
+
+def _keeps(
+    chart: Chart, point: FieldPoint | BallPoint, field: Displacement, slopes: Sequence[Mapping[int, Any]]
+) -> bool:
+    vector = _at(chart, point, field)
+    one = point.number(ex.ONE.args[0])
     of = {c: vector[i] for i, c in enumerate(chart.columns) if c >= 0}
-    for node in chart.nodes:
-        g = gradient(chart.ring, at, point, [(node, one)])
+    for g in slopes:
         change = sum((v * of[c] for c, v in g.items() if c in of), one * 0)
         if change != 0 if isinstance(point, FieldPoint) else not change.contains(0):
             return False

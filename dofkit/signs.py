@@ -25,8 +25,9 @@ MAX_ARGUMENTS = 4
 
 def arguments_of(e: Expr) -> list[Expr]:
     """What stands in absolute values and in roots of squares."""
-    found = [node.args[1] for node in ex.nodes(e) if node.op == "fn" and node.args[0] == "abs"]
-    found += [node.args[0].args[0] for node in ex.nodes(e) if _root_of_square(node)]
+    every = list(ex.nodes(e))
+    found = [node.args[1] for node in every if node.op == "fn" and node.args[0] == "abs"]
+    found += [node.args[0].args[0] for node in every if _root_of_square(node)]
     return list(dict.fromkeys(found))
 
 

@@ -81,9 +81,9 @@ def special(system: System, placement: Placement, sets: Sequence[Sequence[int]],
     geometry = Geometry(system, placement, tolerance)
     found: list[str] = []
     for members in sets:
-        own = [c for c in system.connections if c.constraint in set(members)]
-        found += list(_facts(geometry, own)) or [_OTHERWISE]
-    return list(dict.fromkeys(found))
+        own = [system.connections[i] for i in members]
+        found += _facts(geometry, own)
+    return list(dict.fromkeys(found)) or [_OTHERWISE]
 
 
 def _facts(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:

@@ -32,6 +32,8 @@ from dofkit.velocities import form_rate, rate
 TRIES = 3
 #: Random configurations at which real velocities are looked for.
 STARTS = 6
+#: Functions that repeat are looked at far out as well, from this state on.
+FAR_FROM, FAR = 4, 16.0
 
 
 class States:
@@ -93,6 +95,17 @@ class States:
         signs = (self.ring.var_expr[v.index] for v in self.ring.vars if v.kind == "sign")
         return any(s.args[0] == "velocity" for e in signs for s in e.symbols)
 
+    @cached_property
+    def rational(self) -> bool:
+        """Are the states rational functions of numbers chosen freely? Then the real ones are as generic as any.
+
+        Else the set may have parts over GF(p) that no real state lies on: where r^2 = -l^2 of r^4 = l^4.
+        """
+        if any(v.kind == "root" and self.ring.var_expr[v.index].symbols for v in self.ring.vars):
+            return False
+        solvers = [self._standing, self._moving]
+        return all(not s.plan.stuck and all(s.degree(*step) == 1 for step in s.plan.steps) for s in solvers)
+
     def draw(self, seed: int) -> FieldPoint | None:
         """A generic state over GF(p): velocities at a generic configuration where they can be solved for."""
         if "field" not in self.setting.engines:
@@ -147,12 +160,18 @@ class States:
         search = self._search(self.relations, [*places, *self.rates])
         standing, moving = self._search(self.finite, places), self._search(self.moving, self.rates)
         for k in range(STARTS):
-            symbols = search.start(STARTS * seed + k, {})
+            symbols = self._spread(search.start(STARTS * seed + k, {}), seed)
             if standing.descend(symbols, seed) is not None and moving.descend(symbols, seed) is not None:
                 found = search.search(seed, symbols, starts=1)
                 if found is not None and found.certified and found.consistent:
                     return found
         return search.search(seed)
+
+    def _spread(self, symbols: dict[Expr, float], seed: int) -> dict[Expr, float]:
+        """Where to begin: far out for later states where angles occur, as what holds near 0 need not hold a turn on."""
+        if seed < FAR_FROM or not any(v.kind in ("sin", "cos") for v in self.ring.vars):
+            return symbols
+        return {s: FAR * v if s in self.places else v for s, v in symbols.items()}
 
     def _search(self, nodes: Sequence[int], unknowns: Sequence[Expr]) -> RealSearch:
         return RealSearch(self.ring, nodes, unknowns, self.setting.positive)
@@ -160,7 +179,7 @@ class States:
     def certain(self, count: int) -> Iterator[BallPoint]:
         """Real states that are certified, at generic configurations."""
         for k in range(count):
-            found = self.real(3 + k)
+            found = self.real(k)
             if found is not None and found.certified and found.consistent:
                 whole, moving, finite = self.ranks(found.point)
                 if whole - moving == finite:

@@ -13,7 +13,7 @@ from dofkit.methods import METHODS, MethodName
 from dofkit.report import Report
 
 DIMENSIONS = (1, 2, 3)
-GRAPHS, CLASSIFIED, BODIES = 900, 24, 16
+GRAPHS, CLASSIFIED, BODIES = 700, 14, 12
 
 
 def classified(scene: dict[str, object], method: MethodName = "auto") -> Report:

@@ -7,14 +7,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rich.console import Console
 
 import dofkit
+from dofkit import local
 from dofkit.constraints import TYPES
 from dofkit.exact.sparse import rank_of_rows
 from dofkit.lowering import lower
 from dofkit.placed import drawn
 from dofkit.report import Report
 from dofkit.scene import Scene
+from dofkit.show.terminal import as_text
 from dofkit.system import System
 from dofkit.twists import KINDS, rows_of
 
@@ -71,7 +74,7 @@ def test_why_kutzbach_errs_is_the_span_of_the_screws(name: str, span: int) -> No
     found = told(name).mobility
     assert found is not None
     assert found.differs is not None
-    assert f"span {span} dimensions" in found.differs
+    assert f"span {span} dimension" in found.differs
     assert f"with {span} for 6" in found.differs
 
 
@@ -258,3 +261,172 @@ def test_twists_have_the_rank_of_the_coordinates(scene: Scene) -> None:
 
 def test_every_type_is_known_as_a_connection_or_as_a_text() -> None:
     assert KINDS | {"equation", "on", "string", "roll"} == set(TYPES)
+
+
+# No more than the scene needs
+
+
+def cranks(more: list[dict[str, Any]] | None = None, bodies: list[str] | None = None) -> Report:
+    """A rod on three parallel cranks, hinged, and what hangs on it."""
+    joints = [("ground", "k1", [0, 0]), ("k1", "rod", [1, 2]), ("ground", "k2", [3, 0]), ("k2", "rod", [4, 2])]
+    joints += [("ground", "k3", [7, 1]), ("k3", "rod", [8, 3])]
+    constraints: list[dict[str, Any]] = [{"type": "revolute", "between": [a, b], "at": at} for a, b, at in joints]
+    names = ["k1", "k2", "k3", "rod", *(bodies or [])]
+    return dofkit.classify(dofkit.load({"dimension": 2, "bodies": names, "constraints": [*constraints, *(more or [])]}))
+
+
+def test_a_tree_that_hangs_on_a_mechanism_is_not_followed() -> None:
+    """60 pendulums in a chain under the rod: 60 more freedoms, and 120 relations that are in no dependent set."""
+    names = [f"p{i}" for i in range(60)]
+    chain = [
+        {"type": "revolute", "between": [names[i - 1] if i else "rod", name], "at": [4, 2 - i]}
+        for i, name in enumerate(names)
+    ]
+    alone, hung = cranks(), cranks(chain, names)
+    assert (alone.dof, hung.dof) == (1, 61)
+    assert (alone.verdict, alone.redundant_equations) == (hung.verdict, hung.redundant_equations)
+    assert "120 of 132 relations are in no dependent set" in hung.modelled
+
+
+def test_a_grid_of_squares_with_braces_is_settled() -> None:
+    """Squares with braces, the rows and columns a graph (Bolker and Crapo).
+
+    Without braces 12 rows and columns turn by an angle each, and the whole shifts: 14. The braces at (0, 0), (0, 1),
+    (1, 0) hold two rows and two columns to one angle, which leaves 11, and the one at (1, 1) is too many.
+    """
+    n = 6
+    particles = [{"name": f"p{i}_{j}", "at": [i, j]} for i in range(n + 1) for j in range(n + 1)]
+    links = [(f"p{i}_{j}", f"p{i + 1}_{j}") for i in range(n) for j in range(n + 1)]
+    links += [(f"p{i}_{j}", f"p{i}_{j + 1}") for i in range(n + 1) for j in range(n)]
+    links += [(f"p{i}_{j}", f"p{i + 1}_{j + 1}") for i in (0, 1) for j in (0, 1)]
+    constraints = [{"type": "link", "between": list(pair)} for pair in links]
+    report = dofkit.classify(dofkit.load({"dimension": 2, "particles": particles, "constraints": constraints}))
+    assert (report.dof, report.instantaneous_dof) == (11, 11)
+    # 98 coordinates, 88 links: one of them does nothing at this drawing.
+    assert report.redundant_equations == 1
+    assert "are in no dependent set" in report.modelled
+
+
+DEPENDENT = [
+    "bennett-driven",
+    "dixon-first-k44",
+    "four-cranks-parallel",
+    "gimbal-lock",
+    "hart-inversor-guided",
+    "kempe-reversor",
+    "oldham-coupling-space",
+    "pantograph-with-two-guides",
+    "pentagon-with-all-diagonals",
+    "spherical-four-bar-stretched",
+    "square-bracing-with-crossed-diagonals",
+    "tarnai-ring",
+    "three-cranks-in-line",
+]
+
+
+@pytest.mark.parametrize("name", DEPENDENT)
+def test_looking_at_dependent_relations_alone_changes_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    apart = told(name)
+    monkeypatch.setattr(local, "_by_parts", lambda *_: None)
+    whole = dofkit.classify(dofkit.load(next(SCENES.glob(f"*/{name}.yaml"))))
+    kept = (
+        "consistent",
+        "dof",
+        "velocity_dof",
+        "instantaneous_dof",
+        "singular",
+        "redundant",
+        "redundancies",
+        "generic",
+    )
+    for field in kept:
+        assert getattr(apart, field) == getattr(whole, field)
+    assert apart.constraints == whole.constraints
+
+
+# Nearly special drawings
+
+
+def three_bars(off: str, scale: int = 1, tolerance: float | None = None) -> Report:
+    """A body on three bars whose lines meet in (0, 0), but that the third is drawn off by a little."""
+    bars = [("1", "0", "2", "0"), ("0", "1", "0", "3"), ("-1", "-1", "-2", f"-2 + {off}")]
+    constraints = [
+        {
+            "type": "link",
+            "between": [
+                [f"{scale} * ({c})", f"{scale} * ({d})"],
+                {"on": "body", "at": [f"{scale} * ({a})", f"{scale} * ({b})"]},
+            ],
+        }
+        for a, b, c, d in bars
+    ]
+    scene: dict[str, Any] = {"dimension": 2, "bodies": ["body"], "constraints": constraints}
+    return dofkit.classify(dofkit.load(scene if tolerance is None else scene | {"tolerance": tolerance}))
+
+
+@pytest.mark.parametrize("off", ["10^-4", "10^-7", "10^-10"])
+@pytest.mark.parametrize("scale", [1, 1000])
+def test_a_near_dependence_suggests_a_tolerance(off: str, scale: int) -> None:
+    exact = three_bars(off, scale)
+    assert exact.instantaneous_dof == 0
+    said = next(warning for warning in exact.warnings if "nearly dependent" in warning)
+    suggested = float(said.partition("`tolerance: ")[2].partition("`")[0])
+    assert three_bars(off, scale, suggested).instantaneous_dof == 1
+
+
+@pytest.mark.parametrize("off", ["0", "1/10", "1"])
+def test_what_is_special_or_far_from_it_is_not_nearly_so(off: str) -> None:
+    assert not any("nearly dependent" in warning for warning in three_bars(off).warnings)
+
+
+def test_no_scene_of_the_tables_is_nearly_dependent() -> None:
+    names = [row[0] for row in COUNTS] + [row[0] for row in GENERIC]
+    assert not any("nearly dependent" in warning for name in names for warning in told(name).warnings)
+
+
+def test_a_small_body_in_a_large_scene_is_not_nearly_dependent() -> None:
+    """A wheel of size 1/1000, far out, on a frame of size 1: only its sizes differ."""
+    scene = {
+        "dimension": 2,
+        "bodies": ["frame", "wheel"],
+        "constraints": [
+            {"type": "revolute", "between": ["ground", "frame"], "at": [0, 0]},
+            {"type": "revolute", "between": ["frame", "wheel"], "at": [1, 0]},
+            {"type": "link", "between": [[2, 0], {"on": "wheel", "at": ["1001/1000", "1/2000"]}]},
+        ],
+    }
+    report = dofkit.classify(dofkit.load(scene))
+    assert report.instantaneous_dof == 1
+    assert not any("nearly dependent" in warning for warning in report.warnings)
+
+
+def test_what_is_rigid_is_one_body() -> None:
+    """A square with both diagonals, rigid with one bar too many, and a swinging triangle at its corner."""
+    names = "ABCDEF"
+    places = [[0, 0], [3, 0], [3, 3], [0, 3], [5, 4], [4, 6]]
+    pairs = ["AB", "BC", "CD", "DA", "AC", "BD", "CE", "EF", "FC"]
+    scene = {
+        "dimension": 2,
+        "particles": [{"name": n, "at": at} for n, at in zip(names, places, strict=True)],
+        "constraints": [{"type": "link", "between": list(pair)} for pair in pairs],
+    }
+    report = dofkit.classify(dofkit.load(scene))
+    assert (report.dof, report.verdict, report.redundant) == (4, "proved", ["c6"])
+    assert "1 dependent set taken for one rigid body" in report.modelled
+    assert "3 of 9 relations are in no dependent set" in report.modelled
+
+
+def test_a_driven_count_adds_up() -> None:
+    """Bennett's loop with one hinge driven: 3(4 - 1 - 4) + 4 - 1 = 0."""
+    found = told("bennett-driven").mobility
+    assert found is not None
+    assert found.differs is not None
+    assert found.differs.endswith("3(4 - 1 - 4) + 4 - 1 = 0")
+
+
+def test_both_counts_and_why_they_err_are_shown() -> None:
+    text = " ".join(as_text(told("sarrus-linkage"), None, Console(width=200)).split())
+    assert "Gruebler-Kutzbach M = 6(N - 1 - j) + sum f = 6(6 - 1 - 6) + 6 = 0" in text
+    assert "with 5 for 6 the count is 5(6 - 1 - 6) + 6 = 1" in text
+    assert "generic 0 degrees of freedom in general position" in text
+    assert "1 follows from those before: no rotation about (0, 0, 1)" in text

@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import dofkit
-from dofkit.linkage import LinkageError, compiled, pebbles, plane, space
+from dofkit.linkage import LinkageError, compiled, large, pebbles, plane, space
 
 Link = tuple[Any, Any]
 Pairs = Sequence[tuple[int, int]]
@@ -109,6 +109,11 @@ KNOWN = {
     "a cube": Known(CUBE, 3, 12, 6, (2,) * 12, (), (1,) * 8),
     # 18 = 3 8 - 6 links, yet each half is K5 less the same link, which would have been redundant once
     "a double banana": Known(BANANAS, 3, 17, 1, (5, 5), ((1, 18),), (2,)),
+    # a door ABFG on the hinge AB of one body; at F it carries another: F is a cut joint, and was lost to the door
+    "a body on a door": Known(
+        [*complete("ABCDE"), *read("AF BF AG BG FG"), *complete("HIJKL"), *read("FH FI FJ")],
+        3, 26, 4, (5, 4, 6), ((1, 10), (1, 10)), (2, 1),
+    ),
     "a double banana with its hinge": Known([*BANANAS, ("A", "B")], 3, 17, 1, (5, 5), ((2, 19),), (2,)),
     "a double banana across": Known([*BANANAS, ("c", "f")], 3, 18, 0, (8,), ((1, 18),)),
 }  # fmt: skip
@@ -316,6 +321,11 @@ def test_compiled_loops_give_the_same(d: int, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(compiled, "WORTH_COMPILING", 0)
     assert [answers(dofkit.linkage(links, d)) for links in lists] == plain
     assert compiled.engine_for(pebbles, 0).compiled
+    monkeypatch.setattr(compiled, "WORTH_COMPILING", 10**9)
+    monkeypatch.setattr(compiled, "WORTH_CALLING", 0)
+    assert [answers(dofkit.linkage(links, d)) for links in lists] == plain  # compiled ones are there, and used in part
+    monkeypatch.setattr(plane, "WORTH_WORDS", 0)
+    assert [answers(dofkit.linkage(links, d)) for links in lists] == plain
 
 
 def test_many_circuits_at_once_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -416,6 +426,19 @@ def test_a_dependence_that_no_count_proves_is_probable(monkeypatch: pytest.Monke
     told = dofkit.linkage(BANANAS, 3)
     assert (told.rank, told.verdict) == (17, "probable")
     assert "chance below" in told.proof("redundant").reason
+
+
+def test_a_core_too_large_for_a_dense_matrix(monkeypatch: pytest.MonkeyPatch) -> None:
+    lists = [middling(seed, 3, 9 + seed) for seed in range(12)]
+    dense = [dofkit.linkage(links, 3) for links in lists]
+    monkeypatch.setattr(large, "DENSE", 0)
+    for links, known in zip(lists, dense, strict=True):
+        told = dofkit.linkage(links, 3)
+        assert (told.rank, told.redundant, told.circuit_places) == (known.rank, known.redundant, known.circuit_places)
+        assert told.verdict == ("probable" if len(told.redundant) > len(links) - len(set(links)) else "proved")
+    assert dofkit.linkage(complete("ABCDEF"), 3).clusters == [list("ABCDEF")]
+    with pytest.raises(LinkageError, match="too many to tell apart"):
+        _ = dofkit.linkage(BANANAS, 3).clusters
 
 
 def test_every_run_gives_the_same() -> None:

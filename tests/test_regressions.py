@@ -22,6 +22,11 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
     ("x*y=0 and x*z=0: neither can go", scene("x*y=0", "x*z=0"), {"dof": 2, "redundant": []}),
     ("half a circle is no circle", scene("x^2+y^2=l^2", "y=-sqrt(l^2-x^2)", parameters=["l"]), {"redundant": ["c1"]}),
     ("x = 0 follows over the reals only", scene("x^2+y^2=z", "z+x^2+y^2=0", "x=0"), {"dof": 0, "redundant": ["c3"]}),
+    (
+        "no other real root",
+        scene("(x^2+y^2)^16=l^32", "x^2+y^2=l^2", parameters={"l": "positive"}),
+        {"redundant": ["c2"]},
+    ),
     ("c1 = x c2", scene("x^3-x*y^2=0", "x^2=y^2", coordinates=["x", "y"]), {"dof": 1, "redundant": ["c1"]}),
     ("ydot^2 = -3", scene("xdot^2+ydot^2=1", "xdot=2"), {"consistent": False, "conflicting": ["c1", "c2"]}),
     ("ydot = 0 follows", scene("xdot^2+ydot^2=1", "xdot=1"), {"dof": 1, "velocity_dof": 1, "holonomic": True}),
@@ -300,3 +305,21 @@ def test_a_long_flag_is_followed_to_its_end() -> None:
     report = dofkit.classify(dofkit.load(made))
     assert (report.dof, report.velocity_dof) == (53, 2)
     assert report.growth_vector == list(range(2, 54))
+
+
+@pytest.mark.parametrize("size", ["1/3", "3"])
+def test_a_form_that_is_zero_but_for_rounding_is_no_form(size: str) -> None:
+    """Sarrus's linkage with both chains stretched, any size: alpha = beta and alpha = -beta cross."""
+    sides = [("a", (2, 0), [0, 1, 0]), ("b", (0, 2), [1, 0, 0])]
+    joints = [
+        {
+            "type": "revolute",
+            "between": list(pair),
+            "at": [f"{x} * {size}", f"{y} * {size}", f"{z} * {size}"],
+            "axis": axis,
+        }
+        for name, (x, y), axis in sides
+        for z, pair in enumerate(pairwise(("ground", f"{name}1", f"{name}2", "plate")))
+    ]
+    report = dofkit.classify(dofkit.load({"bodies": ["a1", "a2", "plate", "b1", "b2"], "constraints": joints}))
+    assert (report.dof, report.instantaneous_dof) == (1, 2)

@@ -7,7 +7,7 @@ fewest rows, so a chain or a tree fills in nothing and a grid little more than i
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import Any
@@ -15,6 +15,8 @@ from typing import Any
 from dofkit.deadline import check
 
 SparseRow = dict[int, int]
+#: For every row that depends on rows before it a minimal set of those; told where it is asked for.
+Supports = Callable[[], Mapping[int, Sequence[int]]]
 
 #: Rows between two looks at the clock.
 LOOK = 64
@@ -152,6 +154,18 @@ class _Reduction:
         self._rows.append([(column, 1), *((c, v * inverse % self.p) for c, v in rest.items() if c != column)])
         self._sources.append((row, inverse, used))
 
+    def solved(self, right: Sequence[int]) -> list[int]:
+        """The solution of as many equations as there are columns, all of them pivots, with this right side."""
+        p, reduced = self.p, list[int]()
+        for row, inverse, used in self._sources:
+            taken = sum(factor * reduced[k] for k, factor in used.items())
+            reduced.append((right[row] - taken) * inverse % p)
+        found = [0] * len(reduced)
+        for number in reversed(range(len(reduced))):
+            (column, _), *others = self._rows[number]
+            found[column] = (reduced[number] - sum(v * found[c] for c, v in others)) % p
+        return found
+
     def support(self, used: Mapping[int, int]) -> tuple[int, ...]:
         """The rows of which a sum of pivot rows is the sum: each is its row less earlier pivots, unfolded backwards."""
         left, found = dict(used), []
@@ -170,3 +184,25 @@ class _Reduction:
                     heappush(pending, -k)
                 left[k] = (left[k] - factor * v) % self.p
         return tuple(sorted(found))
+
+
+class Solved:
+    """A square matrix over GF(p) without its zeros, factored once to be solved often; rows are equations.
+
+    Raises ZeroDivisionError where it is singular.
+    """
+
+    def __init__(self, rows: Sequence[Mapping[int, int]], p: int) -> None:
+        self.p = p
+        self._found = _Reduction(p, Counter(c for row in rows for c in row))
+        for i, row in enumerate(rows):
+            if i % LOOK == 0:
+                check()
+            rest, used = self._found.reduced(row)
+            if not rest:
+                raise ZeroDivisionError("the matrix is singular")
+            self._found.add(i, rest, used)
+
+    def solve(self, right: Sequence[int]) -> list[int]:
+        """The x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
+        return self._found.solved(right)

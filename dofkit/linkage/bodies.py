@@ -31,14 +31,14 @@ class Bodies:
         return set.intersection(*(self._of.get(v, set()) for v in joints))
 
     def attach(self, joint: int, neighbours: Sequence[int]) -> None:
-        """A new joint linked to at most three others, in general position.
+        """A joint linked to at most three others, in general position, which is in bodies of other parts at most.
 
         Three of one body hold it there; two of one body swing it about their line, so the three are a body.
         """
         if len(neighbours) == 3:
             for number in self.holding(neighbours):
                 self._members[number].add(joint)
-                self._of[joint] = {number}
+                self._of.setdefault(joint, set()).add(number)
                 return
         alone = dict.fromkeys(neighbours)
         for pair in combinations(neighbours, 2):

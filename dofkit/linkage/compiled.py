@@ -16,6 +16,10 @@ import numpy as np
 
 #: Links from which compiling, or reading what was compiled before, takes less time than it saves.
 WORTH_COMPILING = 40_000
+#: Links from which functions that are ready are used.
+WORTH_CALLING = 500
+#: The modules whose functions were compiled in this process.
+_ready: set[str] = set()
 
 
 @dataclass(frozen=True)
@@ -42,9 +46,13 @@ class Engine:
         return np.asarray(values if isinstance(values, np.ndarray) else list(values), dtype=np.int32)
 
 
-def engine_for(kernels: ModuleType, links: int) -> Engine:
-    """What runs the functions of a module, which it lists in ``KERNELS``, callees first."""
-    if links < WORTH_COMPILING or find_spec("numba") is None:
+def engine_for(kernels: ModuleType, links: int, if_ready: bool = False) -> Engine:
+    """What runs the functions of a module, which it lists in ``KERNELS``, callees first.
+
+    ``if_ready``: compiled ones for smaller graphs too, once a large one was met.
+    """
+    least = min(WORTH_COMPILING, WORTH_CALLING) if if_ready and kernels.__name__ in _ready else WORTH_COMPILING
+    if links < least or find_spec("numba") is None:
         return Engine(kernels, False)
     return Engine(compiled(kernels), True)
 
@@ -63,6 +71,7 @@ def compiled(kernels: ModuleType) -> Any:
             names[name] = numba.njit(cache=True)(own)
         except RuntimeError:
             names[name] = numba.njit(own)
+    _ready.add(kernels.__name__)
     found = ModuleType(kernels.__name__)
     vars(found).update(names)
     return found

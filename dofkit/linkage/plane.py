@@ -67,7 +67,7 @@ class Plane:
     def __init__(self, joints: int, ends: Sequence[int]) -> None:
         links = len(ends) // 2
         self._joints, self._links = joints, links
-        self._engine = engine_for(pebbles, links)
+        self._engine = engine_for(pebbles, links, if_ready=True)
         self._ends = self._engine.taken(ends)
         self._dependent = self._engine.filled(links, 0)
         self._board = _board(self._engine, joints, links)
@@ -132,8 +132,8 @@ class Plane:
     def _turning_together(self) -> Sequence[int]:
         """For every link the one that stands for its rigid cluster."""
         e = engine_for(rigid_clusters, self._links)
-        board = Board(*(value.copy() for value in self._board))
-        net, outer = _net(e, self._ends, self._joints, self._dependent)
+        board = Board(*(e.taken(value.copy()) for value in self._board))
+        net, outer = _net(e, e.taken(self._ends), self._joints, e.taken(self._dependent))
         e.running(nets).sweep(net, outer)
         e.kernels.core_clusters(board, net, outer)
         e.kernels.outer_clusters(board, net, outer)

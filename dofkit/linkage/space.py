@@ -7,13 +7,16 @@ not 0 at a point is not 0. What depends there is proved by counting where that i
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 from dofkit.linkage.bodies import Bodies
 from dofkit.linkage.core import Core, core_of
 from dofkit.linkage.decompose import Ends, Piece, decompose
 from dofkit.linkage.hinged import bodies_of_core, hinged_bound, rigid_by_count
+from dofkit.linkage.large import Large, too_large
 from dofkit.linkage.members import connected
 from dofkit.linkage.solved import Proof, Question
 
@@ -21,6 +24,25 @@ from dofkit.linkage.solved import Proof, Question
 TRIES = 5
 _INDEPENDENT = "links are independent in general position where they are at one point modulo a prime"
 _PEELED = "every joint can be taken off with at most three links, so all links are independent"
+
+
+class Part(Protocol):
+    """A core: the links that depend on those before them, in order, and what is told of them."""
+
+    @property
+    def dependent(self) -> Sequence[int]:
+        """The links that those before them make superfluous."""
+
+    @property
+    def circuits(self) -> Mapping[int, list[int]]:
+        """Those with the links that each depends on."""
+
+    @property
+    def chance(self) -> float:
+        """A bound on the chance that one of the dependences is none; 0 where all are proved."""
+
+    def bodies(self) -> tuple[list[list[int]], bool]:
+        """Maximal sets of joints that keep all their distances, and whether each is proved to."""
 
 
 class Space:
@@ -37,18 +59,18 @@ class Space:
             if original != i:
                 self._original[i] = original
         self._piece = decompose(list(first.values()), self._ends)
-        self._cores = {tuple(links): _sure(links, self._ends) for links in self._piece.cores()}
+        self._cores = {tuple(links): _part(links, self._ends) for links in self._piece.cores()}
 
     @cached_property
     def _circuits(self) -> dict[int, list[int]]:
-        found = {i: circuit for core, _ in self._cores.values() for i, circuit in core.circuits.items()}
+        found = {i: circuit for part in self._cores.values() for i, circuit in part.circuits.items()}
         for i, original in self._original.items():
             found[i] = found.get(original, [original])
         return found
 
     @cached_property
     def redundant(self) -> list[int]:
-        return sorted(self._circuits)
+        return sorted([*self._original, *(i for part in self._cores.values() for i in part.dependent)])
 
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
         return ((i, self._circuits[i]) for i in links)
@@ -65,11 +87,10 @@ class Space:
     def _built(self, piece: Piece, bodies: Bodies) -> bool:
         proved = sum(not self._built(part, bodies) for part in piece.parts) == 0
         if piece.core:
-            core, _ = self._cores[tuple(piece.core)]
-            found = bodies_of_core(core)
+            found, sure = self._cores[tuple(piece.core)].bodies()
             for body in found:
                 bodies.add(body)
-            proved &= len(found) == 1 or rigid_by_count(found, [self._ends[i] for i in piece.core])
+            proved &= sure
         for v, links in reversed(piece.peeled):
             bodies.attach(v, [sum(self._ends[i]) - v for i in links])
         return proved
@@ -80,13 +101,40 @@ class Space:
     def proof(self, question: Question) -> Proof:
         if not self._cores:
             return Proof("proved", _PEELED)
-        doubtful = [chance for _, chance in self._cores.values() if chance]
+        doubtful = [part.chance for part in self._cores.values() if part.chance]
         if doubtful:
             return Proof("probable", f"{_INDEPENDENT}; some dependences are probable, wrong with a chance below "
                                      f"{sum(doubtful):.1e}")  # fmt: skip
         if question == "clusters" and not self._bodies[1]:
             return Proof("probable", "some clusters keep their distances in random motions, not by the links they have")
         return Proof("proved", f"{_INDEPENDENT}, and more than 3n - 6 links on n joints, or hinged bodies, depend")
+
+
+@dataclass(frozen=True)
+class Small:
+    """A core whose matrix was eliminated; see `Part`."""
+
+    core: Core
+    chance: float
+    ends: Ends
+
+    @property
+    def dependent(self) -> Sequence[int]:
+        return list(self.core.circuits)
+
+    @property
+    def circuits(self) -> Mapping[int, list[int]]:
+        return self.core.circuits
+
+    def bodies(self) -> tuple[list[list[int]], bool]:
+        found = bodies_of_core(self.core)
+        return found, len(found) == 1 or rigid_by_count(found, [self.ends[i] for i in self.core.links])
+
+
+def _part(links: Sequence[int], ends: Ends) -> Part:
+    if too_large(links, ends):
+        return Large(links, ends)
+    return Small(*_sure(links, ends), ends)
 
 
 def _sure(links: Sequence[int], ends: Ends) -> tuple[Core, float]:
