@@ -20,6 +20,7 @@ from dofkit.charting import make_chart
 from dofkit.exact.field import NoPointError
 from dofkit.exact.sparse import rank_of_rows
 from dofkit.expr import Expr
+from dofkit.homework.multiples import same_up_to_numbers
 from dofkit.homework.sides import same_side
 from dofkit.implication import follows
 from dofkit.lowering import lower
@@ -94,6 +95,8 @@ class Comparison:
         """What the answer is."""
         if any(r.inequalities for r in (*self._wanted, *self._given)):
             return self._unilateral()
+        if same_up_to_numbers(self._given, self._wanted, self.setting.positive):
+            return Compared(Sameness.SAME, tuple(True for _ in self._wanted))
         sound = [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
         met = [self._follow(r.normals, kept) for r in self._wanted]
