@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from dofkit.classify import classify, derived_flag
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.grading import grade
+    from dofkit.lagrange import lagrange
     from dofkit.linkage import Linkage, linkage, redundant_links
     from dofkit.reading import load, loads
     from dofkit.report import Report
@@ -40,6 +41,7 @@ __all__ = [
     "configurations",
     "derived_flag",
     "grade",
+    "lagrange",
     "linkage",
     "load",
     "load_assignment",
@@ -58,6 +60,7 @@ _HOMES = {
     "configurations": "dofkit.sampling",
     "derived_flag": "dofkit.classify",
     "grade": "dofkit.homework.grading",
+    "lagrange": "dofkit.lagrange",
     "linkage": "dofkit.linkage",
     "load": "dofkit.reading",
     "load_assignment": "dofkit.homework.assignment",

@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import ctx
 
@@ -139,6 +139,23 @@ def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int
     if len(known) < len(ranks):
         return None
     return [sum(r[min(k, len(r) - 1)] for r in known) for k in range(max(map(len, known), default=0))]
+
+
+class Study(NamedTuple):
+    """A system as the engines see it, with what they found of it."""
+
+    system: System
+    setting: Setting
+    outcome: Outcome
+    report: Report
+
+
+def studied(system: System, budget: float | None = None) -> Study:
+    """What is known of a system, without its special cases. Raises OutOfTimeError where there was no time for it."""
+    with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
+        reduced, setting = prepared(system)
+        outcome = solve(system, reduced, setting)
+        return Study(system, setting, outcome, _report(system, reduced, setting, outcome))
 
 
 def _by_one_engine(report: Report, outcome: Outcome, method: MethodName) -> Report:

@@ -16,10 +16,11 @@ def lower(scene: Scene) -> System:
     found = taken(scene)
     if found.world.faults:
         raise SceneError(tuple(found.world.faults))
-    return _system(scene, found)
+    return system_of(scene, found)
 
 
-def _system(scene: Scene, found: Survey) -> System:
+def system_of(scene: Scene, found: Survey) -> System:
+    """The mathematics of a scene that was surveyed without faults."""
     world = found.world
     pose = pose_of(world)
     reference = reference_of(world, pose)

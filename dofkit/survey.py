@@ -59,11 +59,15 @@ def _unhurried() -> Iterator[None]:
 
 
 @_unhurried()
-def survey(scene: Surveyed) -> Survey:
-    """Read everything; the faults are in ``world.faults``, in the order of the scene's keys."""
+def survey(scene: Surveyed, euler: bool = False) -> Survey:
+    """Read everything; the faults are in ``world.faults``, in the order of the scene's keys.
+
+    ``euler``: every spatial body is turned by its Euler angles, also where no text mentions them.
+    """
     world = World(scene)
     check_names(scene, world.table, world)
-    world.make_frames(_mentioned(scene, world))
+    every = frozenset(q.name for q in world.table.coordinates)
+    world.make_frames(every if euler else _mentioned(scene, world))
     names = names_by_position("c", [c.name for c in scene.constraints])
     _check_repeats(world, "constraints", [c.name for c in scene.constraints], names)
     constraints, connections = [], []

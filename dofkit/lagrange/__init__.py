@@ -1,0 +1,104 @@
+"""Equations of motion: Lagrange's equations of a scene, in the coordinates that its constraints leave.
+
+Constraints are used as they were classified: finite ones are eliminated where they solve in closed form and keep a
+multiplier where not, as non-holonomic ones always do; redundant ones are left out; inequalities never enter.
+"""
+
+from __future__ import annotations
+
+from dofkit.classify import studied
+from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
+from dofkit.errors import Fault, SceneError
+from dofkit.expr import Expr
+from dofkit.lagrange.conserved import conserved, cyclic
+from dofkit.lagrange.derivation import Derived, derive
+from dofkit.lagrange.energies import Reader, missing
+from dofkit.lagrange.linear import linearized
+from dofkit.lagrange.model import Model, MotionError, modelled
+from dofkit.lagrange.report import Conserved, Linearized, MotionReport
+from dofkit.lowering import system_of
+from dofkit.scene import Scene
+from dofkit.survey import survey
+from dofkit.text import to_text
+
+__all__ = ["Conserved", "Linearized", "MotionError", "MotionReport", "derived_of", "lagrange"]
+
+
+def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None) -> MotionReport:
+    """Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a of a scene.
+
+    ``linearize``: also M, C and K at an equilibrium. Raises `SceneError` with every fault of the scene, and
+    `MotionError` where the equations cannot be given, saying why: nothing is guessed.
+
+    >>> import dofkit
+    >>> pendulum = {"coordinates": ["theta"], "parameters": {"m": "positive", "l": "positive", "g": "positive"}}
+    >>> energies = {"kinetic": "m l^2 thetadot^2/2", "potential": "-m g l cos(theta)"}
+    >>> dofkit.lagrange(dofkit.load({**pendulum, "energies": energies})).equations
+    ['l^2*m*thetaddot + g*l*m*sin(theta) = 0']
+    """
+    try:
+        with limited(DEFAULT_SECONDS if budget is None else budget):
+            derived = derived_of(scene)
+            return _told(derived, linearize)
+    except OutOfTimeError as error:
+        raise MotionError(f"no equations of motion are given: {error}") from None
+
+
+def derived_of(scene: Scene) -> Derived:
+    """The equations of motion as expressions."""
+    return derive(model_of(scene))
+
+
+def model_of(scene: Scene) -> Model:
+    """The scene's energies and constraints, made ready."""
+    found = survey(scene, euler=True)
+    if found.world.faults:
+        raise SceneError(tuple(found.world.faults), scene.name)
+    energy = Reader(scene, found.world).energy()
+    if found.world.faults:
+        raise SceneError(tuple(found.world.faults), scene.name)
+    if not _given(scene):
+        message = "the scene has neither `energies` nor masses, so that there is nothing to derive motion from"
+        hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
+        raise SceneError((Fault(message, hint=hint),), scene.name)
+    study = studied(system_of(scene, found))
+    model = modelled(study, energy, found.world.names)
+    used = frozenset().union(*(e.symbols for e in _energies(model)))
+    faults = missing(used)
+    if faults:
+        raise SceneError(tuple(faults), scene.name)
+    return model
+
+
+def _given(scene: Scene) -> bool:
+    """Does anything of the scene tell of its motion?"""
+    if scene.energies is not None and (scene.energies.kinetic is not None or scene.energies.potential is not None):
+        return True
+    return any(p.mass is not None for p in (*scene.particles, *scene.bodies))
+
+
+def _energies(model: Model) -> list[Expr]:
+    e = model.energy
+    return [e.kinetic, e.potential, e.dissipation, *e.forces.values()]
+
+
+def _told(derived: Derived, linearize: bool) -> MotionReport:
+    model = derived.model
+    report = MotionReport(
+        scene=model.study.system.name,
+        coordinates=list(model.names),
+        lagrangian=to_text(derived.lagrangian),
+        momenta={n: to_text(p) for n, p in derived.momenta.items()},
+        forces={n: to_text(f) for n, f in derived.forces.items()},
+        equations=[f"{to_text(e)} = 0" for e in derived.equations.values()],
+        constraints=[f"{to_text(e)} = 0" for e in (*model.holonomic, *model.nonholonomic)],
+        multipliers=list(derived.multipliers),
+        eliminated={n: to_text(e) for n, e in model.elimination.solved.items()},
+        left_out=list(model.left_out),
+        cyclic=cyclic(derived),
+        conserved=list(conserved(derived)),
+        linearized=linearized(derived) if linearize else None,
+        notes=list(model.notes),
+    )
+    report._derived = derived
+    return report

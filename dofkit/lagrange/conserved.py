@@ -1,0 +1,67 @@
+"""Cyclic coordinates and first integrals that a Lagrangian shows at once (Noether: translations of q and of t)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dofkit import expr as ex
+from dofkit.exact.canon import is_identically_zero
+from dofkit.expr import Expr
+from dofkit.lagrange.derivation import Derived
+from dofkit.lagrange.elimination import Remaining
+from dofkit.lagrange.order import ordered
+from dofkit.lagrange.report import Conserved
+from dofkit.normal import Finite, Nonlinear, Pfaffian
+from dofkit.text import to_text
+
+
+def cyclic(derived: Derived) -> list[str]:
+    """The coordinates with dL/dq = 0 identically."""
+    return [n for n in derived.model.names if _zero(derived, ex.diff(derived.lagrangian, ex.coordinate(n)))]
+
+
+def conserved(derived: Derived) -> Iterator[Conserved]:
+    """Momenta on which no force acts, and the energy function h = sum qdot p - L.
+
+    dp/dt = dL/dq + Q + sum lam a; dh/dt = -dL/dt + sum Q qdot + sum lam a qdot, where a qdot = 0 if a constraint
+    has no term free of velocities.
+    """
+    model = derived.model
+    for name in model.names:
+        if _zero(derived, derived.forces[name]) and not any(_acts(c, name, derived) for c in model.constraints):
+            quantity = to_text(derived.momenta[name])
+            yield Conserved(name=f"p_{name}", quantity=quantity, reason=f"no generalized force acts along {name}.")
+    energy = model.energy
+    idle = all(_zero(derived, e) for e in (energy.dissipation, *energy.forces.values()))
+    timeless = _zero(derived, ex.diff(derived.lagrangian, ex.TIME))
+    if model.names and idle and timeless and all(_workless(c, derived) for c in model.constraints):
+        reason = "time does not enter the Lagrangian, and neither other forces nor constraints do work."
+        yield Conserved(name="energy", quantity=to_text(energy_function(derived)), reason=reason)
+
+
+def energy_function(derived: Derived) -> Expr:
+    """h = sum qdot dL/dqdot - L; T + V where T is quadratic in the velocities."""
+    own = derived.model.energy
+    powers = ex.add(*(ex.velocity(n) * p for n, p in derived.momenta.items()))
+    function = powers - derived.lagrangian
+    total = own.kinetic + own.potential
+    return ordered(total if _zero(derived, function - total) else function)
+
+
+def _zero(derived: Derived, e: Expr) -> bool:
+    return e.is_zero or is_identically_zero(e, derived.model.positive) is True
+
+
+def _acts(piece: Remaining, name: str, derived: Derived) -> bool:
+    """May the constraint's force have a component along a coordinate?"""
+    if isinstance(piece, Pfaffian):
+        return name in piece.coefficients and not _zero(derived, piece.coefficients[name])
+    symbol = ex.coordinate(name) if isinstance(piece, Finite) else ex.velocity(name)
+    return not _zero(derived, ex.diff(piece.expr, symbol))
+
+
+def _workless(piece: Remaining, derived: Derived) -> bool:
+    """Does the constraint's force do no work in the motion itself?"""
+    if isinstance(piece, Pfaffian):
+        return _zero(derived, piece.dt)
+    return not isinstance(piece, Nonlinear) and _zero(derived, ex.diff(piece.expr, ex.TIME))
