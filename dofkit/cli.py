@@ -96,6 +96,27 @@ def classify(files: Files, as_json: AsJson = False, budget: Budget = None, metho
 
 
 @app.command()
+def lagrange(
+    files: Files,
+    as_json: AsJson = False,
+    linearize: Annotated[
+        bool, typer.Option("--linearize", help="Also M, C and K of small motions about an equilibrium.")
+    ] = False,
+) -> None:
+    """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
+    from dofkit.watched import motions
+
+    failed = False
+    with closing(motions(files, linearize, as_json)) as stream:
+        for out, err, unread in stream:
+            typer.echo(out, nl=False)
+            typer.echo(err, nl=False, err=True)
+            failed = failed or unread
+    if failed:
+        raise typer.Exit(UNREADABLE)
+
+
+@app.command()
 def grade(
     assignment: Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="What was handed out: YAML or JSON.")],
     submissions: Annotated[

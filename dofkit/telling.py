@@ -33,29 +33,30 @@ def told(given: Given) -> Iterator[Json]:
             report = next(reports, first)
         except SceneError as error:
             raise read.located(error) from None
-        yield _printed(_shown(report, scene.title, given))
+        yield printed(_shown(report, scene.title, given))
     except MemoryError:
         raise
     except Exception as error:
-        yield _failed(given, name, _faults(error), document)
+        yield unread(given, name, faults_of_error(error), document)
 
 
 def cut_short(cut: Cut) -> Json:
     """What is printed where `told` was cut short: of a scene that was read, that nothing was decided."""
     if cut.value is not None and "report" in cut.value:
         report = undecided(Report.model_validate(cut.value["report"]), cut.reason)
-        return _printed(_shown(report, cut.value["title"], cut.given))
+        return printed(_shown(report, cut.value["title"], cut.given))
     fault = Fault(f"it could not be read: {cut.reason}", hint="make the scene smaller, or split it")
-    return _failed(cut.given, cut.given.name, (fault,), None)
+    return unread(cut.given, cut.given.name, (fault,), None)
 
 
-def _printed(out: str = "", err: str = "", failed: bool = False) -> Json:
+def printed(out: str = "", err: str = "", failed: bool = False) -> Json:
+    """What goes to standard output and to standard error."""
     return {"out": out, "err": err, "failed": failed}
 
 
 def _shown(report: Report, title: str | None, given: Given) -> str:
     if given.as_json:
-        return _line(report.model_dump(mode="json"), given)
+        return line(report.model_dump(mode="json"), given)
     from rich.console import Console
 
     from dofkit.show.terminal import as_text
@@ -68,14 +69,16 @@ def _shown(report: Report, title: str | None, given: Given) -> str:
     return as_text(report, title, console) + "\n\n"
 
 
-def _line(value: Any, given: Given) -> str:
+def line(value: Any, given: Given) -> str:
+    """One line of JSON."""
     return json.dumps(value, ensure_ascii=given.ascii_only) + "\n"
 
 
-def _failed(given: Given, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
+def unread(given: Given, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
+    """What is printed of a file that could not be read, or not be answered."""
     if given.as_json:
-        return _printed(out=_line({"scene": name, "error": error_object(faults)}, given), failed=True)
-    return _printed(err=complaint(STDIN if given.file == "-" else given.file, faults, document) + "\n", failed=True)
+        return printed(out=line({"scene": name, "error": error_object(faults)}, given), failed=True)
+    return printed(err=complaint(STDIN if given.file == "-" else given.file, faults, document) + "\n", failed=True)
 
 
 def error_object(faults: Iterable[Fault]) -> dict[str, Any]:
@@ -86,7 +89,8 @@ def error_object(faults: Iterable[Fault]) -> dict[str, Any]:
     return {**first, "faults": others}
 
 
-def _faults(error: Exception) -> tuple[Fault, ...]:
+def faults_of_error(error: Exception) -> tuple[Fault, ...]:
+    """What went wrong, as faults."""
     if isinstance(error, SceneError):
         return error.faults
     if isinstance(error, TextError):

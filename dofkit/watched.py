@@ -79,6 +79,19 @@ def told(files: Sequence[str], budget: float | None, method: MethodName, as_json
         worker.kill()
 
 
+def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[Told]:
+    """What is printed of the equations of motion of each file, in their order."""
+    worker = Worker(modules=("dofkit.deriving",), fork=can_fork())
+    ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
+    try:
+        for file in files:
+            given = Given(file, DEFAULT_SECONDS, "auto", as_json, ascii_only, data=_data(file))
+            outcome = worker.run(Job("dofkit.deriving:told", (given, linearize), limit(given.budget)))
+            yield Told(**outcome.value) if outcome.finished else _plain(given, outcome.reason)
+    finally:
+        worker.kill()
+
+
 def _one(worker: Worker, given: Given) -> Told:
     reading = limit(max(given.budget, DEFAULT_SECONDS))
     outcome = worker.run(Job("dofkit.telling:told", given, limit(given.budget), reading))

@@ -74,7 +74,7 @@ def _given(scene: Scene) -> bool:
     """Does anything of the scene tell of its motion?"""
     if scene.energies is not None and (scene.energies.kinetic is not None or scene.energies.potential is not None):
         return True
-    return any(p.mass is not None for p in (*scene.particles, *scene.bodies))
+    return any(p.mass is not None for p in scene.particles) or any(b.mass is not None for b in scene.bodies)
 
 
 def _energies(model: Model) -> list[Expr]:

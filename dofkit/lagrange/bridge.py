@@ -80,7 +80,9 @@ class Bridge:
         if kind == "time":
             return self.time
         if kind == "parameter":
-            made = self._sympy.Symbol(name, positive=True) if e in self._positive else self._sympy.Symbol(name, real=True)
+            made = (
+                self._sympy.Symbol(name, positive=True) if e in self._positive else self._sympy.Symbol(name, real=True)
+            )
             self._parameters[made] = e
             return made
         orders = {"coordinate": 0, "velocity": 1, "differential": 1, "acceleration": 2}

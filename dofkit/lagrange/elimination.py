@@ -47,7 +47,10 @@ class Elimination:
 
 
 class Candidate(NamedTuple):
-    """A solution q = value of a relation; ``cost`` orders them, ``over`` must not vanish, ``other`` is the second root."""
+    """A solution q = value of a relation.
+
+    ``cost`` orders them, ``over`` must not vanish, ``other`` is the second root.
+    """
 
     cost: tuple[int, int, int]
     name: str
@@ -246,9 +249,5 @@ def _rate(e: Expr) -> Expr:
 
 def vanishes(piece: Remaining, positive: frozenset[Expr]) -> bool:
     """Does a relation hold identically? Proved in the canonical ring."""
-    if isinstance(piece, Pfaffian):
-        parts = [*piece.coefficients.values(), piece.dt]
-    else:
-        parts = [piece.expr]
+    parts = [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
     return all(e.is_zero or is_identically_zero(e, positive) is True for e in parts)
-

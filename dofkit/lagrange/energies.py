@@ -193,7 +193,9 @@ class Reader:
         return HALF * damping * along**2 / square(gap)
 
     def _ends(self, force: Force) -> tuple[Placed, Placed] | None:
-        if force.between is None or any(isinstance(e, str) and e in (*self.world.frames, GROUND) for e in force.between):
+        if force.between is None or any(
+            isinstance(e, str) and e in (*self.world.frames, GROUND) for e in force.between
+        ):
             hint = "write `between: [point, point]`; a point of a body is {on: BODY, at: [..]}"
             self.world.fault(f"a {force.type} needs the two points that it acts between", "between", hint=hint)
             return None

@@ -9,9 +9,10 @@ from dofkit import expr as ex
 from dofkit.exact.canon import is_identically_zero
 from dofkit.expr import ZERO, Expr
 from dofkit.lagrange.bridge import Bridge
-from dofkit.lagrange.derivation import Derived, Tidier
+from dofkit.lagrange.derivation import Derived
 from dofkit.lagrange.model import MotionError
 from dofkit.lagrange.report import Linearized
+from dofkit.lagrange.tidying import Tidier
 from dofkit.text import to_text
 
 #: Frequencies are given by a formula up to so many coordinates.
@@ -65,10 +66,8 @@ def _told(derived: Derived, place: Mapping[Expr, Expr], matrices: list[list[list
     import sympy
 
     bridge = Bridge(derived.model.names, derived.model.positive)
-    tidy = Tidier(bridge, derived.model.positive, True)
-    mass, damping, stiffness = (
-        sympy.Matrix([[bridge.sympy(e) for e in row] for row in matrix]) for matrix in matrices
-    )
+    tidy = Tidier(bridge, derived.model.positive)
+    mass, damping, stiffness = (sympy.Matrix([[bridge.sympy(e) for e in row] for row in matrix]) for matrix in matrices)
     s = sympy.Dummy("s")
     polynomial = (mass * s**2 + damping * s + stiffness).det(method="berkowitz").expand()
     shown = bridge.sympy(ex.parameter(_free_name(derived)))

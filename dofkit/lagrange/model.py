@@ -231,4 +231,3 @@ def independent(names: Sequence[str], pieces: Sequence[Remaining], setting: Sett
                 rank += 1
                 chosen.append(piece)
     return chosen
-

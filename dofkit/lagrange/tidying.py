@@ -1,0 +1,112 @@
+"""Expressions written shorter; a form counts only where it is proved equal to what was given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit import expr as ex
+from dofkit.deadline import check
+from dofkit.exact.canon import Canon, Poly, TooLargeError, is_identically_zero
+from dofkit.exact.ring import Ring
+from dofkit.expr import Expr
+from dofkit.lagrange.bridge import Bridge, UntranslatableError
+from dofkit.lagrange.order import ordered
+
+#: Expressions with more SymPy operations than this are not expanded.
+EXPANDED = 3000
+#: A product that hides a sum with velocities is read as if it were longer by so many symbols.
+HIDDEN = 8
+_RATES = ("velocity", "acceleration")
+
+
+@dataclass(frozen=True)
+class Tidier:
+    """Writes SymPy's expressions as ours, as short as is found."""
+
+    bridge: Bridge
+    positive: frozenset[Expr]
+
+    def __call__(self, e: Any) -> Expr:
+        plain = self.bridge.expr(e)
+        best, size = plain, length(plain)
+        for form in self._forms(e, plain):
+            check()
+            if length(form) < size and is_identically_zero(form - plain, self.positive) is True:
+                best, size = form, length(form)
+        return ordered(best)
+
+    def _forms(self, e: Any, plain: Expr) -> Iterator[Expr]:
+        found = by_rates(plain, self.positive)
+        if found is not None:
+            yield found
+        if int(e.count_ops()) > EXPANDED:
+            return
+        import sympy
+
+        expanded = e.expand()
+        rates = [self.bridge.velocity(n, k) for k in (2, 1) for n in self.bridge.positions]
+        for form in (expanded, sympy.collect(expanded, rates)):
+            try:
+                yield self.bridge.expr(form)
+            except (UntranslatableError, ZeroDivisionError):
+                continue
+
+
+def by_rates(e: Expr, positive: frozenset[Expr]) -> Expr | None:
+    """In the canonical ring, a sum over the monomials in velocities and accelerations, each coefficient factored."""
+    ring = Ring([e], positive)
+    try:
+        node = ring.node(e)
+        canon = Canon(ring)
+        top, bottom = canon.quotient(node)
+        if any(_is_rate(canon, i) for i in canon.generators_in(bottom)):
+            return None
+        terms = [ex.mul(_factored(canon, part, bottom), rates) for rates, part in _grouped(canon, top)]
+    except (TooLargeError, DomainError, ZeroDivisionError):
+        return None
+    return ex.add(*terms) if terms else ex.ZERO
+
+
+def _is_rate(canon: Canon, index: int) -> bool:
+    shown = canon.ring.var_expr[index]
+    return shown.op == "sym" and shown.args[0] in _RATES
+
+
+def _grouped(canon: Canon, top: Poly) -> list[tuple[Expr, Poly]]:
+    """The polynomial's parts by their monomials in rates."""
+    shown = list(reversed(canon.ring.var_expr))
+    moving = [e.op == "sym" and e.args[0] in _RATES for e in shown]
+    groups: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+    for exponents, coefficient in top.to_dict().items():
+        rates = tuple(int(k) if m else 0 for k, m in zip(exponents, moving, strict=False))
+        rest = tuple(0 if m else int(k) for k, m in zip(exponents, moving, strict=False))
+        groups.setdefault(rates, {})[rest] = coefficient
+    return [
+        (ex.mul(*(ex.power(v, ex.num(k)) for v, k in zip(shown, rates, strict=False) if k)), canon.ctx.from_dict(part))
+        for rates, part in groups.items()
+    ]
+
+
+def _factored(canon: Canon, top: Poly, bottom: Poly) -> Expr:
+    common = top.gcd(bottom)
+    return _product(canon, top / common) / _product(canon, bottom / common)
+
+
+def _product(canon: Canon, poly: Poly) -> Expr:
+    content, factors = poly.factor()[0], canon.factors(poly)
+    number = ex.num(Fraction(int(content.p), int(content.q)))
+    parts = [ex.power(canon.to_expr(f), ex.num(k)) for f, k in factors]
+    if number != ex.ONE and len(parts) == 1 and parts[0].op == "add":
+        return Expr("mul", (number, parts[0])) if number != ex.MINUS_ONE else -parts[0]
+    return ex.mul(number, *parts)
+
+
+def length(e: Expr) -> int:
+    """How long an expression is to read."""
+    hidden = e.op == "mul" and any(p.op == "add" and any(s.args[0] in _RATES for s in p.symbols) for p in e.args)
+    return 1 + HIDDEN * hidden + sum(map(length, ex.children(e)))
