@@ -132,6 +132,8 @@ class Bridge:
     def derivative(self, e: Any) -> Expr:
         """A velocity, an acceleration, or the derivative of an unknown function at its own arguments."""
         base, steps = e.expr, {variable: int(order) for variable, order in e.variable_count}
+        if steps == {base: 1}:
+            return ex.ONE
         if base in self._names:
             order = steps.pop(self.time, 0)
             kinds: dict[int, ex.Kind] = {1: "velocity", 2: "acceleration"}

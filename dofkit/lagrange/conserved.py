@@ -35,17 +35,19 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
     idle = all(_zero(derived, e) for e in (energy.dissipation, *energy.forces.values()))
     timeless = _zero(derived, ex.diff(derived.lagrangian, ex.TIME))
     if model.names and idle and timeless and all(_workless(c, derived) for c in model.constraints):
-        reason = "time does not enter the Lagrangian, and neither other forces nor constraints do work."
-        yield Conserved(name="energy", quantity=to_text(energy_function(derived)), reason=reason)
+        function, total = energy_function(derived)
+        reason = "time does not enter the Lagrangian, and neither other forces nor constraints do work"
+        reason += "." if total else "; this is sum qdot p - L, and not T + V."
+        yield Conserved(name="energy" if total else "h", quantity=to_text(function), reason=reason)
 
 
-def energy_function(derived: Derived) -> Expr:
-    """h = sum qdot dL/dqdot - L; T + V where T is quadratic in the velocities."""
+def energy_function(derived: Derived) -> tuple[Expr, bool]:
+    """h = sum qdot dL/dqdot - L, and whether that is T + V, as it is where T is quadratic in the velocities."""
     own = derived.model.energy
     powers = ex.add(*(ex.velocity(n) * p for n, p in derived.momenta.items()))
     function = powers - derived.lagrangian
     total = own.kinetic + own.potential
-    return ordered(total if _zero(derived, function - total) else function)
+    return (ordered(total), True) if _zero(derived, function - total) else (ordered(function), False)
 
 
 def _zero(derived: Derived, e: Expr) -> bool:

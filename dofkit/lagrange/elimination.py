@@ -15,11 +15,12 @@ from dofkit.constants import approximate
 from dofkit.deadline import check
 from dofkit.exact.canon import is_identically_zero
 from dofkit.expr import ONE, TWO, ZERO, Expr
+from dofkit.lagrange.order import ordered
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.text import to_text
 
-#: Relations that are quadratic in what they are solved for, at most; more make what is left unreadable.
-MOST_ROOTS = 2
+#: Relations that are solved by a root, at most; with more of them there are too many branches, and none is taken.
+MOST_ROOTS = 1
 #: Larger solutions are not written down.
 MOST_NODES = 400
 
@@ -70,7 +71,21 @@ class Eliminator:
     choose: Callable[[str, Expr, Expr, Mapping[str, Expr]], tuple[Expr, str]]
 
     def eliminated(self, relations: Sequence[Relation], names: Sequence[str], preferred: Sequence[str]) -> Elimination:
-        """As many relations as possible solved for some of ``names``; ``preferred`` ones go first."""
+        """As many relations as possible solved for some of ``names``; ``preferred`` ones go first.
+
+        Relations that need more than `MOST_ROOTS` roots are all left.
+        """
+        found = self._attempt(relations, names, preferred, MOST_ROOTS)
+        if found is None:
+            found = self._attempt(relations, names, preferred, 0) or Elimination()
+            many = "Several relations are quadratic: they keep multipliers, which hold on every branch."
+            found = replace(found, notes=(*found.notes, many))
+        return found
+
+    def _attempt(
+        self, relations: Sequence[Relation], names: Sequence[str], preferred: Sequence[str], most: int
+    ) -> Elimination | None:
+        """An elimination by ``most`` roots; None where it would need more, unless that is 0."""
         solved: dict[str, Expr] = {}
         constants: set[Expr] = set()
         notes: list[str] = []
@@ -78,18 +93,20 @@ class Eliminator:
         roots = 0
         while left:
             check()
-            found = self._best(left, [n for n in names if n not in solved], preferred, roots < MOST_ROOTS)
+            found = self._best(left, [n for n in names if n not in solved], preferred, most > 0)
             if found is None:
                 break
             relation, candidate = found
+            if candidate.other is not None and roots == most:
+                return None
             left.remove(relation)
-            value = candidate.value
+            value = ordered(candidate.value)
             if candidate.other is not None:
                 roots += 1
-                value, why = self.choose(candidate.name, candidate.value, candidate.other, solved)
+                value, why = self.choose(candidate.name, value, ordered(candidate.other), solved)
                 notes.append(why)
             elif not _never_zero(candidate.over, self.positive):
-                notes.append(f"{candidate.name} was solved for where {to_text(candidate.over)} is not 0.")
+                notes.append(f"{candidate.name} was solved for where {to_text(_unsigned(candidate.over))} is not 0.")
             mapping = {ex.coordinate(candidate.name): value}
             solved = {n: ex.substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
             constants |= relation.constants
@@ -155,6 +172,11 @@ class Eliminator:
             if is_identically_zero(inserted, self.positive) is not True:
                 return False
         return True
+
+
+def _unsigned(e: Expr) -> Expr:
+    """Without a number in front."""
+    return ex.mul(*(p for p in e.args if p.op != "num")) if e.op == "mul" else e
 
 
 def _free_of(e: Expr, q: Expr, positive: frozenset[Expr]) -> bool:

@@ -80,11 +80,11 @@ def _is_rate(canon: Canon, index: int) -> bool:
 def _grouped(canon: Canon, top: Poly) -> list[tuple[Expr, Poly]]:
     """The polynomial's parts by their monomials in rates."""
     shown = list(reversed(canon.ring.var_expr))
-    moving = [e.op == "sym" and e.args[0] in _RATES for e in shown]
+    moving = [e.op == "sym" and e.args[0] in _RATES for e in shown] or [False]
     groups: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
     for exponents, coefficient in top.to_dict().items():
-        rates = tuple(int(k) if m else 0 for k, m in zip(exponents, moving, strict=False))
-        rest = tuple(0 if m else int(k) for k, m in zip(exponents, moving, strict=False))
+        rates = tuple(int(k) if m else 0 for k, m in zip(exponents, moving, strict=True))
+        rest = tuple(0 if m else int(k) for k, m in zip(exponents, moving, strict=True))
         groups.setdefault(rates, {})[rest] = coefficient
     return [
         (ex.mul(*(ex.power(v, ex.num(k)) for v, k in zip(shown, rates, strict=False) if k)), canon.ctx.from_dict(part))
