@@ -51,7 +51,7 @@ def vanishes(e: Expr) -> bool:
     for seed in range(40):
         point = field_point([ring], 100 + seed)
         try:
-            if values(ring, point)[node] % point.p:
+            if values(ring, point)[node] != 0:
                 return False
         except (ZeroDivisionError, NoPointError):
             continue
@@ -216,7 +216,12 @@ def test_a_bead_on_a_rotating_rod() -> None:
 
 def test_a_string_written_twice() -> None:
     report = check(
-        scene("y1 + y2 = l", "2 y1 = 2 l - 2 y2", coordinates="y1 y2", **energies("2 y1dot^2 + 3 y2dot^2/2", "-4 g y1 - 3 g y2")),
+        scene(
+            "y1 + y2 = l",
+            "2 y1 = 2 l - 2 y2",
+            coordinates="y1 y2",
+            **energies("2 y1dot^2 + 3 y2dot^2/2", "-4 g y1 - 3 g y2"),
+        ),
         {"y1": "g/7"},
     )
     assert report.left_out == ["c2"]
@@ -260,7 +265,9 @@ def test_rolling_whose_constant_enters_keeps_a_multiplier() -> None:
 def test_a_block_on_a_movable_wedge() -> None:
     """The block's horizontal acceleration is g sin cos M/(M + m sin^2) down the slope, the wedge's m/M of it back."""
     wedge = scene(
-        "y1 = h - (x1 - x2) tan(b)", coordinates="x1 y1 x2", **energies("m (x1dot^2 + y1dot^2)/2 + M x2dot^2/2", "m g y1")
+        "y1 = h - (x1 - x2) tan(b)",
+        coordinates="x1 y1 x2",
+        **energies("m (x1dot^2 + y1dot^2)/2 + M x2dot^2/2", "m g y1"),
     )
     x1 = "(M g sin(b) cos(b)/(M + m sin(b)^2))"
     report = check(wedge, {"x1": x1, "y1": f"-tan(b) ({x1} + m {x1}/M)"})
@@ -269,17 +276,21 @@ def test_a_block_on_a_movable_wedge() -> None:
 
 def test_a_sleigh_slides_on_its_edge() -> None:
     """A knife edge at the centre of mass: thetaddot = 0, and the force turns the velocity with the edge."""
-    sleigh = scene(
-        "sin(theta) dx = cos(theta) dy", coordinates="x y theta", **energies(f"{PLANE} + J thetadot^2/2")
-    )
+    sleigh = scene("sin(theta) dx = cos(theta) dy", coordinates="x y theta", **energies(f"{PLANE} + J thetadot^2/2"))
     report = dofkit.lagrange(sleigh)
     assert report.coordinates == ["x", "y", "theta"]
     names = names_of(sleigh, report)
     along = parse_expression("a", names)
-    on = {velocity("x"): parse_expression("a cos(theta)", names), velocity("y"): parse_expression("a sin(theta)", names)}
+    on = {
+        velocity("x"): parse_expression("a cos(theta)", names),
+        velocity("y"): parse_expression("a sin(theta)", names),
+    }
     moved = {acceleration("x"): parse_expression("-a sin(theta) thetadot", names)}
     moved |= {acceleration("y"): parse_expression("a cos(theta) thetadot", names)}
-    moved |= {acceleration("theta"): parse_expression("0", names), parameter("lam1"): parse_expression("m a thetadot", names)}
+    moved |= {
+        acceleration("theta"): parse_expression("0", names),
+        parameter("lam1"): parse_expression("m a thetadot", names),
+    }
     assert along is not None
     for text in report.equations:
         assert vanishes(substitute(substitute(zero(text, names), moved), on)), text
@@ -392,7 +403,12 @@ def test_the_branch_is_that_of_the_reference() -> None:
 
 
 def test_several_roots_are_no_elimination() -> None:
-    two = scene("x1^2 + y1^2 = a^2", "x2^2 + y2^2 = b^2", coordinates="x1 y1 x2 y2", **energies("x1dot^2 + y1dot^2 + x2dot^2 + y2dot^2"))
+    two = scene(
+        "x1^2 + y1^2 = a^2",
+        "x2^2 + y2^2 = b^2",
+        coordinates="x1 y1 x2 y2",
+        **energies("x1dot^2 + y1dot^2 + x2dot^2 + y2dot^2"),
+    )
     report = dofkit.lagrange(two)
     assert len(report.multipliers) == 2
     assert report.coordinates == ["x1", "y1", "x2", "y2"]
@@ -544,7 +560,7 @@ def test_a_chain_of_five_pendulums() -> None:
     xs = ["(" + " + ".join(f"cos(q{j}) q{j}dot" for j in range(1, i + 1)) + ")" for i in range(1, n + 1)]
     ys = ["(" + " + ".join(f"sin(q{j}) q{j}dot" for j in range(1, i + 1)) + ")" for i in range(1, n + 1)]
     kinetic = " + ".join(f"{x}^2/2 + {y}^2/2" for x, y in zip(xs, ys, strict=True))
-    potential = " - ".join(["0", *(f"g {n + 1 - j} cos(q{j})" for j in range(1, n + 1))])
+    potential = " - ".join(["0", *(f"{n + 1 - j} g cos(q{j})" for j in range(1, n + 1))])
     chain = scene(coordinates=" ".join(f"q{i}" for i in range(1, n + 1)), **energies(kinetic, potential))
     start = time.process_time()
     report = dofkit.lagrange(chain)
@@ -554,7 +570,7 @@ def test_a_chain_of_five_pendulums() -> None:
         terms = [
             f"({n + 1 - max(i, j)}) (cos(q{i} - q{j}) q{j}ddot + sin(q{i} - q{j}) q{j}dot^2)" for j in range(1, n + 1)
         ]
-        expected = parse_expression(" + ".join(terms) + f" + g {n + 1 - i} sin(q{i})", names)
+        expected = parse_expression(" + ".join(terms) + f" + {n + 1 - i} g sin(q{i})", names)
         assert vanishes(zero(text, names) - expected)
 
 

@@ -199,7 +199,8 @@ def by_potential(
         taken, why = first, "the other root is the other branch"
         if reference is not None and ex.coordinate(name) in reference:
             here = reference[ex.coordinate(name)]
-            gaps = [_figure(ex.substitute(v, {**reference, ex.TIME: ZERO}) - here) for v in (first, second)]
+            start = {**reference, ex.TIME: ZERO}
+            gaps = [_figure(_sampled(ex.substitute(v, start) - here)) for v in (first, second)]
             if None not in gaps and abs(gaps[0] or 0) != abs(gaps[1] or 0):
                 taken = first if abs(gaps[0] or 0) < abs(gaps[1] or 0) else second
                 why = "the branch through the reference configuration"

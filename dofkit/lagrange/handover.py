@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from dofkit import expr as ex
+from dofkit.exact.field import NoPointError, field_point
+from dofkit.exact.program import values
+from dofkit.exact.ring import Ring
+from dofkit.exact.sparse import last_columns, sparse
+from dofkit.expr import Expr
 from dofkit.lagrange.bridge import Bridge
 from dofkit.lagrange.model import Model
+
+#: Random points that are tried.
+ATTEMPTS = 20
 
 
 @dataclass(frozen=True)
@@ -17,7 +26,8 @@ class Handover:
 
     ``coordinates`` q and ``speeds`` u = qdot (dynamic symbols), ``kinematics`` (u - qdot = 0), ``lagrangian`` in q and
     qdot, ``configuration`` and ``velocity`` constraints as expressions that are 0, generalized ``forces`` by position,
-    ``eliminated`` coordinates as functions of those kept. ``loads`` and ``frame`` carry the forces: each acts on a
+    ``eliminated`` coordinates as functions of those kept, ``tied_coordinates`` and ``tied_speeds`` the places of as many
+    as the constraints fix by the others. ``loads`` and ``frame`` carry the forces: each acts on a
     point that moves along an axis of the frame with the velocity of its coordinate.
     """
 
@@ -28,6 +38,8 @@ class Handover:
     velocity: tuple[Any, ...]
     forces: tuple[Any, ...]
     eliminated: dict[Any, Any]
+    tied_coordinates: tuple[int, ...] = ()
+    tied_speeds: tuple[int, ...] = ()
 
     @property
     def kinematics(self) -> tuple[Any, ...]:
@@ -68,25 +80,37 @@ class Handover:
         )
 
     def kanes_arguments(self) -> dict[str, Any]:
-        """The keyword arguments of KanesMethod that describe coordinates, speeds and constraints.
-
-        With as many dependent coordinates and speeds as there are constraints: the last ones.
-        """
-        n, holds, moves = len(self.coordinates), len(self.configuration), len(self.configuration) + len(self.velocity)
+        """The keyword arguments of KanesMethod that describe coordinates, speeds and constraints."""
         swapped = {q.diff(): u for q, u in zip(self.coordinates, self.speeds, strict=True)}
         rates = [g.diff() for g in self.configuration] + list(self.velocity)
-        found: dict[str, Any] = {
-            "q_ind": list(self.coordinates[: n - holds]),
-            "u_ind": list(self.speeds[: n - moves]),
-            "kd_eqs": list(self.kinematics),
-        }
-        if holds:
-            found |= {"q_dependent": list(self.coordinates[n - holds :])}
-            found |= {"configuration_constraints": list(self.configuration)}
-        if moves:
-            found |= {"u_dependent": list(self.speeds[n - moves :])}
-            found |= {"velocity_constraints": [r.xreplace(swapped) for r in rates]}
+        q_free, q_tied = _parted(self.coordinates, self.tied_coordinates)
+        u_free, u_tied = _parted(self.speeds, self.tied_speeds)
+        found: dict[str, Any] = {"q_ind": q_free, "u_ind": u_free, "kd_eqs": list(self.kinematics)}
+        if q_tied:
+            found |= {"q_dependent": q_tied, "configuration_constraints": list(self.configuration)}
+        if u_tied:
+            found |= {"u_dependent": u_tied, "velocity_constraints": [r.xreplace(swapped) for r in rates]}
         return found
+
+
+def _parted(given: tuple[Any, ...], tied: tuple[int, ...]) -> tuple[list[Any], list[Any]]:
+    return [g for i, g in enumerate(given) if i not in tied], [given[i] for i in tied]
+
+
+def _tied(model: Model, rows: Sequence[Sequence[Expr]]) -> tuple[int, ...]:
+    """Columns, the last ones possible, in which the rows are independent at a random point over GF(p)."""
+    if not rows:
+        return ()
+    ring = Ring([e for row in rows for e in row], model.positive)
+    nodes = [[ring.node(e) for e in row] for row in rows]
+    for seed in range(ATTEMPTS):
+        point = field_point([ring], seed)
+        try:
+            found = values(ring, point)
+        except (ZeroDivisionError, NoPointError):
+            continue
+        return last_columns(sparse([found[i] for i in row] for row in nodes), len(model.names), point.p)
+    return tuple(range(len(model.names) - len(rows), len(model.names)))
 
 
 def handover(model: Model, bridge: Bridge) -> Handover:
@@ -96,6 +120,8 @@ def handover(model: Model, bridge: Bridge) -> Handover:
     taken = {*bridge.positions, *model.study.system.parameters, *model.study.system.functions}
     stem = "u" if not any(f"u_{n}" in taken for n in model.names) else "speed"
     energy = model.energy
+    finite = [[ex.diff(g, ex.coordinate(n)) for n in model.names] for g in model.holonomic]
+    moving = [[ex.diff(r, ex.velocity(n)) for n in model.names] for r in model.nonholonomic]
     forces = []
     for name in model.names:
         friction = ex.diff(energy.dissipation, ex.velocity(name))
@@ -108,4 +134,6 @@ def handover(model: Model, bridge: Bridge) -> Handover:
         tuple(bridge.sympy(g) for g in model.nonholonomic),
         tuple(forces),
         {bridge.positions[n]: bridge.sympy(e) for n, e in model.elimination.solved.items()},
+        _tied(model, finite),
+        _tied(model, [*finite, *moving]),
     )

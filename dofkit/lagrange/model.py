@@ -11,7 +11,7 @@ from dofkit.answers import Setting
 from dofkit.blocks import Row, split
 from dofkit.classify import Study
 from dofkit.errors import DofkitError, Fault, SceneError, TextError
-from dofkit.exact.sparse import rank_of_rows
+from dofkit.exact.sparse import echelon
 from dofkit.expr import ZERO, Expr
 from dofkit.lagrange.elimination import (
     Elimination,
@@ -225,9 +225,5 @@ def independent(names: Sequence[str], pieces: Sequence[Remaining], setting: Sett
         known = [r.piece for r in block.finite] + [Finite(g) for g in a.hidden] + [r.piece for r in block.forms]
         if len(known) != len(rows):
             return None
-        rank = 0
-        for i, piece in enumerate(known):
-            if isinstance(piece, Remaining) and rank_of_rows(rows[: i + 1], a.modulus) > rank:
-                rank += 1
-                chosen.append(piece)
+        chosen += [p for i in echelon(rows, a.modulus).independent if isinstance(p := known[i], Remaining)]
     return chosen
