@@ -8,6 +8,8 @@ from functools import cached_property
 from typing import Literal
 
 from dofkit.classify import classify
+from dofkit.errors import DofkitError
+from dofkit.homework.motions import Sought, sought_or_why
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene import Scene
 from dofkit.survey import survey
@@ -58,6 +60,11 @@ class Key:
     def coordinates(self) -> list[str]:
         """The scene's configuration coordinates, in order."""
         return [c.name for c in survey(self.scene).world.table.coordinates]
+
+    @cached_property
+    def motion(self) -> Sought | DofkitError:
+        """What is right of the equations of motion, or why that is not known."""
+        return sought_or_why(self.scene)
 
     @cached_property
     def constraints(self) -> dict[str, ConstraintEntry]:

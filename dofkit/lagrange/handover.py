@@ -26,9 +26,9 @@ class Handover:
 
     ``coordinates`` q and ``speeds`` u = qdot (dynamic symbols), ``kinematics`` (u - qdot = 0), ``lagrangian`` in q and
     qdot, ``configuration`` and ``velocity`` constraints as expressions that are 0, generalized ``forces`` by position,
-    ``eliminated`` coordinates as functions of those kept, ``tied_coordinates`` and ``tied_speeds`` the places of as many
-    as the constraints fix by the others. ``loads`` and ``frame`` carry the forces: each acts on a
-    point that moves along an axis of the frame with the velocity of its coordinate.
+    ``eliminated`` coordinates as functions of those kept. ``tied_coordinates`` and ``tied_speeds`` are the places of
+    as many as the constraints fix by the others. ``loads`` and ``frame`` carry the forces: each acts on a point that
+    moves along an axis of the frame with the velocity of its coordinate.
     """
 
     coordinates: tuple[Any, ...]

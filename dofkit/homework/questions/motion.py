@@ -1,56 +1,283 @@
-"""Questions about equations of motion."""
+"""Questions about equations of motion: the Lagrangian, momenta, forces, and the equations themselves."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from typing import Literal
 
 from pydantic import Field
 
-from dofkit.homework.judgement import Given, Judgement, needs_review
+from dofkit import expr as ex
+from dofkit.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.expr import Expr
+from dofkit.homework.equations import as_text
+from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
 from dofkit.homework.key import Key
+from dofkit.homework.motions import Answered, Sought, is_zero, same_lagrangian
+from dofkit.homework.motions import Motion as Found
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.words import one_text
+from dofkit.text import Comparison, Names, UnknownNameError, parse_expression, parse_relations, to_text
+from dofkit.values import suggestion
+
+#: ``L =``, ``p_theta =`` and the like before the answer.
+_LEADING = re.compile(r"[^=<>]{0,80}(?<![<>!])==?(?!=)")
+#: Names of an answer's own for multipliers.
+_MULTIPLIER = re.compile(r"(lambda|lam|mu|Lambda)_?\w{0,3}|(multiplier|mult)_?\d{0,2}")
+MOST_MULTIPLIERS, MOST_EQUATIONS = 12, 40
+_SEPARATED = re.compile(r"[;\n]")
 
 
 class _MotionQuestion(QuestionBase):
-    """Read as it is written; a person looks at it."""
+    """What all of them share."""
 
-    def read(self, answer: Given, key: Key) -> str:
-        del key
-        return one_text(answer)
-
-    def solution(self, key: Key) -> str:
-        del key
-        return ""
+    def faults(self, key: Key) -> Iterator[Fault]:
+        coordinate = getattr(self, "coordinate", None)
+        if coordinate is not None and coordinate not in key.coordinates:
+            hint = suggestion(coordinate, key.coordinates, "coordinates")
+            yield Fault(f"the scene has no coordinate '{coordinate}'", ("coordinate",), hint=hint)
+        elif isinstance(key.motion, SceneError):
+            fault = key.motion.faults[0]
+            yield Fault(f"'{self.kind()}' cannot be asked: {fault.message}", ("ask",), hint=fault.hint)
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        reason = "equations of motion are not graded by dofkit yet."
-        return needs_review(self.read(answer, key), reason)
+        shown = self.read(answer, key)
+        if isinstance(key.motion, DofkitError):
+            return needs_review(shown, f"dofkit has no equations of motion here ({key.motion}).")
+        return self._judged(answer, key, key.motion, shown)
+
+    def _judged(self, answer: Given, key: Key, known: Sought, shown: str) -> Judgement:
+        raise NotImplementedError
+
+    def solution(self, key: Key) -> str:
+        return "" if isinstance(key.motion, DofkitError) else self._solution(key.motion)
+
+    def _solution(self, known: Sought) -> str:
+        raise NotImplementedError
 
 
-class Lagrangian(_MotionQuestion):
-    """L = T - V."""
+class _Value(_MotionQuestion):
+    """One expression; a leading name is read over."""
+
+    def read(self, answer: Given, key: Key) -> str:
+        return to_text(_value(answer, key))
+
+    def _judged(self, answer: Given, key: Key, known: Sought, shown: str) -> Judgement:
+        return self._compared(known.inserted(_value(answer, key)), known, shown)
+
+    def _compared(self, given: Expr, known: Sought, shown: str) -> Judgement:
+        raise NotImplementedError
+
+
+def _value(answer: Given, key: Key) -> Expr:
+    text = one_text(answer)
+    before = 0
+    while (match := _LEADING.match(text, before)) is not None and match.end() < len(text):
+        before = match.end()
+    return parse_expression(" " * before + text[before:], key.names)
+
+
+class Lagrangian(_Value):
+    """L = T - V, up to a total derivative by time: Euler's equation of the difference is 0 identically."""
 
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
 
+    def _compared(self, given: Expr, known: Sought, shown: str) -> Judgement:
+        same = same_lagrangian(given, known.lagrangian, known)
+        if same:
+            return right(shown)
+        if same is None or known.finite:
+            return needs_review(shown, "whether it gives the same motion was not decided.")
+        if same_lagrangian(given, known.total, known):
+            return wrong(shown, "This is the energy T + V; the Lagrangian is T - V.", "TOTAL_ENERGY")
+        if same_lagrangian(given, -known.lagrangian, known):
+            return wrong(shown, "This is V - T; the Lagrangian is T - V.", "SIGN")
+        return wrong(
+            shown, "It is another Lagrangian: Euler's equation of the difference is not 0.", "WRONG_LAGRANGIAN"
+        )
 
-class Momentum(_MotionQuestion):
+    def _solution(self, known: Sought) -> str:
+        return f"For example: L = {to_text(known.lagrangian)}."
+
+
+class _OfCoordinate(_Value):
+    """Momenta and forces; what is right before an elimination is looked at by a person."""
+
+    coordinate: str = Field(description="the coordinate it belongs to")
+
+    def _right(self, known: Sought) -> Expr | None:
+        raise NotImplementedError
+
+    def _unreduced(self, known: Sought) -> Expr:
+        raise NotImplementedError
+
+    def _compared(self, given: Expr, known: Sought, shown: str) -> Judgement:
+        wanted = self._right(known)
+        reduced = known.motions and wanted is not None
+        if wanted is None:
+            wanted = self._unreduced(known)
+        same = known.zero(given - wanted)
+        if same:
+            return right(shown)
+        if same is None or known.finite:
+            return needs_review(shown, "whether it is the same was not decided.")
+        if reduced and known.zero(given - self._unreduced(known)) is not False:
+            return needs_review(shown, "it may be meant in the coordinates before the constraints are used.")
+        if known.zero(given + wanted):
+            return wrong(shown, "The sign is wrong.", "SIGN")
+        return wrong(shown, self._feedback(), self._code())
+
+    def _feedback(self) -> str:
+        raise NotImplementedError
+
+    def _code(self) -> str:
+        raise NotImplementedError
+
+    def _solution(self, known: Sought) -> str:
+        wanted = self._right(known)
+        return f"For example: {to_text(self._unreduced(known) if wanted is None else wanted)}."
+
+
+class Momentum(_OfCoordinate):
     """p = dL/d(qdot)."""
 
     ask: Literal["momentum"] = Field(description="a generalized momentum")
-    coordinate: str = Field(description="the coordinate it belongs to")
+
+    def _right(self, known: Sought) -> Expr | None:
+        return known.momenta.get(self.coordinate)
+
+    def _unreduced(self, known: Sought) -> Expr:
+        return known.unreduced[self.coordinate][0]
+
+    def _feedback(self) -> str:
+        return f"The generalized momentum is the derivative of L by {self.coordinate}dot."
+
+    def _code(self) -> str:
+        return "WRONG_MOMENTUM"
 
 
-class GeneralizedForce(_MotionQuestion):
+class GeneralizedForce(_OfCoordinate):
     """dL/dq and the non-conservative forces."""
 
     ask: Literal["force"] = Field(description="a generalized force")
-    coordinate: str = Field(description="the coordinate it belongs to")
+
+    def _right(self, known: Sought) -> Expr | None:
+        return known.forces.get(self.coordinate)
+
+    def _unreduced(self, known: Sought) -> Expr:
+        return known.unreduced[self.coordinate][1]
+
+    def _feedback(self) -> str:
+        return f"It is the derivative of L by {self.coordinate}, with the forces that have no potential."
+
+    def _code(self) -> str:
+        return "WRONG_FORCE"
 
 
 class Motion(_MotionQuestion):
-    """The equations of motion."""
+    """The equations of motion, up to factors and linear combinations."""
 
     ask: Literal["motion"] = Field(description="an equation of motion, or all")
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
+
+    def read(self, answer: Given, key: Key) -> str:
+        return "; ".join(as_text(c) for c in _equations(answer, key)[0])
+
+    def _judged(self, answer: Given, key: Key, known: Sought, shown: str) -> Judgement:
+        relations, own = _equations(answer, key)
+        if any(c.relation != "=" for c in relations):
+            return wrong(shown, "An equation of motion is an equation, not an inequality.", "INEQUALITY")
+        answered = Answered(known, tuple(c.left - c.right for c in relations), own)
+        found = answered.follow()
+        if found is None:
+            return needs_review(shown, "whether these are the equations of motion was not decided.")
+        if self.coordinate is not None and self.coordinate in known.names:
+            return self._one(answered, found[0], known, shown)
+        return _all(found, known, shown)
+
+    def _one(self, answered: Answered, told: Sequence[Found], known: Sought, shown: str) -> Judgement:
+        """One coordinate's equation: it holds that coordinate's acceleration, and is not the equation of another."""
+        if answered.own or known.multipliers:
+            return needs_review(shown, "one equation with multipliers may be written in many ways.")
+        if Found.NOT in told:
+            return wrong(shown, "The accelerations of the system do not satisfy it.", Found.NOT.value)
+        rows = [r for r, t in zip(answered.rows or (), told, strict=True) if t is Found.FOLLOWS]
+        place = known.names.index(self.coordinate or "")
+        if not any(is_zero(row[place], known.positive) is False for row in rows):
+            told_why = f"It does not say what the acceleration of {self.coordinate} is."
+            return wrong(shown, told_why, Found.TRIVIAL.value)
+        if len(rows) == 1 and len(known.names) > 1 and self._of_another(rows[0], answered, known, place):
+            return wrong(shown, "This is the equation of another coordinate.", "OTHER_COORDINATE")
+        return right(shown)
+
+    def _of_another(self, row: Sequence[Expr], answered: Answered, known: Sought, place: int) -> bool:
+        """Is the row a multiple of another coordinate's equation, and not of the one asked for?"""
+        told = [_proportional(row[:-1], other[:-1], known.positive) for other in answered.right]
+        return not told[place] and any(told)
+
+    def _solution(self, known: Sought) -> str:
+        given = known.equations
+        own = None if self.coordinate is None else given.get(self.coordinate)
+        chosen = list(given.values()) if own is None else [own]
+        return "For example: " + "; ".join(f"{to_text(e)} = 0" for e in chosen) + "."
+
+
+def _all(found: tuple[list[Found], int], known: Sought, shown: str) -> Judgement:
+    """All equations: as many points as accelerations are fixed by those that follow."""
+    told, rank = found
+    wanted = len(known.names) - len(known.rows)
+    good = Found.NOT not in told
+    if good and rank >= wanted:
+        return right(shown)
+    if good:
+        share = Fraction(max(rank, 0), wanted)
+        return partly(
+            share, shown, f"These fix {max(rank, 0)} of {wanted} accelerations: something is missing.", "WEAKER"
+        )
+    share = Fraction(max(0, min(rank, wanted - 1)), wanted) if wanted > 1 else (HALF if rank else Fraction(0))
+    number = sum(t is Found.NOT for t in told)
+    return partly(share, shown, f"{number} of {len(told)} equations do not hold for the motion.", Found.NOT.value)
+
+
+def _proportional(a: Sequence[Expr], b: Sequence[Expr], positive: frozenset[Expr]) -> bool:
+    """Are two rows multiples of each other?"""
+    pairs = [(i, j) for i in range(len(a)) for j in range(i)]
+    return all(is_zero(a[i] * b[j] - a[j] * b[i], positive) for i, j in pairs)
+
+
+def _equations(answer: Given, key: Key) -> tuple[list[Comparison], tuple[Expr, ...]]:
+    """The equations of an answer, and the names of its own that stand for multipliers."""
+    texts = [one_text(part) for part in answer] if isinstance(answer, (list, tuple)) else [one_text(answer)]
+    pieces = [piece for text in texts for piece in _pieces(text)]
+    if not pieces:
+        raise TextError("there is no equation", 1, "write an equation such as m xddot + k x = 0")
+    if len(pieces) > MOST_EQUATIONS:
+        raise TextError(f"there are {len(pieces)} equations", 1, "give fewer")
+    own: dict[str, Expr] = {}
+    relations = [c for piece in pieces for c in _relations(piece, key.names, own)]
+    return relations, tuple(own.values())
+
+
+def _pieces(text: str) -> Iterator[str]:
+    """Each equation, blanks before it in the place of what stood there, so that columns stay."""
+    start = 0
+    for cut in [*(m.span() for m in _SEPARATED.finditer(text)), (len(text), len(text))]:
+        if text[start : cut[0]].strip():
+            yield " " * start + text[start : cut[0]]
+        start = cut[1]
+
+
+def _relations(text: str, names: Names, own: dict[str, Expr]) -> tuple[Comparison, ...]:
+    while True:
+        known = Names(
+            names.coordinates, {**names.parameters, **own}, names.functions, names.arguments, allow_accelerations=True
+        )
+        try:
+            return parse_relations(text, known)
+        except UnknownNameError as error:
+            if len(own) == MOST_MULTIPLIERS or not _MULTIPLIER.fullmatch(error.name):
+                raise
+            own[error.name] = ex.parameter(error.name)

@@ -1,0 +1,337 @@
+"""Equations of motion to grade by: what is right as expressions, and how an answer compares with it.
+
+Lagrangians are the same where the difference satisfies Euler's equation identically (then it is a total derivative by
+time). Equations of motion are the same where they allow the same accelerations: an answer's equation follows where the
+accelerations of the scene's own equations satisfy it, and the system is complete where it fixes all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from itertools import permutations
+from typing import NamedTuple
+
+from flint import nmod_mat
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit import expr as ex
+from dofkit.errors import DofkitError
+from dofkit.exact.field import NoPointError, field_point
+from dofkit.exact.identity import told_zero
+from dofkit.exact.program import values
+from dofkit.exact.ring import Ring
+from dofkit.exact.trust import independent_generators
+from dofkit.expr import MINUS_ONE, ONE, ZERO, Expr
+from dofkit.lagrange import derived_of
+from dofkit.lagrange.model import in_velocities
+from dofkit.lagrange.rates import by_time
+from dofkit.normal import Finite, Pfaffian
+from dofkit.scene import Scene
+
+#: Points over GF(p), and how many are tried for them.
+POINTS, ATTEMPTS = 3, 40
+#: Systems up to this size are solved by Cramer's rule where points alone may mislead.
+BY_CRAMER = 3
+#: Larger expressions are not compared.
+MOST_NODES = 4000
+
+
+@dataclass(frozen=True)
+class Sought:
+    """What is right: in the coordinates that are kept.
+
+    ``motions`` replaces what is eliminated, ``rates`` the velocities that constraints give by others. ``rows`` are
+    d/dt of the constraints that keep a multiplier, ``finite`` tells that some of them hold between coordinates.
+    """
+
+    names: tuple[str, ...]
+    lagrangian: Expr
+    total: Expr
+    momenta: Mapping[str, Expr]
+    forces: Mapping[str, Expr]
+    equations: Mapping[str, Expr]
+    multipliers: tuple[Expr, ...]
+    motions: Mapping[Expr, Expr]
+    rates: Mapping[Expr, Expr]
+    rows: tuple[Expr, ...]
+    finite: bool
+    unreduced: Mapping[str, tuple[Expr, Expr]]
+    positive: frozenset[Expr]
+
+    def inserted(self, e: Expr) -> Expr:
+        """An answer in the coordinates that are kept."""
+        return ex.substitute(e, self.motions)
+
+    def moved(self, e: Expr) -> Expr:
+        """The same where the constraints hold."""
+        return ex.substitute(e, self.rates)
+
+    def zero(self, e: Expr) -> bool | None:
+        """Is an expression 0 where the constraints hold? None where that was not decided."""
+        return is_zero(self.moved(e), self.positive)
+
+
+def sought(scene: Scene) -> Sought:
+    """What is right of a scene. Raises DofkitError where it has no equations of motion."""
+    derived = derived_of(scene)
+    model = derived.model
+    rates: dict[Expr, Expr] = {}
+    for piece in model.constraints:
+        if isinstance(piece, Pfaffian):
+            _solved(in_velocities(piece), rates, model.positive)
+    whole = model.whole
+    unreduced = {}
+    for c in model.study.system.coordinates:
+        v = ex.velocity(c.name)
+        force = ex.diff(whole.lagrangian, ex.coordinate(c.name)) - ex.diff(whole.dissipation, v)
+        pair = (ex.diff(whole.lagrangian, v), force + whole.forces.get(c.name, ZERO))
+        unreduced[c.name] = (ex.substitute(pair[0], model.motions), ex.substitute(pair[1], model.motions))
+    rows = [by_time(by_time(p.expr)) if isinstance(p, Finite) else by_time(in_velocities(p)) for p in model.constraints]
+    return Sought(
+        model.names,
+        derived.lagrangian,
+        model.energy.kinetic + model.energy.potential,
+        derived.momenta,
+        derived.forces,
+        derived.equations,
+        tuple(ex.parameter(n) for n in derived.multipliers),
+        model.motions,
+        rates,
+        tuple(rows),
+        any(not isinstance(p, Pfaffian) for p in model.constraints),
+        unreduced,
+        model.positive,
+    )
+
+
+def _solved(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) -> None:
+    """One more velocity by the others, from a form that is 0."""
+    form = ex.substitute(form, rates)
+    for v in sorted((s for s in form.symbols if s.args[0] == "velocity"), key=lambda s: s.args):
+        slope = ex.diff(form, v)
+        if is_zero(slope, positive) is False:
+            value = -ex.substitute(form, {v: ZERO}) / slope
+            rates.update({w: ex.substitute(e, {v: value}) for w, e in rates.items()})
+            rates[v] = value
+            return
+
+
+def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
+    """Zero identically? None where it is too large, has no value or was told by figures only."""
+    if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
+        return None
+    try:
+        found, verdict = told_zero(e, positive)
+    except (ArithmeticError, DomainError, NoPointError):
+        return None
+    return None if found and verdict not in ("proved", "probable") else found
+
+
+def euler(e: Expr, name: str) -> Expr:
+    """d/dt de/dqdot - de/dq."""
+    return by_time(ex.diff(e, ex.velocity(name))) - ex.diff(e, ex.coordinate(name))
+
+
+def same_lagrangian(answer: Expr, right: Expr, known: Sought) -> bool | None:
+    """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then."""
+    gap = answer - right
+    if any(s.args[0] == "acceleration" for s in gap.symbols):
+        return None
+    told = [is_zero(euler(gap, n), known.positive) for n in known.names]
+    return False if False in told else None if None in told else True
+
+
+class Motion(Enum):
+    """How an equation of motion compares with the scene's; the value is a stable code."""
+
+    FOLLOWS = "FOLLOWS"
+    NOT = "WRONG_MOTION"
+    TRIVIAL = "NO_ACCELERATION"
+
+
+@dataclass(frozen=True)
+class Answered:
+    """Equations of an answer (each is 0) beside those that are right; ``own``: the answer's names for multipliers."""
+
+    known: Sought
+    equations: tuple[Expr, ...]
+    own: tuple[Expr, ...] = ()
+
+    @cached_property
+    def columns(self) -> list[Expr]:
+        """The accelerations of the coordinates kept."""
+        return [ex.sym("acceleration", n) for n in self.known.names]
+
+    @cached_property
+    def rows(self) -> list[list[Expr]] | None:
+        """Coefficients of accelerations and own multipliers, and the rest; None where the equations are not linear."""
+        found = []
+        unknown = [*self.columns, *self.own]
+        for e in self.equations:
+            e = self.known.moved(self.known.inserted(e))
+            row = linear(e, unknown)
+            if row is None:
+                return None
+            found.append(row)
+        return found
+
+    @cached_property
+    def right(self) -> list[list[Expr]]:
+        """The same of the scene's equations with their multipliers, and the constraints' accelerations."""
+        unknown = [*self.columns, *self.known.multipliers]
+        given = [*self.known.equations.values(), *self.known.rows]
+        return [row for e in given if (row := linear(self.known.moved(e), unknown)) is not None]
+
+    @property
+    def decidable(self) -> bool:
+        """Can it be decided at points: is everything linear, and free of finite constraints that must hold there?"""
+        whole = len(self.known.names) + len(self.known.multipliers)
+        return self.rows is not None and not self.known.finite and len(self.right) == whole
+
+    def follow(self) -> tuple[list[Motion], int] | None:
+        """How each equation compares, and how many accelerations those that follow fix; None where it is open.
+
+        Multipliers of the answer's own may have any value: an equation follows where there is one at which the
+        scene's accelerations satisfy all that hold it.
+        """
+        rows = self.rows
+        if rows is None or not self.decidable:
+            return None
+        ring = Ring([e for row in (*rows, *self.right) for e in row], self.known.positive)
+        given = [[ring.node(e) for e in row] for row in rows]
+        right = [[ring.node(e) for e in row] for row in self.right]
+        told = list(_at_points(ring, right, given, len(self.columns), len(self.known.rows)))
+        if not told:
+            return None
+        sound = [all(t.sound[i] for t in told) for i in range(len(rows))]
+        if not all(sound) and not independent_generators(ring):
+            exact = self._by_cramer()
+            if exact is None:
+                return None
+            sound = exact
+        n = len(self.columns)
+        rank = max(t.rank if all(sound) else t.sound_rank(sound, n) for t in told)
+        still = [not any(v for t in told for v in t.rows[i][:n]) for i in range(len(rows))]
+        return [_verdict(s, z) for s, z in zip(sound, still, strict=True)], rank
+
+    def _by_cramer(self) -> list[bool] | None:
+        """Which equations the accelerations satisfy, identically: det(M) times the equation, by Cramer's rule."""
+        n = len(self.columns)
+        if self.own or self.known.multipliers or n > BY_CRAMER or self.rows is None:
+            return None
+        matrix = [row[:n] for row in self.right]
+        rest = [row[n] for row in self.right]
+        whole = determinant(matrix)
+        solved = [determinant([[*r[:j], ex.mul(MINUS_ONE, b), *r[j + 1 :]] for r, b in zip(matrix, rest, strict=True)])
+                  for j in range(n)]  # fmt: skip
+        sums = [ex.add(row[n] * whole, *(a * s for a, s in zip(row[:n], solved, strict=True))) for row in self.rows]
+        told = [is_zero(e, self.known.positive) for e in sums]
+        return None if None in told else [t is True for t in told]
+
+
+def _verdict(sound: bool, still: bool) -> Motion:
+    if not sound:
+        return Motion.NOT
+    return Motion.TRIVIAL if still else Motion.FOLLOWS
+
+
+class Seen(NamedTuple):
+    """At one point over GF(p): which rows follow, the rank of all, and the rows."""
+
+    sound: list[bool]
+    rank: int
+    rows: list[list[int]]
+    p: int
+
+    def sound_rank(self, sound: Sequence[bool], n: int) -> int:
+        """The rank of the accelerations in the rows that follow everywhere, if they hold no multipliers."""
+        return _rank_of([row[:n] for row, s in zip(self.rows, sound, strict=True) if s and not any(row[n:-1])], self.p)
+
+
+def _at_points(
+    ring: Ring, right: Sequence[Sequence[int]], given: Sequence[Sequence[int]], n: int, constraints: int
+) -> Iterator[Seen]:
+    """At random points: which rows hold with the right accelerations, and the rank of all."""
+    found = 0
+    for seed in range(ATTEMPTS):
+        point = field_point([ring], 500 + seed)
+        try:
+            at = values(ring, point)
+            rows = [[int(at[i]) for i in row] for row in right]
+            solution = _solve(rows, point.p)
+        except (ZeroDivisionError, NoPointError):
+            continue
+        own = [[int(at[i]) for i in row] for row in given]
+        known = [[*row[n:-1], (row[-1] + _dot(row[:n], solution[:n])) % point.p] for row in own]
+        sound = _consistent(known, point.p)
+        held = rows[len(rows) - constraints :] if constraints else []
+        width = len(own[0]) - 1 - n if own else 0
+        every = [row[:-1] for row in own] + [[*row[:n], *([0] * width)] for row in held]
+        rank = _rank_of(every, point.p) - _rank_of([row[n:-1] for row in own], point.p) if own else 0
+        yield Seen(sound, rank - (_rank_of([row[:n] for row in held], point.p) if held else 0), own, point.p)
+        found += 1
+        if found == POINTS:
+            return
+
+
+def _dot(a: Sequence[int], b: Sequence[int]) -> int:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def _solve(rows: list[list[int]], p: int) -> list[int]:
+    """The solution of rows whose last entry is the constant term."""
+    if not rows:
+        return []
+    matrix = nmod_mat([row[:-1] for row in rows], p)
+    column = nmod_mat([[-row[-1] % p] for row in rows], p)
+    found = matrix.solve(column)
+    return [int(found[i, 0]) for i in range(len(rows))]
+
+
+def _consistent(rows: list[list[int]], p: int) -> list[bool]:
+    """For each row (own multipliers, constant): can it hold together with the rows before it that can?"""
+    kept: list[list[int]] = []
+    told = []
+    for row in rows:
+        tried = [*kept, row]
+        holds = _rank_of(tried, p) == _rank_of([r[:-1] for r in tried], p)
+        told.append(holds)
+        if holds:
+            kept = tried
+    return told
+
+
+def _rank_of(rows: Sequence[Sequence[int]], p: int) -> int:
+    return int(nmod_mat([list(row) for row in rows], p).rank()) if rows and rows[0] else 0
+
+
+def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
+    """The coefficients of unknowns and what is left without them; None where ``e`` is not linear as written."""
+    row = [ex.diff(e, s) for s in unknown]
+    moving = {*unknown}
+    if any(c.symbols & moving or any(s.args[0] == "acceleration" for s in c.symbols) for c in row):
+        return None
+    rest = ex.substitute(e, dict.fromkeys(unknown, ZERO))
+    if any(s.args[0] in ("acceleration", "differential", "dt") for s in rest.symbols):
+        return None
+    return [*row, rest]
+
+
+def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
+    """By Leibniz's formula, for a few rows."""
+    terms = []
+    for order in permutations(range(len(rows))):
+        swaps = sum(a > b for i, a in enumerate(order) for b in order[i + 1 :])
+        terms.append(ex.mul(MINUS_ONE if swaps % 2 else ONE, *(rows[i][j] for i, j in enumerate(order))))
+    return ex.add(*terms)
+
+
+def sought_or_why(scene: Scene) -> Sought | DofkitError:
+    """What is right of a scene, or why it is not known."""
+    try:
+        return sought(scene)
+    except DofkitError as error:
+        return error

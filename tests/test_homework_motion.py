@@ -1,0 +1,120 @@
+"""Answers about equations of motion: what is the same is right however it is written, and what is not is not."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import pytest
+
+import dofkit
+from dofkit.homework.questions import KINDS
+
+SPHERE = "spherical-pendulum-cartesian"
+DISC: dict[str, Any] = {
+    "parameters": {"m": "positive", "I1": "positive", "I3": "positive", "R": "positive", "tau": "positive"},
+    "coordinates": ["x", "y", "theta", "phi"],
+    "constraints": ["dx = R cos(theta) dphi", "dy = R sin(theta) dphi"],
+    "energies": {
+        "kinetic": "m (xdot^2 + ydot^2)/2 + I1 thetadot^2/2 + I3 phidot^2/2",
+        "potential": "0",
+        "forces": {"phi": "tau"},
+    },
+}
+SCENES: dict[str, Any] = {"disc": DISC}
+
+
+@cache
+def grader(scene: str, ask: str, coordinate: str) -> Any:
+    question = {"id": "q", "ask": ask, **({"coordinate": coordinate} if coordinate else {})}
+    problem = {"id": "p", "scene": SCENES.get(scene, scene), "questions": [question]}
+    return dofkit.load_assignment({"title": "motion", "problems": [problem]})
+
+
+def graded(scene: str, ask: str, coordinate: str, answer: str) -> tuple[str, float | None, list[str]]:
+    submission = {"student": "s", "answers": {"p": {"q": answer}}}
+    item = dofkit.grade(grader(scene, ask, coordinate), submission).items[0]
+    return item.status, item.score, item.codes
+
+
+RIGHT = "right"
+ROWS = [
+    ("simple-pendulum-lagrangian", "lagrangian", "", "m l^2 thetadot^2/2 + m g l cos(theta)", RIGHT),
+    ("simple-pendulum-lagrangian", "lagrangian", "", "L = T - V = m l² θ̇²/2 - m g l (1 - cos θ)", RIGHT),
+    ("simple-pendulum-lagrangian", "lagrangian", "", "m l^2 thetadot^2/2 + m g l cos(theta) + theta thetadot", RIGHT),
+    ("simple-pendulum-lagrangian", "lagrangian", "", "m l^2 thetadot^2/2 + m g l cos(theta) + 2 t theta + t^2 thetadot", RIGHT),
+    ("simple-pendulum-lagrangian", "lagrangian", "", "m l^2 thetadot^2/2 - m g l cos(theta)", "wrong TOTAL_ENERGY"),
+    ("simple-pendulum-lagrangian", "lagrangian", "", "-m g l cos(theta) - m l^2 thetadot^2/2", "wrong SIGN"),
+    ("simple-pendulum-lagrangian", "lagrangian", "", "m l^2 thetadot^2 + 2 m g l cos(theta)", "wrong WRONG_LAGRANGIAN"),
+    ("simple-pendulum-lagrangian", "lagrangian", "", "m l^2 thetadot^2/2 + m g l cos(phi)", "unreadable"),
+    ("simple-pendulum-lagrangian", "momentum", "theta", "p_theta = m l^2 theta'", RIGHT),
+    ("simple-pendulum-lagrangian", "momentum", "theta", "m l thetadot", "wrong WRONG_MOMENTUM"),
+    ("simple-pendulum-lagrangian", "force", "theta", "Q = -m g l sin(theta)", RIGHT),
+    ("simple-pendulum-lagrangian", "force", "theta", "m g l sin(theta)", "wrong SIGN"),
+    ("simple-pendulum-lagrangian", "motion", "", "thetaddot + (g/l) sin(theta) = 0", RIGHT),
+    ("simple-pendulum-lagrangian", "motion", "", "diff(m l^2 thetadot, t) = -m g l sin(theta)", RIGHT),
+    ("simple-pendulum-lagrangian", "motion", "theta", "thetaddot = -(g/l) sin(theta)", RIGHT),
+    ("simple-pendulum-lagrangian", "motion", "", "thetaddot = -(g/l) theta", "wrong WRONG_MOTION"),
+    ("simple-pendulum-lagrangian", "motion", "", "thetaddot = (g/l) sin(theta)", "wrong WRONG_MOTION"),
+    ("simple-pendulum-lagrangian", "motion", "", "thetaddot <= 0", "wrong INEQUALITY"),
+    ("simple-pendulum-lagrangian", "motion", "", "0 = 0", "wrong WEAKER"),
+    ("damped-oscillator", "force", "x", "F(t) - c xdot - k x", RIGHT),
+    ("damped-oscillator", "force", "x", "F(t) - k x", "wrong WRONG_FORCE"),
+    ("damped-oscillator", "motion", "", "xddot + (c/m) xdot + (k/m) x = F(t)/m", RIGHT),
+    ("damped-motion-exponential", "motion", "", "m xddot + g xdot + k x = 0", RIGHT),
+    ("trolley-pendulum", "motion", "", "(M+m) xddot + m l (thetaddot cos(theta) - thetadot^2 sin(theta)) + k x = 0; "
+     "l thetaddot + xddot cos(theta) + g sin(theta) = 0", RIGHT),
+    ("trolley-pendulum", "motion", "", "M xddot + m l (thetaddot cos(theta) - thetadot^2 sin(theta)) + m xddot + k x + "
+     "l thetaddot + xddot cos(theta) + g sin(theta) = 0; l thetaddot + xddot cos(theta) + g sin(theta) = 0", RIGHT),
+    ("trolley-pendulum", "motion", "", "l thetaddot + xddot cos(theta) + g sin(theta) = 0", "partly WEAKER"),
+    ("trolley-pendulum", "motion", "", "l thetaddot + xddot cos(theta) + g sin(theta) = 0; M xddot + k x = 0", "partly WRONG_MOTION"),
+    ("trolley-pendulum", "motion", "theta", "l thetaddot + xddot cos(theta) + g sin(theta) = 0", RIGHT),
+    ("trolley-pendulum", "motion", "x", "l thetaddot + xddot cos(theta) + g sin(theta) = 0", "wrong OTHER_COORDINATE"),
+    ("trolley-pendulum", "motion", "x", "(M+m) xddot + m l (thetaddot cos(theta) - thetadot^2 sin(theta)) = -k x", RIGHT),
+    ("orbit-polar", "motion", "theta", "r thetaddot + 2 rdot thetadot = 0", RIGHT),
+    ("orbit-polar", "motion", "theta", "d/dt(m r^2 thetadot) = 0", "right or unreadable"),
+    ("orbit-polar", "momentum", "theta", "m r^2 thetadot", RIGHT),
+    ("orbit-polar", "motion", "r", "rddot = r thetadot^2 - G M/r^2", RIGHT),
+    ("orbit-polar", "motion", "r", "rddot = -G M/r^2", "wrong WRONG_MOTION"),
+    # the scene in x, y, z: an answer may use z, or what it is
+    (SPHERE, "lagrangian", "", "m (xdot^2 + ydot^2 + zdot^2)/2 - m g z", RIGHT),
+    (SPHERE, "lagrangian", "", "m (xdot^2 + ydot^2 + zdot^2)/2 + m g z", "wrong TOTAL_ENERGY"),
+    (SPHERE, "momentum", "x", "m xdot", "needs_review"),
+    (SPHERE, "motion", "", "m xddot = 2 lambda x; m yddot = 2 lambda y; m zddot = 2 lambda z - m g", RIGHT),
+    (SPHERE, "motion", "", "m xddot = 2 lambda x; m yddot = 2 lambda y; m zddot = 2 lambda z + m g", "wrong or review"),
+    ("disc", "lagrangian", "", "m (xdot^2 + ydot^2)/2 + I1 thetadot^2/2 + I3 phidot^2/2", RIGHT),
+    ("disc", "momentum", "x", "m R cos(theta) phidot", RIGHT),
+    ("disc", "momentum", "x", "m R phidot", "wrong WRONG_MOMENTUM"),
+    ("disc", "force", "phi", "tau", RIGHT),
+    ("disc", "motion", "", "m xddot = lam1; m yddot = lam2; I1 thetaddot = 0; I3 phiddot = tau - lam1 R cos(theta) - lam2 R sin(theta)", RIGHT),
+    ("disc", "motion", "", "m xddot = lam1; m yddot = lam2; I1 thetaddot = 0; I3 phiddot = tau - lam1 R sin(theta) - lam2 R cos(theta)", "partly WRONG_MOTION"),
+    ("disc", "motion", "", "(I3 + m R^2) phiddot = tau; thetaddot = 0", RIGHT),
+    ("disc", "motion", "", "I3 phiddot = tau; thetaddot = 0", "partly WRONG_MOTION"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "ask", "coordinate", "answer", "expected"), ROWS)
+def test_answers(scene: str, ask: str, coordinate: str, answer: str, expected: str) -> None:
+    status, score, codes = graded(scene, ask, coordinate, answer)
+    told = " ".join([status, *codes])
+    allowed = {"right or unreadable": {"right", "unreadable"}, "wrong or review": {"wrong WRONG_MOTION", "partly WRONG_MOTION", "needs_review"}}  # fmt: skip
+    assert told in allowed.get(expected, {expected})
+    assert (score is None) == (status == "needs_review")
+
+
+def test_half_of_the_equations_is_half_of_the_points() -> None:
+    assert graded("trolley-pendulum", "motion", "", "l thetaddot + xddot cos(theta) + g sin(theta) = 0")[1] == 0.5
+
+
+def test_what_cannot_be_asked_is_told_of_the_assignment() -> None:
+    for question in ({"ask": "motion"}, {"ask": "lagrangian"}):
+        problem = {"id": "p", "scene": "disc-rolling-on-plane", "questions": [{"id": "q", **question}]}
+        with pytest.raises(dofkit.DofkitError, match="neither `energies` nor masses"):
+            dofkit.load_assignment({"title": "t", "problems": [problem]})
+    problem = {"id": "p", "scene": "orbit-polar", "questions": [{"id": "q", "ask": "momentum", "coordinate": "phi"}]}
+    with pytest.raises(dofkit.DofkitError, match="no coordinate 'phi'"):
+        dofkit.load_assignment({"title": "t", "problems": [problem]})
+
+
+def test_every_kind_about_motion_has_answers() -> None:
+    assert {"lagrangian", "momentum", "force", "motion"} == {row[1] for row in ROWS} <= set(KINDS)
