@@ -56,8 +56,8 @@ def test_there_are_two_hundred_answers_over_a_dozen_scenes() -> None:
 
 def test_every_kind_and_every_code_has_an_answer() -> None:
     asked = {q.kind() for name in FILES for _, q in grader(name).prepared.questions()}
-    later = {"lagrangian", "momentum", "force", "motion"}
-    assert asked == set(KINDS) - later
+    elsewhere = {"lagrangian", "momentum", "force", "motion"}
+    assert asked == set(KINDS) - elsewhere
     told = {code for name in FILES for row in document(name)["answers"] for code in row[4]}
     untold = {m.code for m in ERRORS} - told
     assert untold == set()

@@ -115,11 +115,8 @@ def test_is_refused_with_its_column(question: str, answer: str, tmp_path: Path, 
     start = time.process_time()
     item = graded(here, question, answer)
     assert time.process_time() - start < QUICK
-    if question == "motion" and answer in CODE:
-        assert item.status == "needs_review"
-    else:
-        assert (item.status, item.score) in (("unreadable", 0.0), ("needs_review", None))
-        assert item.status == "needs_review" or (item.column is not None and item.column >= 1)
+    assert (item.status, item.score) in (("unreadable", 0.0), ("needs_review", None))
+    assert item.status == "needs_review" or (item.column is not None and item.column >= 1)
     assert list(tmp_path.iterdir()) == []
     assert len(item.feedback) < 600
 

@@ -10,7 +10,7 @@ from typing import Literal
 from pydantic import Field
 
 from dofkit import expr as ex
-from dofkit.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.errors import DofkitError, Fault, TextError
 from dofkit.expr import Expr
 from dofkit.homework.equations import as_text
 from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
@@ -38,9 +38,6 @@ class _MotionQuestion(QuestionBase):
         if coordinate is not None and coordinate not in key.coordinates:
             hint = suggestion(coordinate, key.coordinates, "coordinates")
             yield Fault(f"the scene has no coordinate '{coordinate}'", ("coordinate",), hint=hint)
-        elif isinstance(key.motion, SceneError):
-            fault = key.motion.faults[0]
-            yield Fault(f"'{self.kind()}' cannot be asked: {fault.message}", ("ask",), hint=fault.hint)
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
