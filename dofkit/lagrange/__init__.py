@@ -27,8 +27,8 @@ __all__ = ["Conserved", "Linearized", "MotionError", "MotionReport", "derived_of
 def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None) -> MotionReport:
     """Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a of a scene.
 
-    ``linearize``: also M, C and K at an equilibrium. Raises `SceneError` with every fault of the scene, and
-    `MotionError` where the equations cannot be given, saying why: nothing is guessed.
+    ``linearize``: also M, C and K at an equilibrium, or a note that says why not. Raises `SceneError` with every fault
+    of the scene, and `MotionError` where the equations cannot be given, saying why: nothing is guessed.
 
     >>> import dofkit
     >>> pendulum = {"coordinates": ["theta"], "parameters": {"m": "positive", "l": "positive", "g": "positive"}}
@@ -58,7 +58,9 @@ def model_of(scene: Scene) -> Model:
     if found.world.faults:
         raise SceneError(tuple(found.world.faults), scene.name)
     if not _given(scene):
-        message = "the scene has neither `energies` nor masses, so that there is nothing to derive motion from"
+        message = (
+            "the scene has neither a kinetic energy in `energies` nor masses: there is nothing to derive motion from"
+        )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
     study = studied(system_of(scene, found))
@@ -72,7 +74,7 @@ def model_of(scene: Scene) -> Model:
 
 def _given(scene: Scene) -> bool:
     """Does anything of the scene tell of its motion?"""
-    if scene.energies is not None and (scene.energies.kinetic is not None or scene.energies.potential is not None):
+    if scene.energies is not None and scene.energies.kinetic is not None:
         return True
     return any(p.mass is not None for p in scene.particles) or any(b.mass is not None for b in scene.bodies)
 
@@ -84,6 +86,12 @@ def _energies(model: Model) -> list[Expr]:
 
 def _told(derived: Derived, linearize: bool) -> MotionReport:
     model = derived.model
+    small, notes = None, list(model.notes)
+    if linearize:
+        try:
+            small = linearized(derived)
+        except MotionError as error:
+            notes.append(f"Not linearized: {error}.")
     report = MotionReport(
         scene=model.study.system.name,
         coordinates=list(model.names),
@@ -97,8 +105,9 @@ def _told(derived: Derived, linearize: bool) -> MotionReport:
         left_out=list(model.left_out),
         cyclic=cyclic(derived),
         conserved=list(conserved(derived)),
-        linearized=linearized(derived) if linearize else None,
-        notes=list(model.notes),
+        linearized=small,
+        notes=notes,
+        verdict=model.study.report.verdict,
     )
     report._derived = derived
     return report

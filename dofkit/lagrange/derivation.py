@@ -6,11 +6,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from dofkit import expr as ex
+from dofkit.exact.canon import is_identically_zero
 from dofkit.expr import Expr
 from dofkit.lagrange.bridge import Bridge
 from dofkit.lagrange.handover import Handover, handover
 from dofkit.lagrange.model import Model
+from dofkit.lagrange.order import ordered
 from dofkit.lagrange.tidying import Tidier
+from dofkit.text import to_text
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,8 @@ def derive(model: Model) -> Derived:
     multipliers = _multipliers(model)
     swapped = dict(zip(getattr(method, "lam_vec", ()) or (), _symbols(bridge, multipliers), strict=False))
     equations = {n: tidy(e.xreplace(swapped)) for n, e in zip(model.names, formed, strict=True)}
+    if not multipliers:
+        equations = {n: without_exponentials(e, model.positive) for n, e in equations.items()}
     lagrangian = given.lagrangian
     momenta, forces = {}, {}
     for n, force in zip(model.names, given.forces, strict=True):
@@ -43,6 +48,19 @@ def derive(model: Model) -> Derived:
         momenta[n] = tidy(lagrangian.diff(rate))
         forces[n] = tidy(lagrangian.diff(q) + force)
     return Derived(model, tidy(lagrangian), momenta, forces, equations, multipliers, given)
+
+
+def without_exponentials(e: Expr, positive: frozenset[Expr]) -> Expr:
+    """An expression that is 0, divided by an exponential that all its terms hold: that is never 0."""
+    for node in sorted((n for n in ex.nodes(e) if n.op == "fn" and n.args[0] == "exp"), key=to_text):
+        rest = ex.add(*(_over(t, node) for t in (e.args if e.op == "add" else (e,))))
+        if node not in set(ex.nodes(rest)) and is_identically_zero(rest * node - e, positive) is True:
+            e = ordered(rest)
+    return e
+
+
+def _over(term: Expr, factor: Expr) -> Expr:
+    return ex.mul(*(term.args if term.op == "mul" else (term,)), ex.power(factor, ex.MINUS_ONE))
 
 
 def _multipliers(model: Model) -> tuple[str, ...]:

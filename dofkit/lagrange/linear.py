@@ -20,7 +20,7 @@ MOST_BY_FORMULA = 2
 
 
 def linearized(derived: Derived) -> Linearized:
-    """M, C and K at the reference configuration if that is an equilibrium, else at 0.
+    """M, C and K at the reference configuration if that is an equilibrium, else at 0, else where linear forces balance.
 
     With E(q, qdot, qddot) = 0 the equations: M = dE/dqddot, C = dE/dqdot, K = dE/dq there. Raises MotionError where
     multipliers are left, time enters or no equilibrium is known.
@@ -29,8 +29,8 @@ def linearized(derived: Derived) -> Linearized:
         raise MotionError("equations with multipliers are not linearized: write the scene in independent coordinates")
     place = next((p for p in _places(derived) if _is_equilibrium(derived, p)), None)
     if place is None:
-        hint = "give an equilibrium as the scene's `configuration`"
-        raise MotionError(f"neither the reference configuration nor 0 is an equilibrium: {hint}")
+        hint = "give one as the scene's `configuration`"
+        raise MotionError(f"no equilibrium is known, neither the reference configuration nor 0 is one: {hint}")
     names = derived.model.names
     kinds: tuple[ex.Kind, ...] = ("acceleration", "velocity", "coordinate")
     matrices = [
@@ -47,6 +47,29 @@ def _places(derived: Derived) -> Iterator[Mapping[Expr, Expr]]:
     if reference is not None:
         yield {q: reference[q] for q in names}
     yield dict.fromkeys(names, ZERO)
+    balanced = _balanced(derived)
+    if balanced is not None:
+        yield balanced
+
+
+def _balanced(derived: Derived) -> Mapping[Expr, Expr] | None:
+    """Where the forces balance, if they are linear in the coordinates and there is one such place."""
+    names = [ex.coordinate(n) for n in derived.model.names]
+    rest = [_at(e, {}) for e in derived.equations.values()]
+    slopes = [[ex.diff(e, q) for q in names] for e in rest]
+    if any(s.args[0] in ("coordinate", "time") for row in slopes for e in row for s in e.symbols):
+        return None
+    import sympy
+
+    bridge = Bridge(derived.model.names, derived.model.positive)
+    matrix = sympy.Matrix([[bridge.sympy(e) for e in row] for row in slopes])
+    here = sympy.Matrix([bridge.sympy(ex.substitute(e, dict.fromkeys(names, ZERO))) for e in rest])
+    whole = matrix.det(method="berkowitz")
+    if is_identically_zero(bridge.expr(whole.expand()), derived.model.positive) is not False:
+        return None
+    tidy = Tidier(bridge, derived.model.positive)
+    found = -(matrix.adjugate() * here) / whole
+    return {q: tidy(sympy.cancel(v)) for q, v in zip(names, found, strict=True)}
 
 
 def _at(e: Expr, place: Mapping[Expr, Expr]) -> Expr:

@@ -24,6 +24,7 @@ from dofkit.lagrange.elimination import (
 )
 from dofkit.lagrange.energies import Energy
 from dofkit.lagrange.rates import motions
+from dofkit.lagrange.roots import without_roots
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.rank import without_time
 from dofkit.solving import in_time
@@ -155,7 +156,7 @@ def _built(study: Study, energy: Energy, elimination: Elimination, coordinates: 
     chosen = independent(kept, left, study.setting)
     if chosen is None or len(elimination.solved) + len(chosen) != len(coordinates) - (study.report.velocity_dof or 0):
         return None
-    notes = [*energy.notes, *elimination.notes]
+    notes = [*reduced.notes, *elimination.notes]
     if any(isinstance(c, Nonlinear) for c in chosen):
         notes.append("Nonlinear relations between velocities act by Chetaev's rule: along their gradient by velocity.")
     notes += [n for n in study.report.warnings if "branch" in n]
@@ -201,7 +202,8 @@ def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], sett
                 slope = ex.diff(solved[name], ex.coordinate(j))
                 if not slope.is_zero:
                     forces[j] = forces.get(j, ZERO) + insert(force) * slope
-    found = Energy(kinetic, potential, insert(energy.dissipation), forces, energy.notes)
+    potential, notes = without_roots(potential, setting.positive, setting.reference)
+    found = Energy(kinetic, potential, insert(energy.dissipation), forces, (*energy.notes, *notes))
     used = (found.kinetic, found.potential, found.dissipation, *forces.values())
     if any(e.symbols & elimination.constants for e in used):
         return None

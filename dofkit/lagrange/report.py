@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field, PrivateAttr
 
-from dofkit.report import Model
+from dofkit.report import Model, Verdict
 
 if TYPE_CHECKING:
     from dofkit.lagrange.derivation import Derived
@@ -45,7 +45,7 @@ class MotionReport(Model):
     ``coordinates`` are those kept; ``eliminated`` ones are functions of them. ``forces`` are dL/dq plus the
     non-conservative ones; ``equations`` end in ``= 0``, one for each coordinate; ``constraints`` are those that keep a
     multiplier, in the order of ``multipliers``; ``left_out``: redundant ones. ``cyclic``: coordinates that do not occur
-    in the Lagrangian.
+    in the Lagrangian. ``verdict``: how sure the classification is that the constraints are used by.
     """
 
     scene: str
@@ -63,6 +63,7 @@ class MotionReport(Model):
     action: str = QP
     linearized: Linearized | None = None
     notes: list[str] = Field(default_factory=list)
+    verdict: Verdict = "proved"
     _derived: Derived | None = PrivateAttr(None)
 
     def to_sympy(self) -> Handover:

@@ -20,6 +20,7 @@ def _lines(report: MotionReport, title: str | None) -> Iterator[str]:
         yield f"  eliminated   {name} = {value}"
     if report.left_out:
         yield f"  left out     {', '.join(report.left_out)} (redundant)"
+    yield f"  verdict      {report.verdict}"
     yield f"  L = {report.lagrangian}"
     yield from _section("Generalized momenta", [f"p_{n} = {p}" for n, p in report.momenta.items()])
     yield from _section("Generalized forces", [f"Q_{n} = {f}" for n, f in report.forces.items()])
