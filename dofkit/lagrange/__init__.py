@@ -6,22 +6,29 @@ multiplier where not, as non-holonomic ones always do; redundant ones are left o
 
 from __future__ import annotations
 
-from dofkit.classify import studied
+from dataclasses import dataclass, replace
+
+from dofkit.classify import Study, studied
 from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.errors import Fault, SceneError
 from dofkit.expr import Expr
 from dofkit.lagrange.conserved import conserved, cyclic
 from dofkit.lagrange.derivation import Derived, derive
-from dofkit.lagrange.energies import Reader, missing
+from dofkit.lagrange.elimination import ELIMINATIONS, Care
+from dofkit.lagrange.energies import Energy, Reader, missing
 from dofkit.lagrange.linear import linearized
 from dofkit.lagrange.model import Model, MotionError, modelled
 from dofkit.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.lowering import system_of
 from dofkit.scene import Scene
 from dofkit.survey import survey
-from dofkit.text import to_text
+from dofkit.text import Names, to_text
+from dofkit.text.limits import MAX_CHARACTERS
 
 __all__ = ["Conserved", "Linearized", "MotionError", "MotionReport", "derived_of", "lagrange"]
+
+#: Said where the elimination was cut short.
+LONG = "More could be eliminated, but the equations would be too long to read: some constraints keep a multiplier."
 
 
 def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None) -> MotionReport:
@@ -45,12 +52,47 @@ def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None)
 
 
 def derived_of(scene: Scene) -> Derived:
-    """The equations of motion as expressions."""
-    return derive(model_of(scene))
+    """The equations of motion as expressions.
+
+    Where they would be longer than a text of a scene may be, less is eliminated, and more multipliers are kept.
+    """
+    source = read(scene)
+    for care in ELIMINATIONS:
+        derived = derive(source.model(care))
+        if not derived.model.elimination.solved or _readable(derived):
+            break
+    return derived
 
 
-def model_of(scene: Scene) -> Model:
-    """The scene's energies and constraints, made ready."""
+def _readable(derived: Derived) -> bool:
+    """Is every text one that can be read back?"""
+    texts = (derived.lagrangian, *derived.equations.values(), *derived.momenta.values(), *derived.forces.values())
+    return all(len(to_text(e)) + len(" = 0") <= MAX_CHARACTERS for e in texts)
+
+
+@dataclass(frozen=True)
+class Source:
+    """What the equations of motion of a scene are derived from."""
+
+    scene: Scene
+    study: Study
+    energy: Energy
+    names: Names
+
+    def model(self, care: Care = ELIMINATIONS[0]) -> Model:
+        """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""
+        model = modelled(self.study, self.energy, self.names, care)
+        if care != ELIMINATIONS[0]:
+            model = replace(model, notes=(*model.notes, LONG))
+        used = frozenset().union(*(e.symbols for e in _energies(model)))
+        faults = missing(used)
+        if faults:
+            raise SceneError(tuple(faults), self.scene.name)
+        return model
+
+
+def read(scene: Scene) -> Source:
+    """The scene's energies and what is known of its constraints. Raises SceneError with all its faults."""
     found = survey(scene, euler=True)
     if found.world.faults:
         raise SceneError(tuple(found.world.faults), scene.name)
@@ -63,13 +105,7 @@ def model_of(scene: Scene) -> Model:
         )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
-    study = studied(system_of(scene, found))
-    model = modelled(study, energy, found.world.names)
-    used = frozenset().union(*(e.symbols for e in _energies(model)))
-    faults = missing(used)
-    if faults:
-        raise SceneError(tuple(faults), scene.name)
-    return model
+    return Source(scene, studied(system_of(scene, found)), energy, found.world.names)
 
 
 def _given(scene: Scene) -> bool:

@@ -19,10 +19,19 @@ from dofkit.lagrange.order import ordered
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.text import to_text
 
-#: Relations that are solved by a root, at most; with more of them there are too many branches, and none is taken.
-MOST_ROOTS = 1
-#: Larger solutions are not written down.
-MOST_NODES = 400
+
+class Care(NamedTuple):
+    """What is eliminated: solutions of at most so many nodes, and at most so many relations by a root.
+
+    With more roots there are too many branches, and none is taken.
+    """
+
+    nodes: int
+    roots: int
+
+
+#: From the freest to none at all: the next is taken where the equations would be too long to read.
+ELIMINATIONS = (Care(400, 1), Care(24, 0), Care(0, 0))
 
 Remaining = Finite | Pfaffian | Nonlinear
 
@@ -69,13 +78,14 @@ class Eliminator:
 
     positive: frozenset[Expr]
     choose: Callable[[str, Expr, Expr, Mapping[str, Expr]], tuple[Expr, str]]
+    care: Care = ELIMINATIONS[0]
 
     def eliminated(self, relations: Sequence[Relation], names: Sequence[str], preferred: Sequence[str]) -> Elimination:
         """As many relations as possible solved for some of ``names``; ``preferred`` ones go first.
 
-        Relations that need more than `MOST_ROOTS` roots are all left.
+        Relations that need more than `care.roots` roots are all left.
         """
-        found = self._attempt(relations, names, preferred, MOST_ROOTS)
+        found = self._attempt(relations, names, preferred, self.care.roots)
         if found is None:
             found = self._attempt(relations, names, preferred, 0) or Elimination()
             many = "Several relations are quadratic: they keep multipliers, which hold on every branch."
@@ -163,7 +173,7 @@ class Eliminator:
         for value in (candidate.value, candidate.other):
             if value is None:
                 continue
-            if sum(1 for _ in ex.nodes(value)) > MOST_NODES:
+            if sum(1 for _ in ex.nodes(value)) > self.care.nodes:
                 return False
             try:
                 inserted = ex.substitute(relation.expr, {q: value})

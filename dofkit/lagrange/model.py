@@ -14,6 +14,8 @@ from dofkit.errors import DofkitError, Fault, SceneError, TextError
 from dofkit.exact.sparse import echelon
 from dofkit.expr import ZERO, Expr
 from dofkit.lagrange.elimination import (
+    ELIMINATIONS,
+    Care,
     Elimination,
     Eliminator,
     Relation,
@@ -83,8 +85,8 @@ def in_velocities(piece: Remaining) -> Expr:
     return piece.expr
 
 
-def modelled(study: Study, energy: Energy, names: Names) -> Model:
-    """The system with as much eliminated as is possible in closed form.
+def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> Model:
+    """The system with as much eliminated as is possible in closed form, and as ``care`` allows.
 
     Integrals of differential constraints are used where their constants do not enter the motion. Raises MotionError
     where the system is inconsistent or was not decided.
@@ -96,7 +98,7 @@ def modelled(study: Study, energy: Energy, names: Names) -> Model:
     finite = [Relation(r.piece.expr) for r in outcome.rows if isinstance(r.piece, Finite)]
     finite += [Relation(g) for a in outcome.answers for g in a.hidden]
     integrals = list(_integrals(study, names))
-    eliminator = Eliminator(study.setting.positive, by_potential(energy.potential, study.system.reference))
+    eliminator = Eliminator(study.setting.positive, by_potential(energy.potential, study.system.reference), care)
     dependent = [c for c in coordinates if c not in free]
     for relations in ([*finite, *integrals], finite) if integrals else (finite,):
         elimination = eliminator.eliminated(relations, coordinates, dependent)
