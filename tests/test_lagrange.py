@@ -10,6 +10,7 @@ from motions import PLANE, acceleration, check, energies, names_of, scene, vanis
 import dofkit
 from dofkit.errors import SceneError
 from dofkit.expr import parameter, substitute, velocity
+from dofkit.lagrange import MotionError
 from dofkit.text import parse_expression
 
 # The lectures' systems: accelerations by Newton's law, or known solutions.
@@ -335,3 +336,35 @@ MOVES = {"kinetic": "xdot^2"}
 def test_what_cannot_be_derived_is_told(made: dict[str, Any], said: str) -> None:
     with pytest.raises(SceneError, match=said):
         dofkit.lagrange(dofkit.load(made))
+
+
+def test_accelerations_are_no_constraints_of_lagranges() -> None:
+    with pytest.raises(MotionError, match="constants of integration"):
+        dofkit.lagrange(scene("xddot = yddot", coordinates="x y", **energies(PLANE)))
+
+
+def test_a_constant_velocity_leaves_a_constant_that_does_not_matter() -> None:
+    moving = scene("xdot = w", coordinates="x y", **energies(PLANE, "k x^2/2 + m g y"))
+    report = check(moving, {"y": "-g"})
+    assert report.eliminated == {"x": "C + w*t"}
+    assert "initial state" in report.notes[0]
+
+
+def test_equations_too_long_to_read_keep_a_multiplier() -> None:
+    """Every text can be read back: the grammar takes at most 2000 characters."""
+    steep = scene(
+        "z = exp(x) sin(a y) + x^3 cos(y)^2/(1 + x^2)", "theta = sin(x y z) + x^2",
+        coordinates="x y z theta", **energies(f"{PLANE} + (1 + x^2 y^2) zdot^2/2 + (2 + cos(x)) thetadot^2", "m g z"),
+    )  # fmt: skip
+    report = dofkit.lagrange(steep)
+    assert report.multipliers
+    assert all(len(text) <= 2000 for text in report.equations)
+    assert "too long" in report.notes[-1]
+
+
+def test_an_unstable_equilibrium_has_no_frequencies() -> None:
+    top = scene(coordinates="theta", **energies("m l^2 thetadot^2/2", "m g l cos(theta)"))
+    small = dofkit.lagrange(top, linearize=True).linearized
+    assert small is not None
+    assert small.stiffness == [["-g*l*m"]]
+    assert small.frequencies == []

@@ -27,6 +27,8 @@ from dofkit.text.limits import MAX_CHARACTERS
 
 __all__ = ["Conserved", "Linearized", "MotionError", "MotionReport", "derived_of", "lagrange"]
 
+#: Equations of longer Lagrangians than this are too long to be read, where much was eliminated.
+LONGEST = 800
 #: Said where the elimination was cut short.
 LONG = "More could be eliminated, but the equations would be too long to read: some constraints keep a multiplier."
 
@@ -58,10 +60,13 @@ def derived_of(scene: Scene) -> Derived:
     """
     source = read(scene)
     for care in ELIMINATIONS:
-        derived = derive(source.model(care))
-        if not derived.model.elimination.solved or _readable(derived):
-            break
-    return derived
+        model = source.model(care)
+        last = not model.elimination.solved
+        if last or len(to_text(model.energy.lagrangian)) <= LONGEST:
+            derived = derive(model)
+            if last or _readable(derived):
+                return derived
+    return derive(source.model(ELIMINATIONS[-1]))
 
 
 def _readable(derived: Derived) -> bool:

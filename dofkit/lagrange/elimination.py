@@ -118,9 +118,12 @@ class Eliminator:
             elif not _never_zero(candidate.over, self.positive):
                 notes.append(f"{candidate.name} was solved for where {to_text(_unsigned(candidate.over))} is not 0.")
             mapping = {ex.coordinate(candidate.name): value}
-            solved = {n: ex.substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
+            try:
+                solved = {n: ex.substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
+                left = [relation_ for r in left for relation_ in self._rest(r, mapping)]
+            except ZeroDivisionError:
+                break
             constants |= relation.constants
-            left = [relation_ for r in left for relation_ in self._rest(r, mapping)]
         return Elimination(solved, frozenset(constants), tuple(notes))
 
     def _rest(self, relation: Relation, mapping: Mapping[Expr, Expr]) -> list[Relation]:

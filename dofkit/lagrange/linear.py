@@ -125,4 +125,5 @@ def _frequencies(polynomial: Any, s: Any, damping: Any) -> list[Any]:
     squares = [-root for root, times in roots.items() for _ in range(times)]
     if len(squares) != damping.rows:
         return []
-    return [sympy.sqrt(sympy.factor(w)) for w in squares]
+    found = [sympy.sqrt(sympy.factor(w)) for w in squares]
+    return [] if any(w.has(sympy.I) for w in found) else found

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from dofkit import expr as ex
 from dofkit.answers import Setting
-from dofkit.blocks import Row, split
+from dofkit.blocks import Row, coordinates_of, split
 from dofkit.classify import Study
 from dofkit.errors import DofkitError, Fault, SceneError, TextError
 from dofkit.exact.sparse import echelon
@@ -100,9 +100,9 @@ def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIO
     integrals = list(_integrals(study, names))
     eliminator = Eliminator(study.setting.positive, by_potential(energy.potential, study.system.reference), care)
     dependent = [c for c in coordinates if c not in free]
-    for relations in ([*finite, *integrals], finite) if integrals else (finite,):
+    for relations in ([*finite, *integrals], finite, []):
         elimination = eliminator.eliminated(relations, coordinates, dependent)
-        model = _built(study, energy, elimination, coordinates)
+        model = _built_somehow(study, energy, elimination, coordinates)
         if model is not None:
             return model
     raise MotionError("which of the constraints are independent was not decided, so no equations of motion are given")
@@ -110,12 +110,23 @@ def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIO
 
 def _possible(study: Study) -> None:
     report = study.report
+    own = {c.name for c in study.system.coordinates}
+    if any(coordinates_of(r.piece) - own for r in study.outcome.rows):
+        raise MotionError("a constraint on accelerations brings constants of integration: write what it integrates to")
     if report.consistent is False:
         names = ", ".join(report.conflicting) or "its constraints"
         raise SceneError((Fault(f"the scene is inconsistent: no motion satisfies all of {names}", ("constraints",)),))
     if report.consistent is None or report.dof is None or report.velocity_dof is None:
         why = "; ".join(dict.fromkeys(r for a in study.outcome.answers for r in a.reasons)) or "it was not decided"
         raise MotionError(f"it is undecided how the system can move, so no equations of motion are given: {why}")
+
+
+def _built_somehow(study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]) -> Model | None:
+    """The model after an elimination; None where it cannot be built, also because something has no value there."""
+    try:
+        return _built(study, energy, elimination, coordinates)
+    except ZeroDivisionError:
+        return None
 
 
 def _integrals(study: Study, names: Names) -> Iterator[Relation]:
@@ -161,6 +172,9 @@ def _built(study: Study, energy: Energy, elimination: Elimination, coordinates: 
     notes = [*reduced.notes, *elimination.notes]
     if any(isinstance(c, Nonlinear) for c in chosen):
         notes.append("Nonlinear relations between velocities act by Chetaev's rule: along their gradient by velocity.")
+    used = sorted(str(c.args[1]) for c in elimination.constants)
+    if used:
+        notes.append(f"Constants of integration, which the initial state sets: {', '.join(used)}.")
     notes += [n for n in study.report.warnings if "branch" in n]
     return Model(
         study,

@@ -27,8 +27,8 @@ class Conserved(Model):
 class Linearized(Model):
     """M qddot + C qdot + K q = 0 for small deviations q from an equilibrium.
 
-    ``characteristic``: det(M s^2 + C s + K); ``frequencies``: the angular ones where C is 0, as text, or empty where no
-    formula is given.
+    ``characteristic``: det(M s^2 + C s + K); ``frequencies``: the angular ones where C is 0, as text; empty where no
+    formula is given, and where one is not real: the equilibrium is unstable then.
     """
 
     equilibrium: dict[str, str]
