@@ -28,7 +28,9 @@ from dofkit.text.limits import MAX_CHARACTERS
 __all__ = ["Conserved", "Linearized", "MotionError", "MotionReport", "derived_of", "lagrange"]
 
 #: Equations of longer Lagrangians than this are too long to be read, where much was eliminated.
-LONGEST = 800
+LONGEST = 500
+#: Seconds for each attempt with less eliminated than the one before.
+TRYING = 8.0
 #: Said where the elimination was cut short.
 LONG = "More could be eliminated, but the equations would be too long to read: some constraints keep a multiplier."
 
@@ -59,12 +61,17 @@ def derived_of(scene: Scene) -> Derived:
     Where they would be longer than a text of a scene may be, less is eliminated, and more multipliers are kept.
     """
     source = read(scene)
-    for care in ELIMINATIONS:
+    for care in ELIMINATIONS[:-1]:
         model = source.model(care)
-        last = not model.elimination.solved
-        if last or len(to_text(model.energy.lagrangian)) <= LONGEST:
-            derived = derive(model)
-            if last or _readable(derived):
+        if not model.elimination.solved:
+            return derive(model)
+        if len(to_text(model.energy.lagrangian)) <= LONGEST:
+            try:
+                with limited(TRYING):
+                    derived = derive(model)
+            except OutOfTimeError:
+                continue
+            if _readable(derived):
                 return derived
     return derive(source.model(ELIMINATIONS[-1]))
 
