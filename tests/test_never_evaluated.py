@@ -18,6 +18,8 @@ FORBIDDEN = frozenset(
      "_sympify", "nsimplify", "literal_eval", "autowrap", "ufuncify", "import_module", "__import__", "system",
      "popen", "unsafe_load", "loads_pickle"}
 )  # fmt: skip
+#: What takes a text as its name, and reads nothing in it.
+NAMED = frozenset({"Symbol", "Dummy", "Function", "symbols", "ReferenceFrame", "Point"})
 #: Calls that look alike and are not: by file and the text of the call's function.
 ALLOWED = {
     ("__init__.py", "import_module"): "the package's own modules, by a fixed table",
@@ -78,10 +80,10 @@ def test_nothing_evaluating_is_imported(path: Path) -> None:
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_sympy_is_given_no_text(path: Path) -> None:
     module = ast.parse(path.read_text(encoding="utf-8"))
-    from_sympy = named(module, frozenset({"sympy"})) - {"Symbol", "Dummy", "Function", "symbols"}
+    from_sympy = named(module, frozenset({"sympy"})) - NAMED
     for function, call in calls(path):
         owner, _, name = function.rpartition(".")
         sympifies = function in from_sympy or owner in ("sympy", "sp") or (name == "subs")
-        if sympifies and name not in ("Symbol", "Dummy", "Function", "symbols"):
+        if sympifies and name not in NAMED:
             given = [*call.args, *(keyword.value for keyword in call.keywords if keyword.arg is None)]
             assert not any(map(is_text, given)), f"{path.name}:{call.lineno}: {function} is given a text"
