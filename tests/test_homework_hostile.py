@@ -99,7 +99,7 @@ def grader() -> Grader:
 
 
 def graded(grader: Grader, question: str, answer: Any, student: str = "s") -> Any:
-    result = grader.grade(of_value({"student": student, "answers": {"p": {question: answer}}}, student, ""))
+    result = grader.grade(of_value({"student": student, "answers": {"p": {question: answer}}}, student))
     return next(item for item in result.items if item.question == question)
 
 
