@@ -17,6 +17,7 @@ from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.blocks import Row, split
 from dofkit.charting import make_chart
+from dofkit.deadline import part, unless_late
 from dofkit.exact.field import NoPointError
 from dofkit.exact.sparse import rank_of_rows
 from dofkit.expr import Expr
@@ -31,6 +32,8 @@ from dofkit.solving import Outcome, Reduced, solve
 from dofkit.system import System
 from dofkit.variety import field_jacobian, find
 
+#: The share of the time that is left in which an answer may be found impossible.
+POSSIBLE = 0.3
 #: Constraints of a scene with the answer in the place of those that were asked for are named so.
 ANSWER = "the answer"
 
@@ -107,16 +110,20 @@ class Comparison:
             return Compared(self._regularity(), told)
         if all(told):
             return Compared(self._too_strong(), told)
-        if all(sound) and not any(told) and self._differentiated():
-            return Compared(Sameness.DIFFERENTIATED, told)
+        differentiated = all(sound) and not any(told) and self._differentiated()
+        if differentiated is not False:
+            return Compared(Sameness.DIFFERENTIATED if differentiated else Sameness.UNDECIDED, told)
         if not self._possible:
             return Compared(Sameness.EMPTY, tuple(False for _ in told))
         integrated = self._integrated()
         if integrated is not None:
             return Compared(integrated, told)
-        if not all(sound) and self._follow(self._all_wanted, self._answer):
-            return Compared(self._too_strong(), told)
-        return Compared(Sameness.WEAKER if all(sound) else Sameness.DIFFERENT, told)
+        if all(sound):
+            return Compared(Sameness.WEAKER, told)
+        implied = self._follow(self._all_wanted, self._answer)
+        if implied is None:
+            return Compared(Sameness.UNDECIDED, told)
+        return Compared(self._too_strong() if implied else Sameness.DIFFERENT, told)
 
     @cached_property
     def _given(self) -> list[Reduced]:
@@ -156,7 +163,8 @@ class Comparison:
     @cached_property
     def _possible(self) -> bool:
         """Can the others and the answer be satisfied together?"""
-        return self._solved([*self._rest, *self._given]).consistent is not False
+        with part(POSSIBLE):
+            return unless_late(lambda: self._solved([*self._rest, *self._given]).consistent is not False, True)
 
     def _solved(self, reduced: Sequence[Reduced]) -> Outcome:
         return solve(self.system, reduced, self.setting)
@@ -170,24 +178,28 @@ class Comparison:
             return integrated
         mine, asked = self._solved([*self._rest, *self._given]), self._solved([*self._rest, *self._wanted])
         if None in (mine.dof, asked.dof, mine.velocity_dof, asked.velocity_dof):
-            return Sameness.STRONGER
+            return Sameness.UNDECIDED
         alike = (mine.dof, mine.velocity_dof) == (asked.dof, asked.velocity_dof)
         return Sameness.BRANCH if alike else Sameness.STRONGER
 
     # differentials
 
-    def _differentiated(self) -> bool:
-        """Is the answer what one gets by differentiating the finite relations that were asked for?"""
+    def _differentiated(self) -> bool | None:
+        """Is the answer what one gets by differentiating the finite relations that were asked for?
+
+        None where that was not decided.
+        """
         finite = _finite(self._all_wanted)
         if not finite or any(isinstance(p, Finite) for n in self._answer for p in n.pieces):
             return False
-        return self._follow([_differential(g) for g in finite], self._answer) is True
+        return self._follow([_differential(g) for g in finite], self._answer)
 
     def _integrated(self) -> Sameness | None:
-        """Is the answer a finite relation whose differential is the form that was asked for?"""
+        """Is the answer a finite relation whose differential is the form that was asked for? None where it is not."""
         forms = [p for n in self._all_wanted for p in n.pieces]
-        if not all(isinstance(p, Pfaffian) for p in forms) or not self.integrates():
-            return None
+        integrates = all(isinstance(p, Pfaffian) for p in forms) and self.integrates()
+        if not integrates:
+            return None if integrates is False else Sameness.UNDECIDED
         own = [{s for s in g.symbols if s.args[1] in self.constants} for g in _finite(self._answer)]
         return Sameness.INTEGRATED if all(own) else Sameness.WITHOUT_CONSTANT
 
@@ -213,7 +225,9 @@ class Comparison:
         before = [p.expr for n in self._others for p in n.pieces if isinstance(p, Finite)]
         wanted = [p.expr for n in self._all_wanted for p in n.pieces if isinstance(p, Finite)]
         ranks = self._ranks(pieces, [*before, *raw], [*before, *wanted])
-        return Sameness.IRREGULAR if ranks is not None and ranks[0] < ranks[1] else Sameness.SAME
+        if ranks is None:
+            return Sameness.UNDECIDED if any(n.notes for n in self._answer) else Sameness.SAME
+        return Sameness.IRREGULAR if ranks[0] < ranks[1] else Sameness.SAME
 
     def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
         """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""
