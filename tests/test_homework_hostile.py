@@ -13,8 +13,8 @@ from dofkit.homework.assignment import load_assignment
 from dofkit.homework.grading import Grader
 from dofkit.homework.submission import of_value
 
-#: Seconds for one answer.
-QUICK = 0.05
+#: Seconds for one answer that is refused, and for one that is an equation after all; both on a machine that is not quiet.
+QUICK, GRADED = 0.05, 0.2
 ASSIGNMENT: dict[str, Any] = {
     "title": "Hostile",
     "problems": [
@@ -133,7 +133,7 @@ def test_nonsense_is_read_or_refused(question: str, answer: str) -> None:
         start = time.process_time()
         item = graded(here, question, answer)
         took.append(time.process_time() - start)
-    assert min(took) < QUICK
+    assert min(took) < (QUICK if item.status in ("unreadable", "missing") else GRADED)
     assert item.status in ("unreadable", "wrong", "partly", "missing", "needs_review", "right")
     assert (item.status == "unreadable") == (item.column is not None)
 
