@@ -38,6 +38,10 @@ POSSIBLE = 0.3
 ANSWER = "the answer"
 
 
+#: Their equations also allow assemblies turned by half a turn, which nobody means: the drawn one is as good.
+JOINTS = frozenset({"revolute", "prismatic", "weld", "cylindrical", "screw", "universal", "spherical", "planar"})
+
+
 class Sameness(Enum):
     """How an answer compares with the constraints that were asked for; the value is a stable code."""
 
@@ -100,7 +104,7 @@ class Comparison:
             return self._unilateral()
         if same_up_to_numbers(self._given, self._wanted, self.setting.positive):
             return Compared(Sameness.SAME, tuple(True for _ in self._wanted))
-        sound = [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
+        sound = self._sound
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
         met = [self._follow(r.normals, kept) for r in self._wanted]
         if None in sound or None in met:
@@ -142,6 +146,11 @@ class Comparison:
         return [n for r in self._wanted for n in r.normals]
 
     @cached_property
+    def _sound(self) -> list[bool | None]:
+        """Which relations of the answer follow from what was asked for."""
+        return [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
+
+    @cached_property
     def _rest(self) -> list[Reduced]:
         return [r for r in self.reduced if r not in self._given and r not in self._wanted]
 
@@ -179,8 +188,9 @@ class Comparison:
         mine, asked = self._solved([*self._rest, *self._given]), self._solved([*self._rest, *self._wanted])
         if None in (mine.dof, asked.dof, mine.velocity_dof, asked.velocity_dof):
             return Sameness.UNDECIDED
-        alike = (mine.dof, mine.velocity_dof) == (asked.dof, asked.velocity_dof)
-        return Sameness.BRANCH if alike else Sameness.STRONGER
+        if (mine.dof, mine.velocity_dof) != (asked.dof, asked.velocity_dof):
+            return Sameness.STRONGER
+        return Sameness.SAME if all(r.constraint.type in JOINTS for r in self._wanted) else Sameness.BRANCH
 
     # differentials
 
@@ -195,22 +205,28 @@ class Comparison:
         return self._follow([_differential(g) for g in finite], self._answer)
 
     def _integrated(self) -> Sameness | None:
-        """Is the answer a finite relation whose differential is the form that was asked for? None where it is not."""
-        forms = [p for n in self._all_wanted for p in n.pieces]
-        integrates = all(isinstance(p, Pfaffian) for p in forms) and self.integrates()
+        """Does the answer say in finite relations what was asked for in forms? None where it does not."""
+        integrates = self.integrates()
         if not integrates:
             return None if integrates is False else Sameness.UNDECIDED
-        own = [{s for s in g.symbols if s.args[1] in self.constants} for g in _finite(self._answer)]
+        new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=True) if not sound]
+        own = [{s for s in g.symbols if s.args[1] in self.constants} for g in new]
         return Sameness.INTEGRATED if all(own) else Sameness.WITHOUT_CONSTANT
 
     def integrates(self) -> bool | None:
-        """Is the answer finite, and its differential what was asked for? None where that was not decided."""
+        """Is the answer finite, and are its differentials the forms that were asked for?
+
+        Finite relations among what was asked for follow from the answer itself. None where that was not decided.
+        """
         finite = _finite(self._answer)
-        if not finite or len(finite) != len(self._answer):
+        standing = [n for n in self._all_wanted if all(isinstance(p, Finite) for p in n.pieces)]
+        moving = [n for n in self._all_wanted if n not in standing]
+        if not moving or not finite or len(finite) != len(self._answer):
             return False
         rates = [_differential(g) for g in finite]
         told = self._follow(rates, self._all_wanted)
-        return self._follow(self._all_wanted, rates) if told else told
+        told = self._follow(standing, self._answer) if told else told
+        return self._follow(moving, [*standing, *rates]) if told else told
 
     # regularity
 
