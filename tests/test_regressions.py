@@ -27,6 +27,7 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
         scene("(x^2+y^2)^16=l^32", "x^2+y^2=l^2", parameters={"l": "positive"}),
         {"redundant": ["c2"]},
     ),
+    ("a start outside of a root's domain", scene("y=sqrt(1-x^2)", "x^2+y^2=1"), {"dof": 2, "redundant": ["c2"]}),
     ("c1 = x c2", scene("x^3-x*y^2=0", "x^2=y^2", coordinates=["x", "y"]), {"dof": 1, "redundant": ["c1"]}),
     ("ydot^2 = -3", scene("xdot^2+ydot^2=1", "xdot=2"), {"consistent": False, "conflicting": ["c1", "c2"]}),
     ("ydot = 0 follows", scene("xdot^2+ydot^2=1", "xdot=1"), {"dof": 1, "velocity_dof": 1, "holonomic": True}),
