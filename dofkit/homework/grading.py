@@ -150,9 +150,7 @@ def _spot(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapp
 def _number(question: QuestionBase, answer: Given) -> Fraction | None:
     try:
         return question.number(answer)
-    except MemoryError:
-        raise
-    except Exception:
+    except (TextError, ArithmeticError, ValueError):
         return None
 
 
