@@ -31,6 +31,8 @@ FAINT = 1e-10
 SECANT, SPREAD, SETTLING = 1e-4, 3e-2, 60
 #: So many steps without half the error are the end: rounding, far from the origin, allows no less.
 STALLED = 8
+#: Powers of the error by which steps are damped: weakly first, then more.
+DAMPED = (2, 1)
 #: The same at a singular point, which a descent reaches to half its digits.
 ROUGH = 1e-5
 MAX_COLUMNS = 120
@@ -84,7 +86,7 @@ def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: 
         beside, change = dict(symbols), search.start(seed + len(AWAY), {})
         for s in names:
             beside[s] = symbols[s] + SECANT * change.get(s, 0.0)
-        if _settles(search, beside, seed):
+        if any(_settles(search, beside, seed, power) for power in DAMPED):
             found.append([(beside[s] - symbols[s]) / SECANT for s in names])
     if not found:
         return None
@@ -93,7 +95,7 @@ def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: 
     return right[:dof] if spread == dof else None
 
 
-def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int) -> bool:
+def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: int) -> bool:
     """Moves ``symbols`` to the set nearby, by damped steps: where the gradients are dependent others go far away."""
     errors: list[float] = []
     for _ in range(SETTLING):
@@ -105,7 +107,7 @@ def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int) -> bool:
             return True
         if len(errors) > STALLED and min(errors[-STALLED:]) > min(errors[:-STALLED]) / 2:
             break
-        for u, s in zip(search.unknowns, damped(j, f), strict=True):
+        for u, s in zip(search.unknowns, damped(j, f, power), strict=True):
             symbols[u] += float(s)
     return errors[-1] < 1e-13
 

@@ -92,6 +92,8 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         return _confined_answer(chart, setting, result)
     if found.rank < len(found.matrix):
         result.reasons.append(found.local.reason)
+    if found.local.dimension is None and chart.time is not None:
+        result.consistent = None
     columns = len(chart.columns) - found.rank
     result.degenerate = found.local.dimension != columns - (len(chart.columns) - chart.coordinates)
     return result
@@ -100,7 +102,7 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
 def _confined_answer(chart: Chart, setting: Setting, result: Answer) -> Answer:
     """No motion passes through the reference; whether one does elsewhere is asked of generic configurations."""
     elsewhere = find(chart, {})
-    result.consistent = elsewhere.consistent
+    result.consistent = False if elsewhere.consistent is False else None
     if elsewhere.samples:
         _finite_matrix(chart, elsewhere, result)
     result.dof = result.velocity_dof = result.instantaneous = None

@@ -36,6 +36,10 @@ class Reached:
     direction: Array
 
 
+#: Forward and backward, where a motion begins.
+Ways = tuple[Reached | None, Reached | None]
+
+
 class Follower:
     """Motions on the relations; ``freedom``: the dimension of the admissible directions at a regular pose."""
 
@@ -146,8 +150,8 @@ class Follower:
         slip = float(np.max(np.abs(forms @ relations.between(start, pose)), initial=0.0))
         return pose if self.held(pose) and slip < HELD else None
 
-    def begin(self, pose: Pose, target: Array | None, step: float) -> list[Reached]:
-        """Where and in which direction motions begin: forward, and backward where one does."""
+    def begin(self, pose: Pose, target: Array | None, step: float) -> Ways:
+        """Where and in which direction motions begin, forward and backward."""
         basis = self.null_space(pose)
         stopped = self.clock is not None and float(np.sum(basis[:, self.clock] ** 2)) < SMALL
         if stopped or len(basis) != self.freedom:
@@ -156,8 +160,8 @@ class Follower:
         direction = basis.T @ (basis @ goal)
         if self.clock is not None:
             direction[self.clock] = 1.0
-        found = [self.ahead(pose, direction), self.ahead(pose, -direction)]
-        return [Reached(pose, d) for d in found if d is not None]
+        ahead, back = self.ahead(pose, direction), self.ahead(pose, -direction)
+        return None if ahead is None else Reached(pose, ahead), None if back is None else Reached(pose, back)
 
     def _chosen(self, basis: Array) -> Array:
         """The first column that moves (with one freedom: forward), or time."""
@@ -167,7 +171,7 @@ class Follower:
         found[column] = 1.0
         return found
 
-    def _leave(self, pose: Pose, target: Array | None, step: float, basis: Array) -> list[Reached]:
+    def _leave(self, pose: Pose, target: Array | None, step: float, basis: Array) -> Ways:
         """At a singular pose: regular ones close to it, reached from random directions; else singular ones."""
         rng = np.random.default_rng(3)
         singular: list[Reached] = []
@@ -198,13 +202,13 @@ class Follower:
             return None
         return None if direction is None else Reached(moved, direction)
 
-    def _both_ways(self, pose: Pose, found: list[Reached], target: Array | None) -> list[Reached]:
+    def _both_ways(self, pose: Pose, found: list[Reached], target: Array | None) -> Ways:
         if not found:
-            return []
+            return None, None
         if self.clock is not None:
             target = np.eye(self.relations.columns)[self.clock]
         goal = found[0].direction if target is None else target
         first = max(found, key=lambda r: float(r.direction @ goal))
         opposite = self._beside(pose, -self.relations.between(pose, first.pose))
         last = min([*found, *([opposite] if opposite else [])], key=lambda r: float(r.direction @ goal))
-        return [first, last] if float(last.direction @ goal) < 0 else [first]
+        return first if first.direction @ goal >= 0 else None, last if last.direction @ goal < 0 else None

@@ -27,6 +27,11 @@ from dofkit.system import Coordinate
 
 #: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY nothing is decided.
 SLACK, GREY = 3.0, 30.0
+#: From so many sizes from the origin singular values are smaller by the square of that, since turns are told about it;
+#: from `LEVER` sizes on no motion is followed.
+CLOSE, LEVER = 2.0, 30.0
+#: How much rounding errors of places grow until they are residuals.
+ROOM = 1e3
 #: A motion is followed this far, as a fraction of the size, or farther where second-order effects of that size would
 #: not stand out from the tolerance by `FAR`; in so many directions.
 STEP, FAR, LONGEST, WAYS, ROUNDS = 0.12, 60.0, 0.4, 6, 60
@@ -57,8 +62,21 @@ class _Scene:
         self.chart = chart
         lengths = {c.name for c in roles if c.role in ("x", "y", "z")}
         self.symbols = [s for s in chart.symbols if s != ex.TIME]
-        self.scale = np.array([size if str(s.args[1]) in lengths else 1.0 for s in self.symbols])
+        self.lengths = np.array([str(s.args[1]) in lengths for s in self.symbols], dtype=bool)
+        self.scale = np.where(self.lengths, size, 1.0)
         self.columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
+
+    def lever(self, j: Any) -> float:
+        """How many sizes from the origin the relations act: the largest effect of a turn by that of a shift."""
+        shifts = self.lengths
+        both = np.abs(j[:, shifts]).max(axis=1, initial=0), np.abs(j[:, ~shifts]).max(axis=1, initial=0)
+        mixed = both[0] > 0
+        return float(np.max(both[1][mixed] / both[0][mixed], initial=1.0))
+
+    def blurs(self, at: Mapping[Expr, float]) -> float:
+        """What rounding to floating point does to places, by the size, with room for what cancels."""
+        places = np.array([abs(at.get(s, 0.0)) for s in self.symbols])[self.lengths] / self.scale[self.lengths]
+        return ROOM * float(np.finfo(float).eps) * float(np.max(places, initial=0.0))
 
     def whole(self, at: Mapping[Expr, float]) -> Any:
         """Displacements of everything as one body, in scaled coordinates."""
@@ -93,25 +111,30 @@ def measure(
     rank = int(np.sum(singular > tolerance * SLACK))
     below = float(singular[rank]) if rank < len(singular) else 0.0
     gap = float(singular[rank - 1]) / below if rank and below > 0 else float("inf")
-    if np.any((singular > tolerance * SLACK) & (singular < tolerance * GREY)):
+    lever = scene.lever(j)
+    least = tolerance * SLACK / (lever * lever if lever > CLOSE else 1.0)
+    if np.any((singular > least) & (singular < tolerance * GREY)):
         return Measured(None, None, [], (), gap, "a singular value near the tolerance leaves the rank undecided")
     pattern = dependency_pattern(j, independent_rows(j, rank, tolerance))
     columns = tuple(greedy_pivots(j.T, rank))
     first = n - rank
     whole = scene.whole(at)
-    dimension, reason = _finite(scene, at, j, rank, tolerance, min(rigid, len(_own(whole, tolerance))))
+    rigid = min(rigid, len(_own(whole, tolerance)))
+    dimension, reason = _finite(scene, at, j, rank, tolerance, rigid, lever > LEVER or scene.blurs(at) > tolerance)
     return Measured(first, dimension, pattern, columns, gap, reason)
 
 
 def _finite(
-    scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance: float, rigid: int
+    scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance: float, rigid: int, far: bool
 ) -> tuple[int | None, str]:
-    """(dimension of the finite motion, why)."""
+    """(dimension of the finite motion, why); nothing is followed where that is ``far`` from the origin."""
     first = j.shape[1] - rank
     if rank == j.shape[0]:
         return first, "all relations are independent within the tolerance"
     if first == rigid:
         return first, "nothing but motions of the whole is possible to first order"
+    if far:
+        return None, "the drawing is too far from the origin, by its size, to follow a motion in floating point"
     stride = max(STEP, (FAR * tolerance) ** HALF)
     if stride > LONGEST:
         return None, "the tolerance is too coarse to tell a motion from one of first order only"
@@ -178,12 +201,18 @@ def _followed(
 
 
 def _own(whole: Any, tolerance: float) -> Any:
-    """An orthonormal basis of the displacements of the whole, less those within the tolerance (a turn about a rod)."""
+    """An orthonormal basis of the displacements of the whole, less those within the tolerance (a turn about a rod).
+
+    Shifts move all places alike; a turn counts by what it does beside shifting, in sizes for a turn by 1.
+    """
     if not whole.size:
         return whole
-    lengths = np.linalg.norm(whole, axis=1)
-    _, singular, right = np.linalg.svd(whole / np.where(lengths > 0, lengths.max(), 1.0)[:, None])
-    return right[: int(np.sum(singular > tolerance * SLACK))]
+    sizes = np.abs(whole)
+    alike = np.array([bool(np.all(row[row > 0] == row.max())) and row.max() > 0 for row in sizes])
+    shifts = np.linalg.qr(whole[alike].T)[0].T if np.any(alike) else whole[:0]
+    rest = whole[~alike] - (whole[~alike] @ shifts.T) @ shifts
+    _, singular, right = np.linalg.svd(rest)
+    return np.vstack([shifts, right[: int(np.sum(singular > tolerance * SLACK))]])
 
 
 def _beside(null: Any, whole: Any, tolerance: float) -> Any:

@@ -6,6 +6,7 @@ because only a finite relation fixes the constant. Dependent sets of constraints
 
 from __future__ import annotations
 
+import time
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,10 +14,13 @@ from itertools import combinations
 
 import networkx as nx
 
+from dofkit.deadline import check
 from dofkit.exact.sparse import SparseRow, Supports, echelon, rank_of_rows
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
 SEARCHED = 12
+#: Up to this many by giving one back where two can go for it, and seconds for that.
+EXCHANGED, EXCHANGE_SECONDS = 60, 1.0
 
 
 @dataclass(frozen=True)
@@ -150,21 +154,56 @@ def _spans(parts: Sequence[Rows], kept: set[int], everything: set[int]) -> bool:
 
 
 def _droppable(parts: Sequence[Rows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
-    """As many constraints of a group as can go together; of several choices the last in the order."""
+    """As many constraints of a group as can go together; of several choices the last in the order.
+
+    Modulo 2 stands only which rows depend on which (balls tell no more): then those that add nothing to those before.
+    """
     rows_of = Counter(o for p in parts for o in p.owners)
-    if len(members) > SEARCHED or all(rows_of[o] == 1 for o in members):
+    unweighted = any(p.p == 2 for p in parts) and len(members) > SEARCHED
+    if unweighted or len(members) > EXCHANGED or all(rows_of[o] == 1 for o in members):
         kept_of = set().union(*(b.pivot_owners for b in bases))
         return [o for o in members if o not in kept_of]
+    if len(members) > SEARCHED:
+        return _exchanged(parts, members, rows_of)
     everything = set(members)
-    kept, dropped = set(members), []
-    for owner in reversed(members):
-        if _spans(parts, kept - {owner}, everything):
-            kept.discard(owner)
-            dropped.append(owner)
+    dropped = _greedy(parts, list(reversed(members)), everything, [])
     for size in range(len(members) - 1, len(dropped), -1):
         for choice in combinations(reversed(members), size):
             if _spans(parts, everything - set(choice), everything):
                 return list(choice)
+    return dropped
+
+
+def _greedy(parts: Sequence[Rows], order: Sequence[int], everything: set[int], gone: Sequence[int]) -> list[int]:
+    """What can go besides ``gone``, one after the other."""
+    dropped = list(gone)
+    for owner in order:
+        if owner not in dropped and _spans(parts, everything - {*dropped, owner}, everything):
+            dropped.append(owner)
+    return dropped
+
+
+def _exchanged(parts: Sequence[Rows], members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
+    """Many constraints of a group: the last first or the smallest first, then one given back where two can go for it.
+
+    Constraints of several equations are no matroid: what is found cannot be enlarged so, but may not be the most.
+    """
+    everything = set(members)
+    last_first = list(reversed(members))
+    small_first = sorted(last_first, key=lambda o: rows_of[o])
+    dropped = max((_greedy(parts, order, everything, []) for order in (last_first, small_first)), key=len)
+    until = time.process_time() + EXCHANGE_SECONDS
+    better = True
+    while better:
+        better = False
+        for back in dropped:
+            check()
+            found = _greedy(parts, [o for o in small_first if o != back], everything, [o for o in dropped if o != back])
+            if len(found) > len(dropped):
+                dropped, better = found, True
+                break
+            if time.process_time() > until:
+                return dropped
     return dropped
 
 

@@ -122,21 +122,23 @@ class _Sampled:
     def configurations(self, steps: int, step: float, both: bool) -> list[dict[str, float]]:
         """Backward, the first, forward."""
         target = None if self.along is None else self.relations.axis(self.along, self.start)
-        ways = self.follower.begin(self.start, target, step)
-        if not ways and target is None:
+        ahead, back = self.follower.begin(self.start, target, step)
+        if target is None and ahead is back is None:
             raise MotionError("no motion was found that leaves the first configuration")
-        if target is not None and not any(abs(float(w.direction @ target)) > STILL for w in ways):
+        if target is not None and not any(w and abs(float(w.direction @ target)) > STILL for w in (ahead, back)):
             raise MotionError(f"'{self.along}' cannot move at the first configuration")
-        forward, closed = self._way(ways[0], steps, step)
-        backward = self._way(ways[1], steps, step)[0] if both and not closed and len(ways) > 1 else []
+        forward, closed = self._way(ahead, steps, step)
+        backward = self._way(back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:
             raise MotionError("no motion was followed that leaves the first configuration")
         middle = self._told(self.start, {})
         return [*reversed(self._all_told(backward, middle)), middle, *self._all_told(forward, middle)]
 
-    def _way(self, start: Reached, steps: int, step: float) -> tuple[list[Pose], bool]:
+    def _way(self, start: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
         """The poses of one way, and whether it closes up."""
         poses: list[Pose] = []
+        if start is None:
+            return poses, False
         closing = self.follower.freedom == 1 and not self.relations.timed and not self.relations.forms
         for reached in islice(self.follower.path(start, step), steps):
             if self._stopped(reached.pose):

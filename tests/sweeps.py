@@ -190,10 +190,12 @@ MOVES: dict[str, Move] = {
     "as drawn": lambda p: p,
     "a million times larger": lambda p: tuple(x * MILLION for x in p),
     "a million times smaller": lambda p: tuple(x / MILLION for x in p),
+    "moved a hundred away": lambda p: tuple(x + 100 * (k + 1) for k, x in enumerate(p)),
     "moved a million away": lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)),
     "small and far away": lambda p: tuple(x / MILLION + MILLION for x in p),
 }
 SEEDS = range(2)
+TOLERANCES = ("1e-4",)
 
 
 @dataclass(frozen=True)
@@ -269,10 +271,23 @@ def measured() -> Iterator[Case]:
             yield drawn_case(name, drawn, near.there, tolerance=f"1e-{digits}")
 
 
-def _jointed(near: Jointed, step: Fraction, how: str) -> Case:
+def measured_elsewhere() -> Iterator[Case]:
+    """Exact drawings with a tolerance, of any size and anywhere."""
+    for tolerance in TOLERANCES:
+        for how, move in MOVES.items():
+            for step in (Fraction(0), Fraction(1, 2)):
+                for near in NEAR:
+                    freedom = near.beside if step else near.there
+                    name = f"{near.name}, {float(step):g} beside, {how}, within {tolerance}"
+                    yield drawn_case(name, near.at(step).moved(move), freedom, tolerance=tolerance)
+                for jointed in JOINTED:
+                    yield _jointed(jointed, step, how, tolerance=tolerance)
+
+
+def _jointed(near: Jointed, step: Fraction, how: str, **more: Any) -> Case:
     freedom = near.beside if step else near.there
     equations = 5 * len(near.hinges(step))
-    scene = near.scene(step, MOVES[how])
+    scene = near.scene(step, MOVES[how], **more)
     return Case(_trial(f"{near.name}, {float(step):g} beside, {how}", scene, 6 * near.bodies, equations, freedom), None)
 
 
@@ -298,4 +313,5 @@ SWEEPS: dict[str, Callable[[], Iterator[Case]]] = {
     "renamed and reordered": shuffles,
     "rounded": roundings,
     "rounded, with tolerance": measured,
+    "scaled and moved, with tolerance": measured_elsewhere,
 }

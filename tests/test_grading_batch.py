@@ -16,15 +16,17 @@ from typing import Any
 
 import pytest
 from grading_jobs import orders
+from test_homework import FILES, document
 
 import dofkit
 from dofkit import cli
 from dofkit.homework.batch import Orders
+from dofkit.homework.grading import Grader
 from dofkit.homework.journal import BusyError, Journal
 from dofkit.homework.keeper import Keeper
 from dofkit.homework.running import Local, Seen, in_order
 from dofkit.homework.sources import Handed, handed
-from dofkit.homework.submission import Place
+from dofkit.homework.submission import Place, of_value
 
 POINT = {"coordinates": ["x", "y"], "constraints": [{"name": "circle", "type": "equation", "text": "x^2 + y^2 = 1"}]}
 QUESTIONS = [
@@ -465,3 +467,15 @@ def test_only_what_fits_is_taken_over(tmp_path: Path) -> None:
     with pytest.raises(BusyError):
         journal(path)
     held.close()
+
+
+@pytest.mark.parametrize("seconds", [0.002, 0.008])
+@pytest.mark.parametrize("name", FILES)
+def test_too_little_time_needs_a_review_and_makes_nothing_wrong(name: str, seconds: float) -> None:
+    made = document(name)
+    here = Grader(dofkit.load_assignment(made["assignment"]), seconds)
+    for place, answer, status, *_ in made["answers"]:
+        problem, question = place.split(".")
+        result = here.grade(of_value({"student": "s", "answers": {problem: {question: answer}}}, "s"))
+        found = next(item.status for item in result.items if (item.problem, item.question) == (problem, question))
+        assert found in (status, "needs_review"), answer

@@ -280,3 +280,19 @@ def test_a_piston_driven_outward_at_all_times_does_not_move() -> None:
     report = dofkit.classify(dofkit.load(four_bar(drive="t^2")))
     assert report.consistent is not True
     assert report.dof is None
+
+
+@pytest.mark.parametrize(
+    ("law", "consistent"),
+    [("1 + t", True), ("1 - t", True), ("1 + t^2", True), ("1 - t^2", False), ("1 - t^4", False), ("cos(t)", False)],
+)
+def test_two_links_in_line_of_which_one_changes_its_length(law: str, consistent: bool) -> None:
+    """A point between two others 2 apart: it can move where the lengths' sum grows, forward or backward in time."""
+    links = [([0, 0], "1"), ([2, 0], law)]
+    scene = {
+        "dimension": 2,
+        "particles": [{"name": "P", "at": [1, 0]}],
+        "constraints": [{"type": "link", "between": [end, "P"], "length": length} for end, length in links],
+    }
+    report = dofkit.classify(dofkit.load(scene))
+    assert (report.consistent, report.dof) == (True, 0) if consistent else report.consistent is not True

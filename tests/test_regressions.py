@@ -27,6 +27,7 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
         scene("(x^2+y^2)^16=l^32", "x^2+y^2=l^2", parameters={"l": "positive"}),
         {"redundant": ["c2"]},
     ),
+    ("a start outside of a root's domain", scene("y=sqrt(1-x^2)", "x^2+y^2=1"), {"dof": 2, "redundant": ["c2"]}),
     ("c1 = x c2", scene("x^3-x*y^2=0", "x^2=y^2", coordinates=["x", "y"]), {"dof": 1, "redundant": ["c1"]}),
     ("ydot^2 = -3", scene("xdot^2+ydot^2=1", "xdot=2"), {"consistent": False, "conflicting": ["c1", "c2"]}),
     ("ydot = 0 follows", scene("xdot^2+ydot^2=1", "xdot=1"), {"dof": 1, "velocity_dof": 1, "holonomic": True}),
@@ -323,3 +324,25 @@ def test_a_form_that_is_zero_but_for_rounding_is_no_form(size: str) -> None:
     ]
     report = dofkit.classify(dofkit.load({"bodies": ["a1", "a2", "plate", "b1", "b2"], "constraints": joints}))
     assert (report.dof, report.instantaneous_dof) == (1, 2)
+
+
+@pytest.mark.parametrize("away", [0, 100, 10**6])
+def test_a_measured_door_far_from_the_origin_has_no_freedom_of_its_own(away: int) -> None:
+    """A turn about the origin moves what is far away by so much that a shift looked like nothing beside it."""
+    hinges = [
+        {"type": "revolute", "between": ["ground", "door"], "at": [away, away, z], "axis": [0, 0, 1]} for z in (0, 2)
+    ]
+    report = dofkit.classify(dofkit.load({"bodies": ["door"], "constraints": hinges, "tolerance": 1e-6}))
+    assert report.instantaneous_dof in (1, None)
+    assert report.dof in (1, None)
+    assert away or report.dof == 1
+
+
+def test_a_measured_crossing_of_branches_is_no_motion_of_both() -> None:
+    """A flat parallelogram: two velocities, one motion; each direction led onto one of the branches."""
+    particles = [{"name": "B", "at": [1, 0]}, {"name": "C", "at": [3, 0]}]
+    ends = [[[0, 0], "B"], ["B", "C"], ["C", [2, 0]]]
+    links = [{"type": "link", "between": pair} for pair in ends]
+    made = {"dimension": 2, "particles": particles, "constraints": links, "tolerance": 1e-6}
+    report = dofkit.classify(dofkit.load(made))
+    assert (report.dof, report.instantaneous_dof, report.singular) == (1, 2, True)

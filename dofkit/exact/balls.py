@@ -26,6 +26,8 @@ from dofkit.expr import Expr
 
 PRECISION = 256
 STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
+#: So often a step that leaves the domain of the functions is halved.
+HALVINGS = 8
 #: After this many singular points no regular one is looked for.
 SINGULAR_TRIES = 4
 #: Relative size of a Newton step that ends the refinement.
@@ -219,12 +221,13 @@ class RealSearch:
         if not self.nodes:
             return np.zeros((0, len(self.columns)))
         previous, j = math.inf, np.zeros((0, 0))
+        base, step = dict.fromkeys(self.unknowns, 0.0), np.array([symbols[u] for u in self.unknowns])
         for _ in range(steps):
             check()
-            try:
-                f, j = self.float_system(symbols, seed)
-            except (ValueError, ZeroDivisionError, OverflowError):
+            found = self._within_domain(symbols, base, step, seed)
+            if found is None:
                 return None
+            f, j = found
             reach = max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
             scale = np.abs(j).max(axis=1, initial=0) + 1e-300
             residual = float(np.max(np.abs(f) / scale)) / reach
@@ -238,9 +241,22 @@ class RealSearch:
             length = float(np.linalg.norm(step))
             if length > 4 * reach:
                 step *= 4 * reach / length
+            base = {u: symbols[u] for u in self.unknowns}
             for u, s in zip(self.unknowns, step, strict=True):
                 symbols[u] += float(s)
         return j if previous < 1e-13 else None
+
+    def _within_domain(
+        self, symbols: dict[Expr, float], base: Mapping[Expr, float], step: np.ndarray, seed: int
+    ) -> tuple[np.ndarray, np.ndarray] | None:
+        """The system at ``symbols``; where it has no value there, at ``base`` and half of the step, and so on."""
+        for halvings in range(HALVINGS):
+            try:
+                return self.float_system(symbols, seed)
+            except (ValueError, ZeroDivisionError, OverflowError):
+                for u, s in zip(self.unknowns, step, strict=True):
+                    symbols[u] = base[u] + float(s) / 2 ** (halvings + 1)
+        return None
 
     def float_system(self, symbols: Mapping[Expr, float], seed: int) -> tuple[np.ndarray, np.ndarray]:
         point = FloatPoint(symbols, seed)

@@ -17,6 +17,7 @@ from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.blocks import Row, split
 from dofkit.charting import make_chart
+from dofkit.deadline import part, unless_late
 from dofkit.exact.field import NoPointError
 from dofkit.exact.sparse import rank_of_rows
 from dofkit.expr import Expr
@@ -31,8 +32,14 @@ from dofkit.solving import Outcome, Reduced, solve
 from dofkit.system import System
 from dofkit.variety import field_jacobian, find
 
+#: The share of the time that is left in which an answer may be found impossible.
+POSSIBLE = 0.3
 #: Constraints of a scene with the answer in the place of those that were asked for are named so.
 ANSWER = "the answer"
+
+
+#: Their equations also allow assemblies turned by half a turn, which nobody means: the drawn one is as good.
+JOINTS = frozenset({"revolute", "prismatic", "weld", "cylindrical", "screw", "universal", "spherical", "planar"})
 
 
 class Sameness(Enum):
@@ -97,7 +104,7 @@ class Comparison:
             return self._unilateral()
         if same_up_to_numbers(self._given, self._wanted, self.setting.positive):
             return Compared(Sameness.SAME, tuple(True for _ in self._wanted))
-        sound = [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
+        sound = self._sound
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
         met = [self._follow(r.normals, kept) for r in self._wanted]
         if None in sound or None in met:
@@ -107,16 +114,20 @@ class Comparison:
             return Compared(self._regularity(), told)
         if all(told):
             return Compared(self._too_strong(), told)
-        if all(sound) and not any(told) and self._differentiated():
-            return Compared(Sameness.DIFFERENTIATED, told)
+        differentiated = all(sound) and not any(told) and self._differentiated()
+        if differentiated is not False:
+            return Compared(Sameness.DIFFERENTIATED if differentiated else Sameness.UNDECIDED, told)
         if not self._possible:
             return Compared(Sameness.EMPTY, tuple(False for _ in told))
         integrated = self._integrated()
         if integrated is not None:
             return Compared(integrated, told)
-        if not all(sound) and self._follow(self._all_wanted, self._answer):
-            return Compared(self._too_strong(), told)
-        return Compared(Sameness.WEAKER if all(sound) else Sameness.DIFFERENT, told)
+        if all(sound):
+            return Compared(Sameness.WEAKER, told)
+        implied = self._follow(self._all_wanted, self._answer)
+        if implied is None:
+            return Compared(Sameness.UNDECIDED, told)
+        return Compared(self._too_strong() if implied else Sameness.DIFFERENT, told)
 
     @cached_property
     def _given(self) -> list[Reduced]:
@@ -133,6 +144,11 @@ class Comparison:
     @cached_property
     def _all_wanted(self) -> list[Normal]:
         return [n for r in self._wanted for n in r.normals]
+
+    @cached_property
+    def _sound(self) -> list[bool | None]:
+        """Which relations of the answer follow from what was asked for."""
+        return [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
 
     @cached_property
     def _rest(self) -> list[Reduced]:
@@ -156,7 +172,8 @@ class Comparison:
     @cached_property
     def _possible(self) -> bool:
         """Can the others and the answer be satisfied together?"""
-        return self._solved([*self._rest, *self._given]).consistent is not False
+        with part(POSSIBLE):
+            return unless_late(lambda: self._solved([*self._rest, *self._given]).consistent is not False, True)
 
     def _solved(self, reduced: Sequence[Reduced]) -> Outcome:
         return solve(self.system, reduced, self.setting)
@@ -170,35 +187,46 @@ class Comparison:
             return integrated
         mine, asked = self._solved([*self._rest, *self._given]), self._solved([*self._rest, *self._wanted])
         if None in (mine.dof, asked.dof, mine.velocity_dof, asked.velocity_dof):
+            return Sameness.UNDECIDED
+        if (mine.dof, mine.velocity_dof) != (asked.dof, asked.velocity_dof):
             return Sameness.STRONGER
-        alike = (mine.dof, mine.velocity_dof) == (asked.dof, asked.velocity_dof)
-        return Sameness.BRANCH if alike else Sameness.STRONGER
+        return Sameness.SAME if all(r.constraint.type in JOINTS for r in self._wanted) else Sameness.BRANCH
 
     # differentials
 
-    def _differentiated(self) -> bool:
-        """Is the answer what one gets by differentiating the finite relations that were asked for?"""
+    def _differentiated(self) -> bool | None:
+        """Is the answer what one gets by differentiating the finite relations that were asked for?
+
+        None where that was not decided.
+        """
         finite = _finite(self._all_wanted)
         if not finite or any(isinstance(p, Finite) for n in self._answer for p in n.pieces):
             return False
-        return self._follow([_differential(g) for g in finite], self._answer) is True
+        return self._follow([_differential(g) for g in finite], self._answer)
 
     def _integrated(self) -> Sameness | None:
-        """Is the answer a finite relation whose differential is the form that was asked for?"""
-        forms = [p for n in self._all_wanted for p in n.pieces]
-        if not all(isinstance(p, Pfaffian) for p in forms) or not self.integrates():
-            return None
-        own = [{s for s in g.symbols if s.args[1] in self.constants} for g in _finite(self._answer)]
+        """Does the answer say in finite relations what was asked for in forms? None where it does not."""
+        integrates = self.integrates()
+        if not integrates:
+            return None if integrates is False else Sameness.UNDECIDED
+        new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=True) if not sound]
+        own = [{s for s in g.symbols if s.args[1] in self.constants} for g in new]
         return Sameness.INTEGRATED if all(own) else Sameness.WITHOUT_CONSTANT
 
     def integrates(self) -> bool | None:
-        """Is the answer finite, and its differential what was asked for? None where that was not decided."""
+        """Is the answer finite, and are its differentials the forms that were asked for?
+
+        Finite relations among what was asked for follow from the answer itself. None where that was not decided.
+        """
         finite = _finite(self._answer)
-        if not finite or len(finite) != len(self._answer):
+        standing = [n for n in self._all_wanted if all(isinstance(p, Finite) for p in n.pieces)]
+        moving = [n for n in self._all_wanted if n not in standing]
+        if not moving or not finite or len(finite) != len(self._answer):
             return False
         rates = [_differential(g) for g in finite]
         told = self._follow(rates, self._all_wanted)
-        return self._follow(self._all_wanted, rates) if told else told
+        told = self._follow(standing, self._answer) if told else told
+        return self._follow(moving, [*standing, *rates]) if told else told
 
     # regularity
 
@@ -213,7 +241,9 @@ class Comparison:
         before = [p.expr for n in self._others for p in n.pieces if isinstance(p, Finite)]
         wanted = [p.expr for n in self._all_wanted for p in n.pieces if isinstance(p, Finite)]
         ranks = self._ranks(pieces, [*before, *raw], [*before, *wanted])
-        return Sameness.IRREGULAR if ranks is not None and ranks[0] < ranks[1] else Sameness.SAME
+        if ranks is None:
+            return Sameness.UNDECIDED if any(n.notes for n in self._answer) else Sameness.SAME
+        return Sameness.IRREGULAR if ranks[0] < ranks[1] else Sameness.SAME
 
     def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
         """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""

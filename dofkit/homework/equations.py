@@ -72,11 +72,18 @@ def _read(text: str, before: int, names: Names, own: dict[str, None], constants:
         try:
             return parse_relations(text, known if own else names)
         except UnknownNameError as error:
-            if not constants or len(own) == MAX_CONSTANTS or not _CONSTANT.fullmatch(error.name):
+            if not constants or len(own) == MAX_CONSTANTS or not _may_be_constant(error.name, names):
                 raise _moved(error, before) from None
             own[error.name] = None
         except TextError as error:
             raise _moved(error, before) from None
+
+
+def _may_be_constant(name: str, names: Names) -> bool:
+    """Is it a short name of the student's own? ``x_A`` is none where x is declared: it is meant for a coordinate."""
+    stem, _, index = name.partition("_")
+    declared = stem in names.coordinates or stem in names.parameters
+    return bool(_CONSTANT.fullmatch(name)) and not (declared and index and not index.isdigit())
 
 
 def _moved(error: TextError, before: int) -> TextError:

@@ -7,8 +7,11 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any, cast
 
+from flint import ctx
+
 from dofkit.deadline import OutOfTimeError, by_processor
 from dofkit.errors import TextError
+from dofkit.exact.balls import PRECISION
 from dofkit.homework.assignment import Prepared, Problem, load_assignment
 from dofkit.homework.judgement import NOTHING, Given, Judgement, needs_review
 from dofkit.homework.questions import QuestionBase
@@ -108,7 +111,7 @@ class Grader:
     ) -> Judgement:
         key = self.prepared.keys[problem.id]
         try:
-            with by_processor(self.seconds):
+            with by_processor(self.seconds), ctx.workprec(PRECISION):
                 found = question.judge(answer, key, earlier)
         except TextError as error:
             hint = f" ({error.hint})" if error.hint else ""
@@ -147,9 +150,7 @@ def _spot(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapp
 def _number(question: QuestionBase, answer: Given) -> Fraction | None:
     try:
         return question.number(answer)
-    except MemoryError:
-        raise
-    except Exception:
+    except (TextError, ArithmeticError, ValueError):
         return None
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from dofkit.branches import all_of
 from dofkit.classify import classify
@@ -10,9 +11,11 @@ from dofkit.constraints.equations import Equation
 from dofkit.homework.equations import beside, read_equations
 from dofkit.implication import follows
 from dofkit.lowering import lower
+from dofkit.normal import Finite, Normal
 from dofkit.preparing import prepared
 from dofkit.report import Report
 from dofkit.scene import Scene
+from dofkit.solving import solve
 from dofkit.survey import survey
 
 
@@ -21,18 +24,25 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
 
     None where that was not decided. Non-holonomic constraints are left out: they do not fix the configuration.
     """
-    finite = [
-        c for c, e in zip(scene.constraints, report.constraints, strict=True) if e.form in ("finite", "inequality")
-    ]
     basis = report.integrable_part.basis if report.integrable_part is not None else []
     if basis is None:
         return None
     held = [Equation(type="equation", name=f"held {name}", text=f"d{name} = 0") for name in names]
-    whole = _with(scene, [*finite, *held])
+    named = [c.model_copy(update={"name": e.name}) for c, e in zip(scene.constraints, report.constraints, strict=True)]
+    whole = _with(scene, [*named, *held])
     if basis:
         whole = beside(whole, read_equations(basis, survey(scene).world.names, constants=True))
-    found = classify(whole)
+    system = lower(whole)
+    reduced, setting = prepared(system)
+    own = {e.name for e in report.constraints}
+    finite = [replace(r, normals=_finite(r.normals)) if r.constraint.name in own else r for r in reduced]
+    found = solve(system, finite, setting)
     return None if found.dof is None else found.dof == 0
+
+
+def _finite(normals: Sequence[Normal]) -> tuple[Normal, ...]:
+    """The relations that hold no velocities."""
+    return tuple(n for n in normals if all(isinstance(p, Finite) for p in n.pieces))
 
 
 def can_be_dropped(scene: Scene, names: Sequence[str], report: Report) -> bool | None:

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from pydantic_core import PydanticCustomError
+
 from dofkit.errors import TextError
 from dofkit.text import Names, parse_relations, spelled
 from dofkit.values import as_written, exact, nearest
@@ -37,7 +39,7 @@ def one_text(answer: object) -> str:
 def _number_text(answer: float | Fraction) -> str:
     try:
         return as_written(exact(answer))
-    except Exception:
+    except (PydanticCustomError, ArithmeticError, ValueError):
         raise TextError(f"'{str(answer)[:40]}' is no number", 1, "write a number such as 3") from None
 
 

@@ -55,8 +55,10 @@ class EquationQuestion(QuestionBase):
         return self._read(answer, key).shown
 
     def _read(self, answer: Given, key: Key) -> Read:
+        texts = _texts(answer)
         constants = any(key.constraints[name].form == "pfaffian" for name in self.constraint)
-        return read_equations(_texts(answer), key.names, constants)
+        read = read_equations(texts, key.names, constants)
+        return read_equations(texts, key.names, constants=False) if read.constants and read.moving else read
 
     def solution(self, key: Key) -> str:
         return f"For example: {'; '.join(key.constraints[name].text for name in self.constraint)}."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from difflib import get_close_matches
 from fractions import Fraction
 from typing import Annotated, Literal, NamedTuple
 
@@ -16,7 +17,7 @@ from dofkit.homework.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.words import split_words
 from dofkit.report import ConstraintEntry
-from dofkit.values import Listed, nearest, suggestion
+from dofkit.values import Listed, suggestion
 
 Part = Literal["holonomic", "scleronomic", "bilateral"]
 
@@ -37,8 +38,8 @@ TERMS: dict[str, Terms] = {
     "scleronomic": Terms(
         "scleronomic",
         "rheonomic",
-        ("scleronomic", "scleronomous", "skleronom", "skleronomic"),
-        ("rheonomic", "rheonomous", "rheonom", "nonscleronomic"),
+        ("scleronomic", "scleronomous", "skleronom", "skleronomic", "timeindependent"),
+        ("rheonomic", "rheonomous", "rheonom", "nonscleronomic", "timedependent"),
     ),
     "bilateral": Terms(
         "bilateral",
@@ -53,12 +54,15 @@ _WORDS: dict[str, tuple[str, bool]] = {
     for words, holds in ((terms.positive, True), (terms.negative, False))
     for word in words
 }
-_NEGATIONS = frozenset({"not", "non", "no", "isn't", "isnt", "nicht", "kein", "never", "neither", "nor"})
-_FILLING = (
-    "is it a an the this that and but or also both constraint system one equation therefore so because are ist und "
-    "thus very clearly of integrable nonintegrable"
+_NEGATIONS = frozenset(
+    {"not", "non", "no", "non-", "not-", "isn't", "isnt", "nicht", "kein", "never", "neither", "nor"}
 )
-_SKIPPED = frozenset(_FILLING.split())
+#: Words over which a negation reaches.
+_FILLING = frozenset({"a", "an", "the", "is", "it", "be", "also", "really"})
+#: Words of other meanings that look like labels.
+_OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear", "nonzero"})
+#: How alike a misspelt word and the label that is meant are.
+ALIKE = 0.86
 _HYPHEN = re.compile("[-\u2010-\u2015_]")
 
 
@@ -114,41 +118,42 @@ def truths(entry: ConstraintEntry) -> dict[str, bool | None]:
 def read_labels(answer: Given) -> dict[str, frozenset[bool]]:
     """For every part that is mentioned whether it is said to hold; both where the answer contradicts itself.
 
-    A negation before a word, joined to it or not, turns it round. Raises TextError for a word that is no label.
+    A negation before a label, joined to it or not, turns it round; what else a sentence says is read over. Raises
+    TextError where there is no label, or a word that may be one and cannot be read.
     """
     found: dict[str, frozenset[bool]] = {}
-    negated = False
+    negated, unread = False, None
     for word in split_words(answer):
         text = word.text.strip(".:!()\"'").lower()
-        if text in _NEGATIONS or text in {"non-", "not-"}:
+        label = None if text in _OTHERS else _label(text)
+        if label is not None:
+            part, holds = label
+            found[part] = found.get(part, frozenset()) | {holds != negated}
+        elif unread is None and "nom" in text:
+            unread = word
+        if text in _NEGATIONS:
             negated = not negated
-            continue
-        if text in _SKIPPED or not text:
-            continue
-        part, holds = _label(text, word.column)
-        found[part] = found.get(part, frozenset()) | {holds != negated}
-        negated = False
-    if not found:
-        raise TextError("there is no label in this answer", 1, "write words such as 'holonomic, scleronomic'")
+        elif label is not None or text not in _FILLING:
+            negated = False
+    if unread is not None or not found:
+        hint = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral"
+        told = f"'{unread.text[:40]}' is no label" if unread is not None else "there is no label in this answer"
+        raise TextError(told, unread.column if unread is not None else 1, hint)
     return found
 
 
-def _label(text: str, column: int) -> tuple[str, bool]:
+def _label(text: str) -> tuple[str, bool] | None:
+    """The part that a word names and whether it says that it holds; misspelt labels are read too."""
     plain = _HYPHEN.sub("", text)
     if plain in _WORDS:
         return _WORDS[plain]
     negated = next((n for n in ("non", "not", "nicht") if plain.startswith(n)), "")
     rest = plain[len(negated) :]
-    near = nearest(plain, _WORDS) if len(plain) > 5 else None
-    if negated and (rest in _WORDS or near is None):
-        near = rest if rest in _WORDS else nearest(rest, _WORDS)
-        if near is not None:
-            part, holds = _WORDS[near]
-            return part, not holds
-    if near is None or near.startswith("non") != plain.startswith("non"):
-        hint = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral"
-        raise TextError(f"'{text[:40]}' is no label", column, hint)
-    return _WORDS[near]
+    near = get_close_matches(rest, [w for w in _WORDS if not w.startswith("n")], 1, ALIKE)
+    if not near:
+        return None
+    part, holds = _WORDS[near[0]]
+    return part, holds != bool(negated)
 
 
 def _word(part: str, holds: bool) -> str:
