@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.blocks import Block, expressions, uses_time
-from dofkit.chart import Chart
 from dofkit.deadline import check
 from dofkit.exact.ring import Ring
 from dofkit.exact.terms import linear_terms
 from dofkit.expr import Expr
+from dofkit.local_chart import Chart
 from dofkit.normal import Finite
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from dofkit import expr as ex
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block
-from dofkit.chart import Chart
 from dofkit.charting import make_chart
 from dofkit.deadline import expired
 from dofkit.exact.balls import FloatPoint, RealSearch, jacobian
@@ -18,6 +17,7 @@ from dofkit.exact.engines import BOTH
 from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.local import ball_point
+from dofkit.local_chart import Chart
 from dofkit.nearby import damped
 from dofkit.rigid import displacements_real
 from dofkit.system import Rotation

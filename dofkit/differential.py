@@ -14,7 +14,6 @@ from flint import arb, nmod_mat
 from dofkit import expr as ex
 from dofkit.answers import Answer, Label, Setting
 from dofkit.blocks import Block, uses_time
-from dofkit.chart import Chart
 from dofkit.charting import make_chart
 from dofkit.exact.balls import (
     BallPoint,
@@ -34,6 +33,7 @@ from dofkit.flow import Span, lie_span
 from dofkit.forms import Frame, Rows, field_frame, pairing
 from dofkit.hidden import hidden_relation
 from dofkit.local import CLEAR, ball_matrix, ball_point
+from dofkit.local_chart import Chart
 from dofkit.normal import Finite, Nonlinear, Pfaffian, Still, with_constants
 from dofkit.proofs import proof
 from dofkit.rank import rank_of

@@ -8,7 +8,6 @@ from math import isfinite
 from dofkit import expr as ex
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block
-from dofkit.chart import Chart
 from dofkit.charting import make_chart
 from dofkit.exact.balls import RealPoint
 from dofkit.exact.ranks import ball_part, dependencies
@@ -17,6 +16,7 @@ from dofkit.exact.trust import doubt
 from dofkit.expr import Expr
 from dofkit.forms import sparse_frame
 from dofkit.local import AtReference, at_reference
+from dofkit.local_chart import Chart
 from dofkit.measured import measure
 from dofkit.rank import without_time
 from dofkit.variety import Variety, field_jacobian, find

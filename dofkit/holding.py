@@ -17,7 +17,6 @@ from dofkit import expr as ex
 from dofkit.analysis import answer
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block
-from dofkit.chart import Chart
 from dofkit.charting import make_chart
 from dofkit.conditions import Condition, holds_at
 from dofkit.emptiness import no_solution
@@ -25,6 +24,7 @@ from dofkit.exact.balls import OutsideDomainError, RealPoint, RealSearch
 from dofkit.exact.field import NoPointError
 from dofkit.exact.program import values
 from dofkit.finite import OFF_REFERENCE
+from dofkit.local_chart import Chart
 from dofkit.normal import Finite
 from dofkit.text import to_text
 from dofkit.variety import find

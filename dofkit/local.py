@@ -10,7 +10,6 @@ from typing import Any
 from flint import arb, ctx
 
 from dofkit import expr as ex
-from dofkit.chart import Chart
 from dofkit.exact.balls import PRECISION, BallPoint, OutsideDomainError, jacobian
 from dofkit.exact.program import values
 from dofkit.exact.ranks import ball_part, dependencies
@@ -18,6 +17,7 @@ from dofkit.exact.ring import Ring
 from dofkit.exact.sparse import SparseRow, echelon, rank_of_rows, sparse
 from dofkit.expr import Expr
 from dofkit.forms import Frame
+from dofkit.local_chart import Chart
 from dofkit.manifold import Local, Manifold
 from dofkit.motion import INDEPENDENT, WHOLE, numeric_dimension
 from dofkit.rank import without_time

@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 
 from dofkit import expr as ex
-from dofkit.chart import Chart
 from dofkit.deadline import check
 from dofkit.exact.balls import FloatPoint, jacobian
 from dofkit.exact.floats import dependency_pattern, greedy_pivots
 from dofkit.exact.program import values
 from dofkit.expr import Expr
+from dofkit.local_chart import Chart
 from dofkit.rigid import displacements_real
 from dofkit.system import Coordinate
 

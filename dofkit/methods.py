@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from dofkit.report import Verdict
 
 MethodName = Literal["auto", "field", "balls"]
+#: What the methods are held against each other in.
+Question = Literal["dof", "integrability", "redundancy", "equivalence"]
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,11 @@ from typing import Any
 
 from flint import nmod_mat
 
-from dofkit.chart import Chart
 from dofkit.deadline import affordable
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.program import values
 from dofkit.exact.sparse import SparseRow
+from dofkit.local_chart import Chart
 
 
 def rank_of(matrix: list[list[Any]], p: int) -> int:

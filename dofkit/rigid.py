@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from dofkit import expr as ex
-from dofkit.chart import Chart, Displacement, displacement_fields
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.field import FieldPoint
 from dofkit.exact.program import gradient, values
+from dofkit.local_chart import Chart, Displacement, displacement_fields
 from dofkit.rank import free_point, rank_of
 
 #: Random real points that are tried.

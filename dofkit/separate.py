@@ -18,10 +18,10 @@ from typing import NamedTuple
 
 import networkx as nx
 
-from dofkit.chart import Chart
 from dofkit.exact.ring import Ring
 from dofkit.exact.sparse import Echelon
 from dofkit.expr import Expr
+from dofkit.local_chart import Chart
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from flint import arb, arb_mat, ctx
 
-from dofkit.chart import Chart
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, jacobian
 from dofkit.exact.floats import independent_part
 from dofkit.exact.program import values
 from dofkit.forms import Frame
+from dofkit.local_chart import Chart
 from dofkit.manifold import Local, Manifold
 from dofkit.motion import numeric_dimension
 from dofkit.rigid import rigid_motions_real

@@ -14,7 +14,6 @@ from typing import Any
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
-from dofkit.chart import Chart
 from dofkit.deadline import check
 from dofkit.emptiness import no_solution
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
@@ -28,6 +27,7 @@ from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.forms import Frame, sparse_frame
 from dofkit.linear import presolve
+from dofkit.local_chart import Chart
 from dofkit.manifold import Local, Manifold
 from dofkit.motion import local_dimension
 from dofkit.rank import free_point, rank_of

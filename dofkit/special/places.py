@@ -11,7 +11,6 @@ from flint import arb, ctx, nmod, nmod_mat
 from dofkit import expr as ex
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, Row, uses_time
-from dofkit.chart import Chart
 from dofkit.charting import make_chart
 from dofkit.exact.balls import PRECISION, BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.field import FieldPoint, NoPointError
@@ -20,6 +19,7 @@ from dofkit.exact.program import values
 from dofkit.expr import Expr
 from dofkit.flow import Flow, columns_of
 from dofkit.forms import Frame, Rows, certified_rank, field_frame, rank_over
+from dofkit.local_chart import Chart
 from dofkit.normal import Finite, Pfaffian
 from dofkit.rank import rank_of
 from dofkit.report import Verdict

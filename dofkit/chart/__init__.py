@@ -1,0 +1,1 @@
+"""Speed against accuracy: every method on scenes whose answers are known, and where each of them fails."""

@@ -1,0 +1,10 @@
+"""The families of stress trials: one function each, in one module a theme."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+from dofkit.chart.trial import Trial
+
+#: Every family by name. ``quick``: a few small members that stand for the others.
+FAMILIES: Mapping[str, Callable[[bool], Iterator[Trial]]] = {}
