@@ -19,7 +19,7 @@ from dofkit.conflicts import conflict
 from dofkit.constancy import about_constants
 from dofkit.count import Facts, count
 from dofkit.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited, part, unless_late
-from dofkit.dependence import merged, redundancies
+from dofkit.dependence import all_needed, merged, redundancies
 from dofkit.exact.balls import PRECISION
 from dofkit.expr import Expr
 from dofkit.integrable import integrable_part
@@ -28,7 +28,7 @@ from dofkit.lowering import lower
 from dofkit.methods import METHODS, MethodName
 from dofkit.normal import Finite
 from dofkit.preparing import prepared
-from dofkit.redundancy import Redundancies, left_open
+from dofkit.redundancy import left_open
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, ForceEntry, Redundancy, Report, weakest
 from dofkit.scene import Scene
 from dofkit.sketch import blank, sketch
@@ -195,7 +195,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
     dof, velocity_dof = outcome.dof, outcome.velocity_dof
     redundant_equations = None if velocity_dof is None else max(0, equations - (len(system.coordinates) - velocity_dof))
     if redundant_equations == 0:
-        dependent = [_all_needed(r, reduced, outcome) for r in dependent]
+        dependent = [all_needed(r, reduced, outcome) for r in dependent]
     entries = entries_of(reduced, setting, outcome, dependent, names, company)
     instantaneous = _instantaneous(system, outcome)
     verdict = weakest(*(e.verdict for e in entries), *(a.verdict for a in outcome.answers))
@@ -241,18 +241,6 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
         modelled=_modelled(system, outcome),
         warnings=_warnings(system, reduced, outcome),
     )
-
-
-def _all_needed(found: Redundancies, reduced: Sequence[Reduced], outcome: Outcome) -> Redundancies:
-    """With no equation too many, what was left open is needed, where every equation takes one freedom at most.
-
-    One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
-    """
-    several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
-    if several or any(a.hidden or a.degenerate for a in outcome.answers):
-        return found
-    needed = {i: reduced[i].equations for i in found.undecided}
-    return replace(found, independent={**found.independent, **needed}, undecided=())
 
 
 def _all(labels: Sequence[bool | None]) -> bool | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import combinations
 
@@ -36,6 +37,18 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     for numbers in _parts(reduced, outcome):
         found += unless_late(partial(_of_part, reduced, setting, outcome, numbers), [left_open(numbers)])
     return found
+
+
+def all_needed(found: Redundancies, reduced: Sequence[Reduced], outcome: Outcome) -> Redundancies:
+    """With no equation too many, what was left open is needed, where every equation takes one freedom at most.
+
+    One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
+    """
+    several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
+    if several or any(a.hidden or a.degenerate for a in outcome.answers):
+        return found
+    needed = {i: reduced[i].equations for i in found.undecided}
+    return replace(found, independent={**found.independent, **needed}, undecided=())
 
 
 def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:

@@ -68,7 +68,7 @@ def entry(
     proofs = _proofs(form, [p for p in shown if isinstance(p, Pfaffian)], by_itself, setting)
     traits = [told_of(p) for p in shown]
     times = [t.scleronomic for t in traits]
-    in_system, sure = _in_system(told, inequalities, proofs, forms)
+    in_system, sure = label_in_system(told, inequalities, proofs, forms)
     own, sure_own = _alone(form, by_itself, proofs, forms, inequalities)
     if consistent is False and in_system is None:
         in_system, sure = own, sure_own
@@ -157,7 +157,7 @@ def _labels(in_system: bool | None, own: bool | None, told: Sequence[Told]) -> L
     return Labels(in_system, own, next(iter(late + undecided), ""), bool(told), next(reduced, ""))
 
 
-def _in_system(
+def label_in_system(
     told: Sequence[Told], inequalities: Sequence[Inequality], proofs: Sequence[Integrability], forms: Sequence[Pfaffian]
 ) -> tuple[bool | None, Verdict]:
     """(holonomic, verdict): all rows are consequences of finite relations; an inequality never is."""

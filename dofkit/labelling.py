@@ -11,7 +11,7 @@ from dofkit.answers import Answer, Setting
 from dofkit.blocks import Row, coordinates_of
 from dofkit.constancy import fixed_constants
 from dofkit.deadline import OutOfTimeError, check
-from dofkit.entries import Told, entry, unfinished
+from dofkit.entries import Told, entry, label_in_system, unfinished
 from dofkit.equations import said
 from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
@@ -20,7 +20,7 @@ from dofkit.modulo import label
 from dofkit.normal import Inequality, Nonlinear, Pfaffian, Piece, Still
 from dofkit.reasons import Others
 from dofkit.redundancy import Redundancies
-from dofkit.report import ConstraintEntry
+from dofkit.report import ConstraintEntry, Verdict
 from dofkit.solving import Outcome, Reduced
 from dofkit.together import Companionship
 from dofkit.twins import nameless
@@ -63,6 +63,16 @@ def entries_of(
         except OutOfTimeError as error:
             entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
     return entries
+
+
+def labels_in_system(
+    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
+) -> list[tuple[bool | None, Verdict]]:
+    """Whether each constraint is holonomic in the system, and how sure; what needs an integral found is left None."""
+    told = _told(len(reduced), outcome, setting)
+    if not outcome.consistent:
+        return [(None, "undecided")] * len(reduced)
+    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
 
 
 def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:

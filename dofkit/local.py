@@ -10,7 +10,7 @@ from typing import Any
 from flint import arb, ctx
 
 from dofkit import expr as ex
-from dofkit.exact.balls import PRECISION, BallPoint, OutsideDomainError, jacobian
+from dofkit.exact.balls import BallPoint, OutsideDomainError, jacobian, precision
 from dofkit.exact.program import values
 from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.ring import Ring
@@ -179,7 +179,7 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
 
 def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
     """The reference configuration with balls; symbols without a value get random ones."""
-    ctx.prec = PRECISION
+    ctx.prec = precision()
     symbols: dict[Expr, Any] = {}
     for var in chart.ring.vars:
         if var.kind != "symbol":

@@ -21,7 +21,7 @@ from flint import arb, ctx
 
 from dofkit.crossing import UNDECIDED, by_signs, decide
 from dofkit.degrees import degree as degree_of
-from dofkit.exact.balls import PRECISION
+from dofkit.exact.balls import precision
 from dofkit.exact.ring import Scalar
 from dofkit.manifold import Local, Manifold, is_zero
 from dofkit.nearby import holds_away
@@ -42,7 +42,7 @@ def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: in
     ``field`` is over GF(p), where a coefficient that is not 0 proves that the function is not; ``ball`` at the
     same point decides signs. ``time`` is the number of its column, if it is one.
     """
-    with ctx.workprec(max(ctx.prec, PRECISION)):
+    with ctx.workprec(max(ctx.prec, precision())):
         return _local_dimension(field, ball, rigid, time)
 
 

@@ -9,7 +9,7 @@ from frameworks import Framework
 from randoms import Bodies, coarse, dependent, graph, loop, tree
 
 import dofkit
-from dofkit.methods import METHODS, MethodName
+from dofkit.methods import BY_ENGINES, MethodName
 from dofkit.report import Report
 
 DIMENSIONS = (1, 2, 3)
@@ -53,7 +53,7 @@ def test_scenes_agree_with_the_graph_in_general_position(dimension: int) -> None
         redundant = [f"bar{i}" for i in dependent(drawn)]
         dof = drawn.by_rank()
         for scene in (drawn.scene(drawn=False), drawn.scene()):
-            for method in METHODS:
+            for method in BY_ENGINES:
                 report = classified(scene, method)
                 assert (report.dof, report.velocity_dof) == (dof, dof)
                 assert sorted(report.redundant, key=lambda name: int(name[3:])) == redundant
@@ -70,7 +70,7 @@ def test_special_positions(dimension: int) -> None:
     for _ in range(CLASSIFIED):
         drawn = coarse(rng, graph(rng, dimension, rng.randrange(3, 7)))
         first = drawn.by_rank()
-        reports = [classified(drawn.scene(), method) for method in METHODS]
+        reports = [classified(drawn.scene(), method) for method in BY_ENGINES]
         assert [r.instantaneous_dof for r in reports] == [first] * len(reports)
         assert drawn.by_svd() == first
         known = {r.dof for r in reports if r.dof is not None}

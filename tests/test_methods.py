@@ -13,14 +13,14 @@ from typer.testing import CliRunner
 import dofkit
 from dofkit.cli import app
 from dofkit.exact.engines import BOTH
-from dofkit.methods import METHODS, MethodName
+from dofkit.methods import BY_ENGINES, METHODS, MethodName
 from dofkit.report import VERDICTS, Report
 
 ROOT = Path(__file__).parent.parent
 SCENES = sorted((ROOT / "catalog").glob("*/*.yaml")) + [
     path for path in sorted((ROOT / "tests/scenes").glob("*/*.yaml")) if path.parent.name != "bad"
 ]
-ALONE = tuple(name for name in METHODS if name != "auto")
+ALONE = tuple(name for name in BY_ENGINES if name != "auto")
 WHOLE = ("consistent", "dof", "velocity_dof", "instantaneous_dof", "singular", "holonomic", "scleronomic")
 WHOLE += ("redundant_equations", "growth_vector")
 ENTRY = ("form", "holonomic", "holonomic_alone", "scleronomic", "catastatic", "bilateral", "exact", "independent")
@@ -44,7 +44,7 @@ KNOWN: dict[tuple[str, MethodName], tuple[tuple[str, ...], str]] = {
 @cache
 def reports(path: Path) -> dict[str, Report]:
     scene = dofkit.load(path)
-    return {name: dofkit.classify(scene, method=name) for name in METHODS}
+    return {name: dofkit.classify(scene, method=name) for name in BY_ENGINES}
 
 
 def disagreements(told: Report, auto: Report) -> list[str]:
@@ -94,7 +94,7 @@ def test_most_scenes_are_answered_by_one_engine_alone() -> None:
 def test_the_table_is_complete() -> None:
     assert tuple(METHODS) == get_args(MethodName)
     assert METHODS["auto"].engines == BOTH
-    assert all(m.engines and m.sound_for and m.cannot and m.best in VERDICTS for m in METHODS.values())
+    assert all(m.summary and m.uses and m.cannot and m.best in VERDICTS for m in METHODS.values())
 
 
 def told(method: MethodName, *constraints: str, **more: Any) -> Report:
@@ -130,12 +130,12 @@ def test_a_field_alone_does_not_tell_whether_anything_real_is_left() -> None:
     assert told("field", "x^2 + y^2 = 1").dof == 2
     assert told("balls", "x^2 + y^2 = 1").consistent is True
     apart = ("x^2 + y^2 = 1", "(x - 5)^2 + y^2 = 1")
-    assert {m: told(m, *apart).consistent for m in METHODS} == {"auto": False, "field": None, "balls": None}
+    assert {m: told(m, *apart).consistent for m in BY_ENGINES} == {"auto": False, "field": None, "balls": None}
 
 
 def test_balls_alone_do_not_tell_a_contradiction() -> None:
     nested = ("x^2 + y^2 = 1", "x^2 + y^2 = 2")
-    assert [told(m, *nested).consistent for m in METHODS] == [False, False, None]
+    assert [told(m, *nested).consistent for m in BY_ENGINES] == [False, False, None]
 
 
 def test_a_field_alone_answers_nothing_where_functions_may_be_related() -> None:
@@ -154,7 +154,7 @@ def test_measured_geometry_has_no_points_over_a_field() -> None:
         "tolerance": 1e-6,
     }
     scene = dofkit.load(made)
-    assert [dofkit.classify(scene, method=m).dof for m in METHODS] == [3, None, 3]
+    assert [dofkit.classify(scene, method=m).dof for m in BY_ENGINES] == [3, None, 3]
 
 
 def test_the_command_line_takes_a_method() -> None:

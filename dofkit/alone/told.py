@@ -22,7 +22,16 @@ class Knobs:
 
 @dataclass(frozen=True)
 class Told:
-    """What a method answers to a question: None where it cannot or does not, and then why."""
+    """What a method answers to a question: None where it cannot or does not, and then why.
+
+    ``cannot``: it never answers such a question, or one about such a scene; else it tried.
+    """
 
     value: Any | None
     reason: str = ""
+    cannot: bool = False
+
+
+def cannot(reason: str) -> Told:
+    """Nothing, and why."""
+    return Told(None, reason, cannot=True)

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -30,8 +32,29 @@ STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
 HALVINGS = 8
 #: After this many singular points no regular one is looked for.
 SINGULAR_TRIES = 4
-#: Relative size of a Newton step that ends the refinement.
-TINY_STEP = 2.0 ** (16 - PRECISION)
+#: A Newton step smaller than the precision by so many bits ends the refinement.
+SPARE_BITS = 16
+_bits: ContextVar[int | None] = ContextVar("ball_bits", default=None)
+
+
+@contextmanager
+def balls_of(bits: int | None) -> Iterator[None]:
+    """Compute with balls of so many bits within, None for as many as are needed: what few bits tell can be measured."""
+    token = _bits.set(bits)
+    try:
+        yield
+    finally:
+        _bits.reset(token)
+
+
+def precision() -> int:
+    """The bits of a ball."""
+    return _bits.get() or PRECISION
+
+
+def fixed_bits() -> int | None:
+    """The bits that were asked for; None where they may be raised."""
+    return _bits.get()
 
 
 class OutsideDomainError(Exception):
@@ -272,7 +295,7 @@ class RealSearch:
         """
         if any(symbols[p] <= 0 for p in self.positive if p in symbols):
             return None
-        ctx.prec = max(ctx.prec, PRECISION)
+        ctx.prec = max(ctx.prec, precision())
         _, _, rows, columns = independent_part(j)
         found = self._refined(symbols, rows, columns, seed)
         if (found is not None and found.certified and found.consistent) or len(rows) == len(self.nodes):
@@ -319,15 +342,16 @@ class RealSearch:
         nodes = [self.nodes[r] for r in rows]
         unknowns = [self.unknowns[c] for c in columns]
         indices = [self.columns[c] for c in columns]
+        tiny = 2.0 ** (SPARE_BITS - precision())
         try:
             for _ in range(NEWTON_STEPS):
                 f, j = self._ball_system(exact, nodes, indices, seed)
                 step = j.solve(f)
                 for i, u in enumerate(unknowns):
                     exact[u] = (exact[u] - step[i, 0]).mid()
-                if all(abs(step[i, 0]) <= (1 + abs(exact[u])) * TINY_STEP for i, u in enumerate(unknowns)):
+                if all(abs(step[i, 0]) <= (1 + abs(exact[u])) * tiny for i, u in enumerate(unknowns)):
                     break
-            radius = arb(0, arb(2) ** -(PRECISION // 2))
+            radius = arb(0, arb(2) ** -(precision() // 2))
             boxed = {**exact, **{u: exact[u] + radius for u in unknowns}}
             f, _ = self._ball_system(exact, nodes, indices, seed)
             _, j = self._ball_system(boxed, nodes, indices, seed)

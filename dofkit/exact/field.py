@@ -8,7 +8,9 @@ the unit circle; exp, log, inverse and unknown functions are independent; roots 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from fractions import Fraction
 from functools import cache
 from math import gcd, lcm
@@ -25,6 +27,19 @@ PRIME_BITS = 61
 PRIME_TRIES = 4000
 #: Primes that are tried where roots of roots must exist: each does modulo every other prime or so.
 NESTED_TRIES = 12
+
+
+_bits: ContextVar[int] = ContextVar("prime_bits", default=PRIME_BITS)
+
+
+@contextmanager
+def primes_of(bits: int) -> Iterator[None]:
+    """Draw primes of so many bits within: how often small ones err can be measured so. Below 5 there is none."""
+    token = _bits.set(bits)
+    try:
+        yield
+    finally:
+        _bits.reset(token)
 
 
 class NoPointError(Exception):
@@ -47,14 +62,18 @@ def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
     return tuple(sorted(found))
 
 
-@cache
 def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int) -> int:
     """A random prime p = 1 modulo 8 and the order, modulo which the given roots of numbers exist."""
+    return _prime(order, roots, seed, _bits.get())
+
+
+@cache
+def _prime(order: int, roots: tuple[tuple[int, int], ...], seed: int, bits: int) -> int:
     rng = random.Random(f"dofkit prime {order} {roots} {seed}")
     step = lcm(8, 2 * order)
     for _ in range(PRIME_TRIES):
-        p = step * (rng.getrandbits(PRIME_BITS) // step) + 1
-        if p.bit_length() < PRIME_BITS - 1 or not fmpz(p).is_probable_prime():
+        p = step * (rng.getrandbits(bits) // step) + 1
+        if p.bit_length() < bits - 1 or not fmpz(p).is_probable_prime():
             continue
         if all(_has_root(value, degree, p) for value, degree in roots):
             return p

@@ -9,7 +9,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
 from dofkit.exact.algebraic import proved_zero
-from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
+from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch, fixed_bits
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.field import NoPointError, field_point
@@ -89,7 +89,8 @@ def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:
 def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
     """A ball at some real point excludes 0 as the value of a node."""
     search = RealSearch(ring, (), (), positive)
-    for precision in PRECISIONS:
+    bits = fixed_bits()
+    for precision in PRECISIONS if bits is None else (bits,):
         with ctx.workprec(precision):
             if any(_excluded_at(ring, node, BallPoint(search.start(seed, {}), seed)) for seed in range(8)):
                 return True

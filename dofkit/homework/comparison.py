@@ -8,7 +8,7 @@ branch, weaker, stronger, different, empty, differentiated, integrated with or w
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 from itertools import chain
@@ -18,6 +18,7 @@ from dofkit.answers import Setting
 from dofkit.blocks import Row, split
 from dofkit.charting import make_chart
 from dofkit.deadline import part, unless_late
+from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.field import NoPointError
 from dofkit.exact.sparse import rank_of_rows
 from dofkit.expr import Expr
@@ -66,12 +67,14 @@ class Compared:
     met: tuple[bool, ...] = ()
 
 
-def compare(scene: Scene, asked: Sequence[str], constants: frozenset[str] = frozenset()) -> Compared:
+def compare(
+    scene: Scene, asked: Sequence[str], constants: frozenset[str] = frozenset(), engines: Engines = BOTH
+) -> Compared:
     """Compare the constraints of ``scene`` called `ANSWER` with those called ``asked``.
 
-    ``constants``: parameters that the answer brought with it, as constants of integration.
+    ``constants``: parameters that the answer brought with it, as constants of integration; ``engines`` decide.
     """
-    return _comparison(scene, asked, constants).result()
+    return _comparison(scene, asked, constants, engines).result()
 
 
 def is_integral(scene: Scene, asked: str) -> bool | None:
@@ -82,9 +85,10 @@ def is_integral(scene: Scene, asked: str) -> bool | None:
     return _comparison(scene, (asked,), frozenset()).integrates()
 
 
-def _comparison(scene: Scene, asked: Sequence[str], constants: frozenset[str]) -> Comparison:
+def _comparison(scene: Scene, asked: Sequence[str], constants: frozenset[str], engines: Engines = BOTH) -> Comparison:
     system = lower(scene)
     reduced, setting = prepared(system)
+    setting = replace(setting, engines=engines)
     return Comparison(system, tuple(reduced), setting, tuple(asked), constants)
 
 

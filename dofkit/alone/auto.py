@@ -1,0 +1,41 @@
+"""What dofkit itself answers, doing no more than the question needs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from dofkit.alone.told import Knobs, Told
+from dofkit.asking import Reply, asked
+from dofkit.exact.engines import BOTH, Engines
+from dofkit.methods import Question
+from dofkit.scene import Scene
+
+
+def told(scene: Scene, question: Question, answer: Mapping[str, str] | None = None, engines: Engines = BOTH) -> Told:
+    """The answer of some engines."""
+    found: Reply = asked(scene, question, answer, engines=engines)
+    return Told(found.value, found.reason)
+
+
+def dof(scene: Scene, knobs: Knobs) -> Told:
+    """The number of degrees of freedom, -1 for a contradiction."""
+    del knobs
+    return told(scene, "dof")
+
+
+def integrability(scene: Scene, knobs: Knobs) -> Told:
+    """Whether each constraint is holonomic in the system."""
+    del knobs
+    return told(scene, "integrability")
+
+
+def redundancy(scene: Scene, knobs: Knobs) -> Told:
+    """The constraints that can be dropped together."""
+    del knobs
+    return told(scene, "redundancy")
+
+
+def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
+    """Whether the answer says the same as a constraint in the presence of the others."""
+    del knobs
+    return told(scene, "equivalence", answer)

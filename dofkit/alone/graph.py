@@ -1,0 +1,96 @@
+"""Who is joined to whom: ranks in general position, by the graph for links, else at random places modulo a prime."""
+
+from __future__ import annotations
+
+from dofkit.alone.told import Knobs, Told, cannot
+from dofkit.exact.field import prime_for
+from dofkit.exact.sparse import SparseRow, rank_of_rows
+from dofkit.linkage import Linkage, linkage
+from dofkit.lowering import lower
+from dofkit.placed import general
+from dofkit.redundancy import Rows, analyse
+from dofkit.scene import Scene
+from dofkit.system import System
+from dofkit.twists import KINDS, rows_of
+
+WRITTEN = "'{}' is no link and no joint: a graph says nothing of what was written as an equation, or rolls"
+
+
+def outside(system: System) -> str | None:
+    """Why the graph does not tell of a system: what is neither a link nor a joint."""
+    joined = {c.constraint for c in system.connections if c.type in KINDS}
+    other = next((c.name for i, c in enumerate(system.constraints) if i not in joined), None)
+    return None if other is None else WRITTEN.format(other)
+
+
+def links(system: System) -> list[tuple[int, tuple[str, str]]] | None:
+    """The ends of every link, with its constraint, where there are only links between particles."""
+    particles = set(system.particles)
+    if not all(c.type in ("link", "rigid") and particles.issuperset(c.members) for c in system.connections):
+        return None
+    found = []
+    for c in system.connections:
+        names = [point.carrier for point in c.points]
+        found += [(c.constraint, (a, b)) for i, a in enumerate(names) for b in names[i + 1 :]]
+    return found
+
+
+def framework(system: System, pairs: list[tuple[int, tuple[str, str]]]) -> Linkage:
+    """The graph of links."""
+    return linkage([pair for _, pair in pairs], system.dimension)
+
+
+def generic_rows(system: System, seed: int) -> tuple[list[SparseRow], list[int], int]:
+    """(rows, the constraint of each, p): every connection at random places modulo p."""
+    p = prime_for(1, (), seed)
+    placement = general(system, p, seed)
+    rows: list[SparseRow] = []
+    owners: list[int] = []
+    for c, found in zip(system.connections, placement.located, strict=True):
+        own = [{k: int(v % p) for k, v in row.items() if v % p} for row in rows_of(found, system.dimension) or []]
+        rows += own
+        owners += [c.constraint] * len(own)
+    return rows, owners, p
+
+
+def rank(system: System, seed: int) -> int:
+    """The rank in general position."""
+    pairs = links(system)
+    if pairs is not None:
+        return len(pairs) - len(framework(system, pairs).redundant_places)
+    rows, _, p = generic_rows(system, seed)
+    return rank_of_rows(rows, p)
+
+
+def dof(scene: Scene, knobs: Knobs) -> Told:
+    """Coordinates less the rank in general position."""
+    system = lower(scene)
+    why = outside(system)
+    return Told(len(system.coordinates) - rank(system, knobs.seed)) if why is None else cannot(why)
+
+
+def integrability(scene: Scene, knobs: Knobs) -> Told:
+    """Links and joints are finite."""
+    del knobs
+    system = lower(scene)
+    why = outside(system)
+    return Told({c.name: True for c in system.constraints}) if why is None else cannot(why)
+
+
+def redundancy(scene: Scene, knobs: Knobs) -> Told:
+    """By the rank in general position with and without each."""
+    system = lower(scene)
+    why = outside(system)
+    if why is not None:
+        return cannot(why)
+    names = [c.name for c in system.constraints]
+    return Told([names[i] for i in redundant(system, knobs.seed)])
+
+
+def redundant(system: System, seed: int) -> list[int]:
+    """The constraints that can be dropped together in general position, the last written first."""
+    pairs = links(system)
+    if pairs is not None and len({i for i, _ in pairs}) == len(pairs):
+        return sorted(pairs[k][0] for k in framework(system, pairs).redundant_places)
+    rows, owners, p = generic_rows(system, seed)
+    return analyse([Rows(rows, owners, [True] * len(rows), p)]).redundant
