@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import random
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from flint import arb, arb_mat, ctx
 
+from dofkit.deadline import check
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, jacobian
 from dofkit.exact.floats import independent_part
 from dofkit.exact.program import values
+from dofkit.expr import Expr
 from dofkit.forms import Frame
 from dofkit.local_chart import Chart
 from dofkit.manifold import Local, Manifold
 from dofkit.motion import numeric_dimension
 from dofkit.rigid import rigid_motions_real
 
-#: Working precision, steps (each halves the distance to the singular point), and the radius given to the result.
-BITS, STEPS, RADIUS_BITS = 700, 110, 84
-#: Relations are smaller than this near a singular point that was reached.
-RESIDUAL_BITS = 150
+#: Working precision, steps, and the radius given to the result.
+BITS, STEPS, RADIUS_BITS = 2800, 60, 250
+#: Each step halves the distance to a singular point; from here on every third is taken twice, which squares it.
+SETTLED = 8
+#: Relations are smaller than this at a singular point that was reached; a gap of 10^-64 and its square are not.
+RESIDUAL_BITS = 1000
+#: So far from the point two more steps show whether each halves the distance, or goes to a regular point at once.
+ASIDE_BITS = 450
 MAX_ROWS = 40
 #: A gradient shorter than this at the converged point is taken for 0.
 TINY = 1e-12
@@ -62,30 +69,47 @@ def _look(chart: Chart, real: RealPoint) -> Local | None:
 
 
 def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
-    """Gauss-Newton with minimal steps in high precision; at a singular point each step halves the error.
+    """Gauss-Newton with minimal steps in high precision; where each halves the error, two at once leave its square.
 
-    None where the last step does better: the point is a regular one, on something very small.
+    None where the steps do better: the point is a regular one, on something very small.
     """
     symbols: dict[Any, arb] = {s: arb(v.mid()) if isinstance(v, arb) else arb(v) for s, v in real.point.symbols.items()}
     moved = [s for s in chart.unknowns if chart.ring.var_index(s) is not None]
-    indices = [chart.ring.var_index(s) or 0 for s in moved]
-    size = before = arb(1)
-    for _ in range(STEPS):
-        point = BallPoint(symbols, 0)
-        at = values(chart.ring, point)
-        f = [arb(at[n].mid()) for n in chart.nodes]
-        if max(abs(v) for v in f) < arb(2) ** (-4 * RADIUS_BITS):
+    for number in range(STEPS):
+        times = 2 if number >= SETTLED and number % 3 == 2 else 1
+        size = _stepped(chart, symbols, moved, times)
+        if size < arb(2) ** (-2 * RADIUS_BITS):
             break
-        step = _minimal_step(jacobian(chart.ring, at, point, chart.nodes, indices, arb(0)), f)
-        for s, d in zip(moved, step, strict=True):
-            symbols[s] = (symbols[s] - d).mid()
-        before, size = size, max(abs(d) for d in step)
-    if 16 * size < before:
+    else:
         return None
-    if not size < arb(2) ** (-RADIUS_BITS - 8) or not _on_the_set(chart, BallPoint(symbols, 0)):
+    if not _on_the_set(chart, BallPoint(symbols, 0)) or not _halving(chart, symbols, moved):
         return None
     radius = arb(0, arb(2) ** -RADIUS_BITS)
     return BallPoint({s: v + radius if s in set(moved) else v for s, v in symbols.items()}, 0)
+
+
+def _stepped(chart: Chart, symbols: dict[Any, arb], moved: Sequence[Expr], times: int = 1) -> arb:
+    """Move by so many times the step of Gauss and Newton; its size."""
+    check()
+    point = BallPoint(symbols, 0)
+    at = values(chart.ring, point)
+    f = [arb(at[n].mid()) for n in chart.nodes]
+    indices = [chart.ring.var_index(s) or 0 for s in moved]
+    step = _minimal_step(jacobian(chart.ring, at, point, chart.nodes, indices, arb(0)), f)
+    for s, d in zip(moved, step, strict=True):
+        symbols[s] = (symbols[s] - times * d).mid()
+    return max((abs(d) for d in step), default=arb(0))
+
+
+def _halving(chart: Chart, symbols: Mapping[Any, arb], moved: Sequence[Expr]) -> bool:
+    """Is the point singular: from beside it, does each step only halve the distance?"""
+    rng = random.Random("dofkit beside")
+    beside = dict(symbols)
+    for s in moved:
+        beside[s] = beside[s] + arb(rng.randrange(-999, 1000)) * arb(2) ** (-ASIDE_BITS - 10)
+    _stepped(chart, beside, moved)
+    before = _stepped(chart, beside, moved)
+    return not 16 * _stepped(chart, beside, moved) < before
 
 
 def _on_the_set(chart: Chart, point: BallPoint) -> bool:

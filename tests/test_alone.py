@@ -9,7 +9,7 @@ import pytest
 
 import dofkit
 import dofkit.alone
-from dofkit.alone import Knobs, answered, answering
+from dofkit.alone import answered, answering
 from dofkit.methods import METHODS, QUESTIONS, MethodName, Question
 
 HOME = Path(dofkit.alone.__file__).parent
