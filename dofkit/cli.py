@@ -154,6 +154,49 @@ def grade(
         raise typer.Exit(UNREADABLE)
 
 
+@app.command()
+def chart(
+    question: Annotated[
+        list[str] | None, typer.Option("--question", metavar="Q", help="dof, integrability, redundancy, equivalence.")
+    ] = None,
+    families: Annotated[
+        list[str] | None, typer.Option("--families", metavar="NAME,...", help="Of the trials; by default all.")
+    ] = None,
+    methods: Annotated[list[str] | None, typer.Option("--methods", metavar="NAME,...", help="By default all.")] = None,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Where data and figures go.")] = Path(
+        "dofkit-chart"
+    ),
+    source: Annotated[
+        Path | None, typer.Option("--from", metavar="DIR", help="Draw again from the data of a run.")
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="A few small trials of each family: under a minute.")] = False,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A Dask cluster that does the work.")
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option("--workers", metavar="N", min=1, help="Processes; by default one for each core.")
+    ] = None,
+    timeout: Annotated[
+        float | None,
+        typer.Option("--timeout", metavar="SECONDS", min=0.01, help="Processor time for each trial and method."),
+    ] = None,
+) -> None:
+    """Chart speed against accuracy: every method on scenes whose answers are known."""
+    from dofkit.chart.command import Options, run
+    from dofkit.chart.selecting import Selection
+
+    selection = Selection(question or (), families or (), methods or (), quick)
+    try:
+        whole = run(Options(selection, out, source, scheduler, workers, timeout))
+    except (DofkitError, OSError) as error:
+        if isinstance(error, BrokenPipeError):
+            raise
+        _fail("chart", error)
+        raise typer.Exit(UNREADABLE) from None
+    if not whole:
+        raise typer.Exit(INTERRUPTED)
+
+
 @assignment_app.command("new")
 def assignment_new(
     scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Paths or catalog names.")],

@@ -22,10 +22,11 @@ from dofkit.homework.batch import Orders
 from dofkit.homework.formats import coursera, gradescope, prairielearn
 from dofkit.homework.formats.documents import text
 from dofkit.homework.judgement import needs_review
-from dofkit.homework.keeper import Keeper, StoppedError
+from dofkit.homework.keeper import Keeper
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sources import DOCUMENTS, LINES, TABLES, Handed, handed
 from dofkit.homework.submission import Place, clean
+from dofkit.workers.crews import StoppedError
 
 #: A longer file of a platform is not read.
 MOST_BYTES = 8_000_000

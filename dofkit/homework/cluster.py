@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import Future
 from dataclasses import dataclass
 from functools import lru_cache
 from types import TracebackType
-from typing import Any
 
 from dofkit.homework.batch import Orders
-from dofkit.homework.keeper import Graded, Keeper, StoppedError
+from dofkit.homework.keeper import Graded, Keeper
 from dofkit.homework.sources import Handed
+from dofkit.workers import crews
 from dofkit.workers.pool import cores
-
-#: How often a task is given to another machine where the first is lost, and seconds to reach the scheduler.
-RETRIES, CONNECTING = 10, 10.0
 
 
 class Cluster:
@@ -22,20 +20,12 @@ class Cluster:
 
     def __init__(self, address: str, orders: Orders) -> None:
         self._orders = orders
-        try:
-            import distributed
-
-            library: Any = distributed
-            self._client = library.Client(address, timeout=CONNECTING, set_as_default=False)
-        except ImportError:
-            raise StoppedError("--scheduler needs distributed: pip install 'dofkit[cluster]'") from None
-        except (OSError, ValueError, TimeoutError) as error:
-            raise StoppedError(f"the scheduler at {address} does not answer ({type(error).__name__})") from None
-        self.width = max(1, sum(self._client.nthreads().values()))
+        self._machines = crews.Cluster(address)
+        self.width = self._machines.width
 
     def submit(self, handed: Sequence[Handed]) -> Task:
         """Begin with a batch."""
-        return Task(self._client.submit(graded, self._orders, tuple(handed), pure=False, retries=RETRIES))
+        return Task(self._machines.submit(graded, self._orders, tuple(handed)))
 
     def __enter__(self) -> Cluster:
         return self
@@ -43,22 +33,21 @@ class Cluster:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._client.close()
+        self._machines.__exit__(kind, error, trace)
 
 
 @dataclass(frozen=True)
 class Task:
     """A batch under way."""
 
-    future: Any
+    future: Future[Graded]
 
     def result(self) -> Graded:
         """What was found. Raises StoppedError where the cluster gives it up."""
         try:
             return Graded(*self.future.result())
         except Exception as error:
-            said = " ".join(str(error).split())[:200]
-            raise StoppedError(f"the cluster gave a batch up: {type(error).__name__}: {said}") from None
+            raise crews.given_up(error) from None
 
 
 def graded(orders: Orders, handed: tuple[Handed, ...]) -> Graded:

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import NamedTuple
 
-from dofkit.errors import DofkitError
 from dofkit.homework.batch import Line, Orders, Task, graded
 from dofkit.homework.grading import Spot
 from dofkit.homework.sources import Handed
 from dofkit.workers import MEMORY, Job, Outcome, Pool
+from dofkit.workers.crews import StoppedError
 
 #: What a student reads of an answer that broke its worker, by how that ended.
 _ENDED = {
@@ -21,10 +21,6 @@ _ENDED = {
     "died": "working on it took too long or too much memory.",
     "failed": "dofkit failed here.",
 }
-
-
-class StoppedError(DofkitError):
-    """Grading was stopped, or no worker could be started."""
 
 
 class Graded(NamedTuple):

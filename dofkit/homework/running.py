@@ -5,13 +5,14 @@ from __future__ import annotations
 import sqlite3
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future
 from types import TracebackType
 from typing import Protocol
 
 from dofkit.homework.batch import Line, Orders
 from dofkit.homework.keeper import Graded, Keeper
 from dofkit.homework.sources import Handed
+from dofkit.workers.crews import Threads
 
 #: Seconds that a batch should take, and the most submissions and bytes in one.
 BATCH_SECONDS, MOST_IN_BATCH, MOST_BYTES = 0.5, 256, 1_000_000
@@ -41,15 +42,11 @@ class Local:
     def __init__(self, keeper: Keeper, workers: int) -> None:
         self.width = workers
         self._keeper = keeper
-        self._threads = ThreadPoolExecutor(workers)
-        self._running: set[Future[Graded]] = set()
+        self._threads = Threads(workers, keeper.close)
 
     def submit(self, handed: Sequence[Handed]) -> Future[Graded]:
         """Begin with a batch."""
-        future = self._threads.submit(self._keeper.graded, handed)
-        self._running.add(future)
-        future.add_done_callback(self._running.discard)
-        return future
+        return self._threads.submit(self._keeper.graded, handed)
 
     def __enter__(self) -> Local:
         return self
@@ -57,11 +54,7 @@ class Local:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._threads.shutdown(wait=False, cancel_futures=True)
-        self._keeper.close()
-        while running := [future for future in self._running.copy() if not future.done()]:
-            self._keeper.close()
-            wait(running, timeout=0.05)
+        self._threads.__exit__(kind, error, trace)
 
 
 def in_order(runner: Runner, handed: Iterable[Handed]) -> Iterator[tuple[Handed, list[Line]]]:

@@ -49,6 +49,16 @@ def allow_processor(seconds: float) -> None:
         _set(resource.RLIMIT_CPU, math.ceil(time.process_time() + seconds))
 
 
+def cut(seconds: float) -> None:
+    """Let the system end this process once it has used so many more seconds of processor time; 0: never mind.
+
+    Unlike `allow_processor` in fractions of a second, and only where there are such timers.
+    """
+    if sys.platform != "win32":
+        signal.signal(signal.SIGPROF, signal.SIG_DFL)
+        signal.setitimer(signal.ITIMER_PROF, seconds)
+
+
 def grown(memory: int) -> bool:
     """Does this process hold much of the memory that it may have? False where the system does not say.
 

@@ -21,6 +21,8 @@ MEMORY = 4 << 30
 #: Seconds that a worker may take to start.
 STARTING = 60.0
 _JOINING = 2.0
+#: What the system sends a process whose clock, or processor time, has run out.
+_LIMITS = {number for name in ("SIGALRM", "SIGPROF", "SIGXCPU") if (number := getattr(signal, name, None)) is not None}
 
 
 class Worker:
@@ -100,7 +102,7 @@ class Worker:
             while True:
                 heard = link.heard(limit)
                 if heard is None:
-                    return Outcome(value, "died", f"the worker process {link.how()}"), False
+                    return link.outcome(value), False
                 kind, said = heard
                 if kind != "told":
                     return self._ended(value, kind, said)
@@ -108,7 +110,7 @@ class Worker:
         except Empty:
             return Outcome(value, "overrun", f"the worker process was killed after {limit:.3g} s"), False
         except OSError:
-            return Outcome(value, "died", f"the worker process {link.how()}"), False
+            return link.outcome(value), False
 
     def _ended(self, value: Json, kind: str, said: Json) -> tuple[Outcome, bool]:
         if kind == "done":
@@ -146,6 +148,12 @@ class _Link:
             return None if self.heard(STARTING) else self.how()
         except Empty:
             return f"was killed after {STARTING:.3g} s"
+
+    def outcome(self, value: Json) -> Outcome:
+        """Of a job in which the process ended: by a limit that it had set itself, or otherwise."""
+        reason = f"the worker process {self.how()}"
+        status = self.process.poll()
+        return Outcome(value, "overrun" if status is not None and -status in _LIMITS else "died", reason)
 
     def how(self) -> str:
         """How the process ended, as the end of a sentence."""

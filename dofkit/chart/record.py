@@ -1,0 +1,195 @@
+"""What a run leaves: a line for every trial and method, and a summary of all of them with how it was made."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+#: ``cannot``: the method never answers such a question or scene; ``undecided``: it tried, or failed on the way.
+Outcome = Literal["right", "wrong", "undecided", "timed out", "cannot"]
+OUTCOMES: tuple[Outcome, ...] = ("right", "wrong", "undecided", "timed out", "cannot")
+#: The method that is held against all others.
+AUTO = "auto"
+#: What stands for a family where a row is about all of them.
+ALL = "all"
+
+
+@dataclass(frozen=True)
+class Line:
+    """A trial answered by a method: a line of ``trials.csv``, or of ``sweeps.csv``.
+
+    ``told`` is None where nothing was; ``seconds`` of processor time, of what was cut short the limit; ``why`` says
+    in a sentence why it is not right. ``knob`` and ``value``: what was turned on the method, in sweeps.
+    """
+
+    family: str
+    trial: str
+    question: str
+    method: str
+    size: int
+    traits: tuple[str, ...]
+    swept: Mapping[str, Any]
+    truth: Any
+    told: Any
+    outcome: Outcome
+    seconds: float
+    why: str = ""
+    knob: str = ""
+    value: float = 0.0
+    group: str = ""
+
+
+class _Row(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Ran(_Row):
+    """What was run, where and when. Run again, the command gives the same answers; seconds depend on the machine."""
+
+    version: str = Field(description="dofkit's")
+    command: str
+    date: str = Field(description="in UTC, when it began")
+    machine: str = Field(description="the processor, as the system names it")
+    cores: int
+    python: str
+    workers: int
+    limit: float = Field(description="seconds of processor time for a trial and method")
+    quick: bool
+    trials: int
+    lines: int = Field(description="trials times methods")
+    sweeps: int = Field(description="the same in sweeps")
+    seeds: list[int] = Field(description="of what methods draw at random")
+    minutes: float = Field(description="by the clock")
+    complete: bool = Field(description="false where it was interrupted")
+
+
+class Score(_Row):
+    """How a method did on the trials of a family, or of all of them; seconds are those of all but ``cannot``."""
+
+    question: str
+    family: str
+    method: str
+    trials: int
+    right: int
+    wrong: int
+    undecided: int
+    timed_out: int
+    cannot: int
+    median_seconds: float | None
+    low_seconds: float | None = Field(description="the tenth percentile")
+    high_seconds: float | None = Field(description="the ninetieth")
+    total_seconds: float
+
+    @property
+    def share_right(self) -> float:
+        """Right answers among all trials."""
+        return self.right / self.trials
+
+    @property
+    def share_wrong(self) -> float:
+        """Wrong answers among all trials."""
+        return self.wrong / self.trials
+
+
+class Front(_Row):
+    """The methods that no other one beats: as fast, as often right, as seldom wrong, and in one of these better.
+
+    ``never_wrong``: the same among those that were never wrong. Both with the fastest first.
+    """
+
+    question: str
+    methods: list[str]
+    never_wrong: list[str]
+
+
+class Point(_Row):
+    """The median seconds of a method on the trials of one size; ``timed_out`` of them only give a lower bound."""
+
+    question: str
+    family: str
+    method: str
+    size: int
+    seconds: float
+    trials: int
+    timed_out: int
+
+
+class Fit(_Row):
+    """seconds = factor * size^exponent, by least squares on the logarithms of the points of the largest decade."""
+
+    question: str
+    family: str
+    method: str
+    exponent: float
+    error: float = Field(description="the standard error of the exponent")
+    factor: float
+    points: int
+
+
+class Step(_Row):
+    """The outcomes of a method in a sweep, at one value of its knob; ``group`` is a curve."""
+
+    sweep: str
+    method: str
+    group: str
+    value: float
+    trials: int
+    right: int
+    wrong: int
+    undecided: int = Field(description="or timed out")
+
+
+class Against(_Row):
+    """``auto`` against the fastest method that is right on all trials of a family; medians of seconds."""
+
+    question: str
+    family: str
+    fastest: str
+    fastest_seconds: float
+    auto_seconds: float
+    ratio: float = Field(description="the median over trials of the ratio of their seconds")
+
+
+class Reduction(_Row):
+    """A scene answered with one reduction switched off (``off`` empty: none): what it costs."""
+
+    scene: str
+    family: str
+    size: int
+    off: str
+    seconds: float
+    coordinates: int
+    relations: int
+    forms: int
+    largest: int
+    written: int
+    unchanged: bool
+    undecided: bool
+    differs: list[str] = Field(default_factory=list)
+
+
+class Chart(_Row):
+    """``chart.json``: the summary of a run."""
+
+    ran: Ran
+    scores: list[Score]
+    fronts: list[Front]
+    points: list[Point]
+    fits: list[Fit]
+    steps: list[Step]
+    against: list[Against]
+    reductions: list[Reduction]
+    captions: dict[str, str] = Field(description="of every figure, by its name")
+
+
+@dataclass(frozen=True)
+class Data:
+    """All lines of a run, and how it was made."""
+
+    ran: Ran
+    lines: list[Line] = field(default_factory=list)
+    sweeps: list[Line] = field(default_factory=list)
+    reductions: list[Reduction] = field(default_factory=list)

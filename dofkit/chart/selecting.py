@@ -1,0 +1,57 @@
+"""What of all trials and methods is asked for by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import get_args
+
+from dofkit.chart.storing import ChartError
+from dofkit.chart.trial import Trial
+from dofkit.methods import METHODS, Question
+from dofkit.values import suggestion
+
+Families = Mapping[str, Callable[[bool], Iterator[Trial]]]
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Questions, families and methods by name; an empty one stands for all of them."""
+
+    questions: Sequence[str] = ()
+    families: Sequence[str] = ()
+    methods: Sequence[str] = ()
+    quick: bool = False
+
+    def chosen(self, families: Families) -> Selection:
+        """With all names written out. Raises ChartError with the nearest one for a name that is none."""
+        return Selection(
+            _known(self.questions, get_args(Question), "question"),
+            _known(self.families, list(families), "family"),
+            _known(self.methods, list(METHODS), "method"),
+            self.quick,
+        )
+
+    def trials(self, families: Families) -> list[Trial]:
+        """All trials of what was chosen, family by family. Raises ChartError where there are none."""
+        found = [t for name in self.families for t in families[name](self.quick) if t.question in self.questions]
+        if not found:
+            raise ChartError("no trial of these families asks such a question")
+        return found
+
+    def options(self) -> Iterator[str]:
+        """The same, as it is written on the command line."""
+        for option, names in (("question", self.questions), ("families", self.families), ("methods", self.methods)):
+            if names:
+                yield f"--{option} {','.join(names)}"
+        if self.quick:
+            yield "--quick"
+
+
+def _known(asked: Iterable[str], known: Sequence[str], what: str) -> list[str]:
+    names = [name.strip() for one in asked for name in one.split(",") if name.strip()]
+    plural = "families" if what == "family" else f"{what}s"
+    for name in names:
+        if name not in known:
+            raise ChartError(f"there is no {what} '{name}': {suggestion(name, known, plural)}")
+    return [name for name in known if name in names] if names else list(known)

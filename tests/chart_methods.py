@@ -1,0 +1,43 @@
+"""Methods for the tests of the charts: one of each kind, without mechanics. ``size`` in the scene is what they cost."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import time
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from dofkit.alone.told import Knobs, Told
+from dofkit.chart.trial import Trial
+
+
+def answered(
+    scene: Mapping[str, Any], question: str, method: str, knobs: Knobs, answer: Mapping[str, str] | None
+) -> Told:
+    """What each of them tells; the truth is 2."""
+    del question, answer
+    size = scene.get("size", 1)
+    if method == "hangs" and size > 2:
+        while True:
+            pass
+    if method == "sleeps" and size > 2:
+        time.sleep(60)
+    if method == "crashes" and "size" in scene:
+        ctypes.string_at(0)
+    if method == "raises":
+        raise KeyError("x")
+    if method == "process":
+        return Told(os.getpid())
+    if method == "coarse":
+        return Told(2 if knobs.tolerance < 1e-3 else 3)
+    told = {"wrong": 3, "undecided": None, "cannot": None}.get(method, 2)
+    return Told(told, "" if told else f"it is {method}", method == "cannot")
+
+
+def family(quick: bool) -> Iterator[Trial]:
+    """Four sizes, two trials each."""
+    for size in (1, 2) if quick else (4, 1, 2, 8):
+        for k in range(2):
+            scene = {"coordinates": ["x"], "constraints": [], "size": size}
+            yield Trial("boxes", f"box-{size}-{k}", "dof", scene, 2, "by construction", ("large",), size)
