@@ -66,7 +66,7 @@ def _panel(
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.xaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_minor_locator(NullLocator())
-    axes.axhline(limit, color="#999999", linewidth=0.8, linestyle=(0, (2, 2)), zorder=1)
+    axes.plot([sizes[0], sizes[-1]], [limit, limit], color="#999999", linewidth=0.8, linestyle=(0, (2, 2)), zorder=1)
     for method in dict.fromkeys(point.method for point in points):
         curve = sorted((p for p in points if p.method == method), key=lambda p: p.size)
         done = [p for p in curve if p.timed_out < p.trials]

@@ -88,6 +88,9 @@ def sheet(width: float, height: float, title: str, caption: str, keys: Sequence[
     engine: Any = figure.get_layout_engine()
     engine.set(rect=(0.005, below / whole, 0.99, height / whole), w_pad=0.06, h_pad=0.06)
     figure.text(0.15 / width, 1 - 0.12 / whole, title, fontsize=12.5, fontweight="bold", va="top")
+    if keys:
+        place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0.08 / width, 1 - 0.36 / whole)}
+        figure.legend(handles=keys, ncols=len(keys), frameon=False, fontsize=8.5, borderpad=0.2, **place)
     figure.text(
         0.15 / width, 0.08 / whole, "\n".join(lines), fontsize=7.2, color="#444444", va="bottom", linespacing=1.2
     )
