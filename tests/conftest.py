@@ -1,6 +1,19 @@
-"""Property tests draw the same examples on every run, so that a failure is a change of the code and not luck."""
+"""Property tests draw the same examples on every run, so that a failure is a change of the code and not luck.
 
+All tests of one scene run in one process, which works its report out once.
+"""
+
+from pathlib import Path
+
+import pytest
 from hypothesis import settings
 
 settings.register_profile("steady", derandomize=True, deadline=None, print_blob=True)
 settings.load_profile("steady")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        path = getattr(getattr(item, "callspec", None), "params", {}).get("path")
+        if isinstance(path, Path):
+            item.add_marker(pytest.mark.xdist_group(path.stem))

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from known_scenes import CATALOG, ROOT, SCENES, report_of, scene_of, stem
 
 import dofkit
 import dofkit.documents
@@ -25,13 +26,6 @@ from dofkit.report import ConstraintEntry, Report
 from dofkit.scene import Scene
 from dofkit.text import Names, parse_expression
 
-ROOT = Path(__file__).parent.parent
-CATALOG = sorted((ROOT / "catalog").glob("*/*.yaml"))
-SCENES = [
-    path
-    for folder in ("textbook", "integrability", "mechanisms", "corners", "examples")
-    for path in sorted((ROOT / "tests/scenes" / folder).glob("*.yaml"))
-]
 BAD = ROOT / "tests/scenes/bad"
 #: Keys of `expect` whose lists are sets of names.
 NAMES = ("redundant", "conflicting", "generalized_coordinates")
@@ -40,14 +34,10 @@ ENTRY_NAMES = ("circuit",)
 POINTS = 3
 
 
-def stem(path: Path) -> str:
-    return path.stem
-
-
 @cache
 def document(path: Path) -> dict[str, Any]:
     """The scene's mapping as written, through the same reader as ever."""
-    return dict(dofkit.load(path).model_dump(mode="json", exclude_unset=True))
+    return dict(scene_of(path).model_dump(mode="json", exclude_unset=True))
 
 
 # What is expected against what is told
@@ -196,18 +186,18 @@ def test_integrals_are_compared_as_families(one: str, other: str, same: bool) ->
 # The scenes
 
 
-@pytest.mark.parametrize("path", [*CATALOG, *SCENES], ids=stem)
+@pytest.mark.parametrize("path", SCENES, ids=stem)
 def test_the_report_holds_what_the_scene_expects(path: Path) -> None:
-    scene = dofkit.load(path)
+    scene = scene_of(path)
     assert scene.expect
-    assert differences(scene, scene.expect, dofkit.classify(scene)) == []
+    assert differences(scene, scene.expect, report_of(path)) == []
 
 
 def test_names_are_files_and_unique() -> None:
     names = [path.stem for path in CATALOG]
     assert len(set(names)) == len(names)
     assert sorted(dofkit.catalog_names()) == sorted(names)
-    assert [path for path in [*CATALOG, *SCENES] if dofkit.load(path).name != path.stem] == []
+    assert [path for path in SCENES if scene_of(path).name != path.stem] == []
 
 
 @pytest.mark.parametrize("key", ["title", "source", "expect"])
@@ -216,7 +206,7 @@ def test_every_catalog_scene_tells_where_it_is_from(key: str) -> None:
 
 
 def test_every_constraint_type_has_a_catalog_scene() -> None:
-    seen = {constraint.type for path in CATALOG for constraint in dofkit.load(path).constraints}
+    seen = {constraint.type for path in CATALOG for constraint in scene_of(path).constraints}
     assert sorted(TYPES.keys() - seen) == []
 
 

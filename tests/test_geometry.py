@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from known_scenes import OURS, scene_of, stem
 from rich.console import Console
 
 import dofkit
@@ -16,7 +17,6 @@ from dofkit.exact.sparse import rank_of_rows
 from dofkit.lowering import lower
 from dofkit.placed import drawn
 from dofkit.report import Report
-from dofkit.scene import Scene
 from dofkit.show.terminal import as_text
 from dofkit.system import System
 from dofkit.twists import KINDS, rows_of
@@ -240,23 +240,17 @@ def drawn_rank(system: System) -> int | None:
     return rank_of_rows(rows, p)
 
 
-def expected() -> list[Any]:
-    """Scenes that say what the first order is where all is drawn exactly."""
-    found = []
-    for path in sorted(SCENES.glob("mechanisms/*.yaml")) + sorted(SCENES.glob("textbook/*.yaml")):
-        scene = dofkit.load(path)
-        geometric = all(c.kind() in KINDS for c in scene.constraints)
-        if geometric and scene.tolerance is None and scene.expect.get("instantaneous_dof") is not None:
-            found.append(pytest.param(scene, id=path.stem))
-    return found
-
-
-@pytest.mark.parametrize("scene", expected())
-def test_twists_have_the_rank_of_the_coordinates(scene: Scene) -> None:
+@pytest.mark.parametrize("path", [path for path in OURS if path.parent.name in ("mechanisms", "textbook")], ids=stem)
+def test_twists_have_the_rank_of_the_coordinates(path: Path) -> None:
+    """In scenes that say what the first order is where all is drawn exactly."""
+    scene = scene_of(path)
+    first = scene.expect.get("instantaneous_dof")
+    if first is None or scene.tolerance is not None or any(c.kind() not in KINDS for c in scene.constraints):
+        return
     system = lower(scene)
     rank = drawn_rank(system)
     assert rank is not None
-    assert len(system.coordinates) - rank == scene.expect["instantaneous_dof"]
+    assert len(system.coordinates) - rank == first
 
 
 def test_every_type_is_known_as_a_connection_or_as_a_text() -> None:

@@ -1,18 +1,20 @@
 """Laws: what must not change when a scene is written in another way.
 
-Every law runs over the catalog and the scenes of the tests; the few scenes to which one does not apply are
-told by a predicate, never by name.
+The scenes of the catalog and of the tests are dealt out to the ways of writing them, so that every scene is written
+in several other ways and every way is tried on dozens of scenes. The few scenes to which a law does not apply are told
+by a predicate, never by name.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
-from functools import cache
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
+from known_scenes import SCENES, dealt, report_of, scene_of, stem
 
 import dofkit
 from dofkit.lowering import lower
@@ -20,15 +22,6 @@ from dofkit.naming import Owners
 from dofkit.report import ConstraintEntry, Report, weakest
 from dofkit.scene import Scene
 
-ROOT = Path(__file__).parent.parent
-PATHS = [
-    *sorted((ROOT / "catalog").glob("*/*.yaml")),
-    *(
-        p
-        for folder in ("textbook", "integrability", "mechanisms", "corners", "examples")
-        for p in sorted((ROOT / "tests/scenes" / folder).glob("*.yaml"))
-    ),
-]
 Document = dict[str, Any]
 
 NUMBERS = (
@@ -40,24 +33,14 @@ LABELS = ("form", "holonomic", "holonomic_alone", "scleronomic", "catastatic", "
 STORY = ("title", "source", "notes", "expect", "energies")
 
 
-def stem(path: Path) -> str:
-    return path.stem
-
-
 #: Hundreds of equations, of which a report takes seconds: it is read, and not answered again in other words.
 LARGE = frozenset({"miura-ori-three-by-three"})
-every_scene = pytest.mark.parametrize("path", PATHS, ids=stem)
-every_variation = pytest.mark.parametrize("path", [path for path in PATHS if path.stem not in LARGE], ids=stem)
+VARIED = [path for path in SCENES if path.stem not in LARGE]
+every_scene = pytest.mark.parametrize("path", SCENES, ids=stem)
 
 
-@cache
-def scene_of(path: Path) -> Scene:
-    return dofkit.load(path)
-
-
-@cache
-def report_of(path: Path) -> Report:
-    return dofkit.classify(scene_of(path))
+def on(paths: Sequence[Path]) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("path", paths, ids=stem)
 
 
 def document_of(path: Path) -> Document:
@@ -116,9 +99,19 @@ def has_equation(path: Path) -> bool:
     return any(EQUATION.fullmatch(getattr(c, "text", None) or "=x=") for c in scene_of(path).constraints)
 
 
-@pytest.mark.parametrize("factor", FACTORS)
-@pytest.mark.parametrize("path", [path for path in PATHS if has_equation(path)], ids=stem)
+#: Two factors a scene.
+MULTIPLIED = [
+    pytest.param(path, FACTORS[k], id=f"{path.stem}-{FACTORS[k]}")
+    for i, hand in enumerate(dealt("factors", SCENES, len(FACTORS)))
+    for path in hand
+    for k in (i, (i + 3) % len(FACTORS))
+]
+
+
+@pytest.mark.parametrize(("path", "factor"), MULTIPLIED)
 def test_a_factor_that_never_vanishes_changes_nothing(path: Path, factor: str) -> None:
+    if not has_equation(path):
+        return
     report, other = report_of(path), classified(multiplied(document_of(path), factor, coordinate_of(path)))
     assert numbers(other) == numbers(report)
     assert all_labels(other) == all_labels(report)
@@ -214,7 +207,10 @@ def backwards(scene: Scene) -> Callable[[str], str]:
     return lambda name: numbers.setdefault(name, f"w{999 - len(numbers)}")
 
 
-@every_variation
+RENAMED, COPIED = dealt("names", VARIED, 2)
+
+
+@on(RENAMED)
 def test_names_mean_nothing(path: Path) -> None:
     scene, report = scene_of(path), report_of(path)
     other = classified(Renaming(scene, backwards(scene)).document(document_of(path)))
@@ -230,7 +226,10 @@ def test_names_mean_nothing(path: Path) -> None:
 # The order
 
 
-@every_variation
+BACKWARDS, TURNED = dealt("orders", VARIED, 2)
+
+
+@on(BACKWARDS)
 def test_the_order_of_constraints_means_nothing_to_numbers_and_labels(path: Path) -> None:
     document, report = document_of(path), report_of(path)
     other = classified({**document, "constraints": document["constraints"][::-1]})
@@ -240,7 +239,7 @@ def test_the_order_of_constraints_means_nothing_to_numbers_and_labels(path: Path
     assert len(other.conflicting) == len(report.conflicting)
 
 
-@every_variation
+@on(TURNED)
 def test_the_order_of_coordinates_means_nothing(path: Path) -> None:
     document, report = document_of(path), report_of(path)
     turned = {key: document[key][::-1] for key in ("particles", "bodies", "coordinates") if document.get(key)}
@@ -264,21 +263,29 @@ def has_joints_somewhere(path: Path) -> bool:
     return any(not name.startswith("_L") for name in lower(scene_of(path)).generic)
 
 
-@every_variation
-def test_a_constraint_written_again_is_redundant(path: Path) -> None:
+#: The first constraint of a scene is written again, or the last.
+FIRST, LAST = dealt("again", VARIED, 2)
+
+
+@pytest.mark.parametrize(
+    ("path", "place"),
+    [*((path, 0) for path in FIRST), *((path, -1) for path in LAST)],
+    ids=lambda value: getattr(value, "stem", ""),
+)
+def test_a_constraint_written_again_is_redundant(path: Path, place: int) -> None:
     document, report = document_of(path), report_of(path)
     bilateral = [i for i, e in enumerate(report.constraints) if e.bilateral]
     if report.dof is None or not bilateral or has_joints_somewhere(path):
         return
-    for i in dict.fromkeys((bilateral[0], bilateral[-1])):
-        again = {**document["constraints"][i], "name": "again"}
-        other = classified({**document, "constraints": [*document["constraints"], again]})
-        assert (other.dof, other.velocity_dof) == (report.dof, report.velocity_dof)
-        assert other.redundant_equations == max(0, surplus(report) + report.constraints[i].equations)
-        assert "again" in other.redundant
-        assert len(other.redundant) == len(report.redundant) + 1
-        assert other.constraints[-1].independent == 0
-        assert {**all_labels(other), "again": None} == {**all_labels(report), "again": None}
+    i = bilateral[place]
+    again = {**document["constraints"][i], "name": "again"}
+    other = classified({**document, "constraints": [*document["constraints"], again]})
+    assert (other.dof, other.velocity_dof) == (report.dof, report.velocity_dof)
+    assert other.redundant_equations == max(0, surplus(report) + report.constraints[i].equations)
+    assert "again" in other.redundant
+    assert len(other.redundant) == len(report.redundant) + 1
+    assert other.constraints[-1].independent == 0
+    assert {**all_labels(other), "again": None} == {**all_labels(report), "again": None}
 
 
 # Two copies side by side
@@ -309,7 +316,7 @@ def growth(report: Report) -> list[int] | None:
     return [n - report.growth_vector[0] + report.velocity_dof for n in report.growth_vector]
 
 
-@every_variation
+@on(COPIED)
 def test_two_copies_have_twice_the_freedom(path: Path) -> None:
     report, other = report_of(path), classified(beside(path))
     for key in NUMBERS:
@@ -397,7 +404,7 @@ def test_every_entry_is_of_one_piece(path: Path) -> None:
         assert entry.independent is None or 0 <= entry.independent <= entry.equations
 
 
-@every_variation
+@on(dealt("twice", VARIED, 3)[0])
 def test_the_same_scene_has_the_same_report(path: Path) -> None:
     assert dofkit.classify(dofkit.load(path)) == report_of(path)
 
@@ -428,12 +435,16 @@ def test_the_renaming_renames() -> None:
 
 
 def test_every_kind_of_scene_is_there() -> None:
-    reports = [report_of(path) for path in PATHS]
-    assert {report.consistent for report in reports} == {True, False}
-    assert {report.singular for report in reports} == {True, False, None}
-    assert {entry.form for report in reports for entry in report.constraints} == {
-        "finite",
-        "pfaffian",
-        "nonlinear",
-        "inequality",
-    }
+    """By what the scenes expect, which their reports are held against."""
+    expected = [scene_of(path).expect or {} for path in SCENES]
+    entries = [entry for known in expected for entry in known.get("constraints", {}).values()]
+    assert {known["consistent"] for known in expected if "consistent" in known} == {True, False}
+    assert {known["singular"] for known in expected if "singular" in known} == {True, False, None}
+    assert {entry["form"] for entry in entries if "form" in entry} == {"finite", "pfaffian", "nonlinear", "inequality"}
+
+
+def test_every_way_of_writing_is_tried_on_many_scenes() -> None:
+    assert min(map(len, (RENAMED, COPIED, BACKWARDS, TURNED, FIRST, LAST))) > 150
+    tried = Counter(parameters.values[1] for parameters in MULTIPLIED)
+    assert tried.keys() == set(FACTORS)
+    assert min(tried.values()) > 100

@@ -5,18 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from known_scenes import SCENES, scene_of, stem
 
-import dofkit
 from dofkit.lowering import lower
 
-SCENES = sorted((Path(__file__).parent / "scenes/mechanisms").glob("*.yaml"))
+MECHANISMS = [path for path in SCENES if path.parent.name == "mechanisms"]
 #: Drawn nowhere: lengths in general position, or only constraints.
 UNDRAWN = {"jansen-leg", "klann-leg"}
 
 
-@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", MECHANISMS, ids=stem)
 def test_a_mechanism_has_its_source_its_geometry_and_its_answers(path: Path) -> None:
-    scene = dofkit.load(path)
+    scene = scene_of(path)
     assert scene.title
     assert scene.source
     assert scene.notes
@@ -30,5 +30,5 @@ def test_a_mechanism_has_its_source_its_geometry_and_its_answers(path: Path) -> 
 
 
 def test_there_are_many() -> None:
-    assert len(SCENES) >= 85
-    assert {p.stem for p in SCENES} >= UNDRAWN
+    assert len(MECHANISMS) >= 85
+    assert {p.stem for p in MECHANISMS} >= UNDRAWN

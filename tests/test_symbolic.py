@@ -11,14 +11,11 @@ from typing import Any
 
 import pytest
 import sympy
+from known_scenes import SCENES, report_of, scene_of, stem
 from symbolic import Answer, NotHereError, answer, closed, linear_in, parts_of, relations_of, solved
 
 import dofkit
 
-ROOT = Path(__file__).parent.parent
-PATHS = sorted((ROOT / "catalog").glob("*/*.yaml")) + [
-    p for p in sorted((ROOT / "tests/scenes").glob("*/*.yaml")) if p.parent.name != "bad"
-]
 #: Seconds of processor time for a scene.
 SECONDS = 10.0
 
@@ -76,7 +73,7 @@ Own = dict[int, tuple[bool, bool, bool]]
 @cache
 def forms_of(path: Path) -> tuple[list[tuple[int, sympy.Expr]], list[str]] | None:
     """The relations and coordinates of a scene with differential constraints, all of them linear in the velocities."""
-    relations, names = relations_of(dofkit.load(path))
+    relations, names = relations_of(scene_of(path))
     differential = [linear_in(e, names) is not None for _, e in relations]
     return (relations, names) if any(differential) else None
 
@@ -120,14 +117,13 @@ def finished(work: Callable[[Path], Any], path: Path) -> Any:
         pytest.skip("SymPy did not finish")
 
 
-@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", SCENES, ids=stem)
 def test_the_report_is_what_sympy_works_out(path: Path) -> None:
     found = finished(whole, path)
     if found is None:
         return
     answers, untouched = found
-    scene = dofkit.load(path)
-    report = dofkit.classify(scene)
+    scene, report = scene_of(path), report_of(path)
     if not all(entry.bilateral for entry in report.constraints) and report.consistent is False:
         return
     assert report.consistent in (None, True)
@@ -141,12 +137,12 @@ def test_the_report_is_what_sympy_works_out(path: Path) -> None:
             assert entry.holonomic in (None, all(a.holonomic.get(i, True) for a in answers)), entry.name
 
 
-@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", SCENES, ids=stem)
 def test_a_constraint_alone_is_what_sympy_works_out(path: Path) -> None:
     wanted = finished(apart, path)
     if wanted is None:
         return
-    report = dofkit.classify(dofkit.load(path))
+    report = report_of(path)
     for i, (holonomic, exact, catastatic) in wanted.items():
         entry = report.constraints[i]
         assert entry.holonomic_alone in (None, holonomic), entry.name
@@ -156,7 +152,7 @@ def test_a_constraint_alone_is_what_sympy_works_out(path: Path) -> None:
 
 def test_many_scenes_are_worked_out() -> None:
     """Scenes with differential constraints whose relations this route can read and solve."""
-    assert sum(map(can_be_solved, PATHS)) >= 115
+    assert sum(map(can_be_solved, SCENES)) >= 115
 
 
 def can_be_solved(path: Path) -> bool:

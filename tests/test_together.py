@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from known_scenes import SCENES, report_of, scene_of, stem
 
 import dofkit
 from dofkit import expr as ex
@@ -18,9 +19,6 @@ from dofkit.expr import Expr
 from dofkit.lowering import lower
 from dofkit.normal import linear_form
 from dofkit.text import Names, parse_relations
-
-HERE = Path(__file__).parent
-SCENES = sorted([*(HERE / "scenes").rglob("*.yaml"), *(HERE.parent / "catalog").rglob("*.yaml")])
 
 
 def classified(coordinates: str, *constraints: str, **more: Any) -> dofkit.Report:
@@ -124,7 +122,7 @@ def value(e: Expr, at: Mapping[Expr, float]) -> float:
 
 def forms_of(path: Path) -> tuple[list[Expr], list[list[Expr]]] | None:
     """(columns, rows) of a scene whose relations are all differential and linear; else None."""
-    system = lower(dofkit.load(path))
+    system = lower(scene_of(path))
     columns = [ex.coordinate(c.name) for c in system.coordinates] + [ex.TIME]
     rows = []
     for relation in (r for c in system.constraints for r in c.relations):
@@ -143,18 +141,16 @@ def forms_of(path: Path) -> tuple[list[Expr], list[list[Expr]]] | None:
 
 
 def integrals_of(path: Path) -> list[str]:
-    return [
-        part for e in dofkit.classify(dofkit.load(path)).constraints if e.integral for part in e.integral.split("; ")
-    ]
+    return [part for e in report_of(path).constraints if e.integral for part in e.integral.split("; ")]
 
 
-@pytest.mark.parametrize("path", [p for p in SCENES if p.parent.name != "bad"], ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", SCENES, ids=stem)
 def test_the_differential_of_an_integral_lies_in_the_span_of_the_forms(path: Path) -> None:
     known = forms_of(path)
     if known is None:
         return
     columns, rows = known
-    scene = dofkit.load(path)
+    scene = scene_of(path)
     system = lower(scene)
     symbols_of_scene = (*system.parameters, *(p for p in scene.parameters or ()), "C", *(f"C{i}" for i in range(1, 9)))
     names = Names(frozenset(c.name for c in system.coordinates), {p: ex.parameter(p) for p in symbols_of_scene})
