@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer, Setting, Size
 from dofkit.bending import bend
 from dofkit.blocks import Block, Row, split
 from dofkit.differential import (
@@ -24,6 +24,7 @@ from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.exact.trust import doubt, independent_generators
 from dofkit.expr import Expr
 from dofkit.finite import finite_answer
+from dofkit.forms import pairing
 from dofkit.frameworks import framework_answer
 from dofkit.held import held, numeric
 from dofkit.report import weakest
@@ -37,8 +38,17 @@ MAX_HIDDEN_BRANCHES = 6
 
 
 def answer(block: Block, setting: Setting) -> Answer:
-    """All that is asked of one block; where its functions may be related in unseen ways, balls have the last word."""
-    if setting.links and setting.engines == BOTH:
+    """All that is asked of one block, and how large the model was."""
+    found = _engines(block, setting)
+    differential = bool(block.forms or block.nonlinear)
+    tested = differential or "closed" not in setting.reductions
+    own = Size(len(block.coordinates), len(block.finite), len(block.rows) if tested else 0)
+    return replace(found, size=own)
+
+
+def _engines(block: Block, setting: Setting) -> Answer:
+    """The cheapest method that is sound; where functions may be related in unseen ways, balls have the last word."""
+    if setting.links and setting.engines == BOTH and "cheapest" in setting.reductions:
         framework = framework_answer(block, setting)
         if framework is not None:
             return framework
@@ -62,8 +72,17 @@ def _answer(block: Block, setting: Setting) -> Answer:
     if not block.forms and not block.nonlinear:
         finite = finite_answer(block, setting)
         finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
-        return finite
+        return finite if "closed" in setting.reductions else _tested(block, setting, finite)
     return _mixed_answer(block, setting)
+
+
+def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
+    """The answer of finite relations once their differentials were put to the integrability test that they pass."""
+    forms = codistribution(block, setting, ())
+    for point, sampled in _spans(forms, find(forms.chart, setting.pose)):
+        if any(v != 0 for row in sampled.matrix for v in pairing(row, sampled.span.vectors)):
+            return replace(finite, verdict="undecided", reasons=[*finite.reasons, f"not closed modulo {point.p}"])
+    return finite
 
 
 def _mixed_answer(block: Block, setting: Setting) -> Answer:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import NamedTuple
 
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.sparse import SparseRow, Supports
 from dofkit.exact.trust import Doubt
 from dofkit.expr import Expr
+from dofkit.reductions import ALL, Reductions
 from dofkit.report import Verdict
 from dofkit.separate import Looked
 from dofkit.system import Coordinate, Distance
@@ -28,6 +30,14 @@ class Label:
     modulo: bool = False
 
 
+class Size(NamedTuple):
+    """What was computed with: coordinates, finite relations, and one-forms that were put to an integrability test."""
+
+    coordinates: int = 0
+    relations: int = 0
+    forms: int = 0
+
+
 @dataclass
 class Answer:
     """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
@@ -37,7 +47,7 @@ class Answer:
     relations that the differential ones force; ``doubt``: functions or numbers occur that may be related in a way that
     GF(p) does not show; ``late``: there was no time for it;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
-    ``looked``: what was looked at of the relations.
+    ``looked``: what was looked at of the relations; ``size``: of the model that was computed with.
     """
 
     consistent: bool | None = True
@@ -61,6 +71,7 @@ class Answer:
     late: bool = False
     conflict: tuple[int, ...] = ()
     looked: Looked = field(default_factory=Looked)
+    size: Size = field(default_factory=Size)
 
 
 @dataclass(frozen=True)
@@ -69,7 +80,7 @@ class Setting:
 
     ``grows``: the growth vector; ``flag``: the derived flag.
     ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
-    that rigid links join, by constraint.
+    that rigid links join, by constraint; ``reductions``: those in use.
     """
 
     positive: frozenset[Expr]
@@ -85,3 +96,4 @@ class Setting:
     dimension: int = 3
     distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
     links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)
+    reductions: Reductions = ALL

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import networkx as nx
 
@@ -11,6 +11,7 @@ from dofkit import expr as ex
 from dofkit.conditions import Condition
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Inequality, Nonlinear, Pfaffian, Piece
+from dofkit.reductions import Reductions
 
 
 @dataclass(frozen=True)
@@ -78,6 +79,23 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
         blocks.append((numbers[0], Block(tuple(names), tuple(ordered), conditions)))
     used = frozenset().union(*touched) if touched else frozenset()
     return [b for _, b in sorted(blocks, key=lambda pair: pair[0])], [c for c in coordinates if c not in used]
+
+
+def parted(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:
+    """`split` as far as the reductions in use allow: else all rows are one block, and it holds every coordinate."""
+    blocks, untouched = split(coordinates, rows)
+    place = {c: k for k, c in enumerate(coordinates)}
+    if "blocks" not in reductions and len(blocks) > 1:
+        rows_of = [r for b in blocks for r in b.rows]
+        finite = [r for r in rows_of if isinstance(r.piece, Finite)]
+        others = [r for r in rows_of if not isinstance(r.piece, Finite)]
+        conditions = tuple(dict.fromkeys(c for b in blocks for c in b.conditions))
+        names = sorted((c for b in blocks for c in b.coordinates), key=place.__getitem__)
+        blocks = [Block(tuple(names), (*finite, *others), conditions)]
+    if "untouched" not in reductions and blocks:
+        names = sorted((*blocks[0].coordinates, *untouched), key=place.__getitem__)
+        blocks, untouched = [replace(blocks[0], coordinates=tuple(names)), *blocks[1:]], []
+    return blocks, untouched
 
 
 def expressions(block: Block) -> list[Expr]:

@@ -67,4 +67,5 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
         tuple(finite),
         setting.engines,
         setting.size,
+        setting.reductions,
     )

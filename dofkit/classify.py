@@ -28,6 +28,7 @@ from dofkit.lowering import lower
 from dofkit.methods import METHODS, MethodName
 from dofkit.normal import Finite
 from dofkit.preparing import prepared
+from dofkit.reductions import ALL, Reductions
 from dofkit.redundancy import left_open
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, ForceEntry, Redundancy, Report, weakest
 from dofkit.scene import Scene
@@ -90,30 +91,37 @@ def _classified(scene: Scene | System, seconds: float, method: MethodName) -> Re
     if isinstance(system, Report):
         return system
     try:
-        with limited(until - time.monotonic()), ctx.workprec(PRECISION):
-            reduced, setting = prepared(system)
-            setting = replace(setting, engines=METHODS[method].engines)
-            with part(SOLVING):
-                outcome = solve(system, reduced, setting)
-            report = _report(system, reduced, setting, outcome)
-            report = with_counts(system, reduced, setting, outcome, report)
-            if method != "auto":
-                return _by_one_engine(report, outcome, method)
-            return _with_special_cases(system, reduced, setting, outcome, report)
+        return examined(system, until - time.monotonic(), method).report
     except OutOfTimeError as error:
         return sketch(system, str(error))
+
+
+def examined(
+    system: System, seconds: float = DEFAULT_SECONDS, method: MethodName = "auto", reductions: Reductions = ALL
+) -> Study:
+    """All that is found of a system, and how; ``reductions``: those in use. Raises OutOfTimeError."""
+    with limited(seconds), ctx.workprec(PRECISION):
+        reduced, setting = prepared(system, reductions)
+        setting = replace(setting, engines=METHODS[method].engines)
+        with part(SOLVING):
+            outcome = solve(system, reduced, setting)
+        report = _report(system, reduced, setting, outcome)
+        report = with_counts(system, reduced, setting, outcome, report)
+        if method != "auto":
+            return Study(system, setting, outcome, _by_one_engine(report, outcome, method))
+        return Study(system, setting, outcome, _with_special_cases(system, reduced, setting, outcome, report))
 
 
 def _with_special_cases(
     system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report
 ) -> Report:
-    look = partial(special_cases, system, reduced, setting, outcome, report, _generic)
+    look = partial(special_cases, system, reduced, setting, outcome, report, partial(_generic, setting.reductions))
     return report.model_copy(update=unless_late(look, {"warnings": [*report.warnings, _NO_SPECIAL_CASES]}))
 
 
-def _generic(system: System) -> Report:
+def _generic(reductions: Reductions, system: System) -> Report:
     """The report without special cases."""
-    reduced, setting = prepared(system)
+    reduced, setting = prepared(system, reductions)
     return _report(system, reduced, setting, solve(system, reduced, setting))
 
 

@@ -53,7 +53,8 @@ def in_general_position(system: System, outcome: Outcome, setting: Setting) -> G
     if any(not isinstance(row.piece, Finite) for row in outcome.rows):
         return General(None, why=DIFFERENTIAL)
     particles = set(system.particles)
-    if all(c.type in ("link", "rigid") and particles.issuperset(c.members) for c in system.connections):
+    by_graph = "cheapest" in setting.reductions
+    if by_graph and all(c.type in ("link", "rigid") and particles.issuperset(c.members) for c in system.connections):
         return _of_links(system)
     return _of_rows(system, outcome, setting)
 

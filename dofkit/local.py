@@ -73,7 +73,8 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
         local = Local(None, "undecided", "measured")
         return AtReference(n - rank_q, local, [], point.p, rank, rigid, ball)
     few = len(chart.columns) - rank - timed - rigid <= BALL_COLUMNS
-    apart = None if timed or rank == n - rigid else _by_parts(chart, known, matrix, point.p, rank)
+    together = timed or rank == n - rigid or "classes" not in chart.reductions
+    apart = None if together else _by_parts(chart, known, matrix, point.p, rank)
     if apart is not None:
         local, looked = apart
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)

@@ -9,6 +9,7 @@ from dofkit import expr as ex
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
+from dofkit.reductions import ALL, Reductions
 from dofkit.system import Coordinate
 
 
@@ -18,7 +19,7 @@ class Chart:
 
     ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
     real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute; ``engines`` those
-    that may look at it; ``size`` is the scale of lengths.
+    that may look at it; ``size`` is the scale of lengths; ``reductions``: those in use.
     """
 
     ring: Ring
@@ -31,6 +32,7 @@ class Chart:
     relations: tuple[Expr, ...] = ()
     engines: Engines = BOTH
     size: float = 1.0
+    reductions: Reductions = ALL
 
     @property
     def coordinates(self) -> int:

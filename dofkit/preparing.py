@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dofkit import expr as ex
 from dofkit.answers import Setting
+from dofkit.reductions import ALL, Reductions
 from dofkit.solving import Reduced, reduce_all
 from dofkit.system import System
 
 
-def prepared(system: System) -> tuple[list[Reduced], Setting]:
+def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
     """Each relation as what it says, and what may be assumed of the symbols."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
@@ -24,6 +25,7 @@ def prepared(system: System) -> tuple[list[Reduced], Setting]:
         dimension=system.dimension,
         distances={} if system.tolerance else system.distances,
         links=_links(system),
+        reductions=reductions,
     )
     return reduced, setting
 

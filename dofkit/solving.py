@@ -11,7 +11,7 @@ from dofkit import expr as ex
 from dofkit.accelerations import second_order
 from dofkit.analysis import answer
 from dofkit.answers import Answer, Setting
-from dofkit.blocks import Block, Row, split
+from dofkit.blocks import Block, Row, parted, split
 from dofkit.branches import through_reference
 from dofkit.constancy import names_in, with_rows
 from dofkit.deadline import OUT_OF_TIME, OutOfTimeError, check
@@ -147,7 +147,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
     never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
-    copied = copies(reduced)
+    copied = copies(reduced) if "copies" in setting.reductions else {}
     outcomes, why = list[Outcome](), None
     known = Known(system)
     constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
@@ -233,8 +233,9 @@ def _scaled(piece: object) -> object:
 
 
 def _answered(names: Sequence[str], rows: list[Row], impossible: list[int], setting: Setting, known: Known) -> Outcome:
-    blocks, untouched = split(names, rows)
-    answers = [known.answer(block, setting, len(blocks) > 1) for block in blocks]
+    blocks, untouched = parted(names, rows, setting.reductions)
+    compared = len(blocks) > 1 and "twins" in setting.reductions
+    answers = [known.answer(block, setting, compared) for block in blocks]
     return Outcome(rows, blocks, answers, untouched, impossible)
 
 
@@ -250,7 +251,7 @@ class Known:
         self._alike: dict[Hashable, tuple[tuple[str, ...], Answer]] = {}
 
     def answer(self, block: Block, setting: Setting, many: bool) -> Answer:
-        """The block's answer; ``many`` blocks are compared with each other."""
+        """The block's answer; of ``many`` blocks those that were answered are looked through for a twin."""
         same = tuple(id(p) for p in (*(row.piece for row in block.rows), *block.conditions))
         if same not in self._answers:
             self._answers[same] = block, self._twin(block, setting) if many else in_time(block, setting)

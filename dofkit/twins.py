@@ -6,7 +6,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer, Setting, Size
 from dofkit.blocks import Block, coordinates_of, expressions
 from dofkit.expr import Expr
 from dofkit.normal import Pfaffian, Piece
@@ -76,4 +76,5 @@ def retold(a: Answer, own: Sequence[str], other: Sequence[str]) -> Answer:
         reasons=list(a.reasons),
         hidden=[ex.substitute(g, symbols) for g in a.hidden],
         dependent=tuple(names.get(c, c) for c in a.dependent),
+        size=Size(),
     )

@@ -149,7 +149,7 @@ def _found(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
         posed = _pose_samples(chart, pose, seed)
         if posed:
             return _from_samples(chart, posed, None, seed, chart.nodes)
-    linear = presolve(chart.relations)
+    linear = presolve(chart.relations if "eliminations" in chart.reductions else ())
     if linear.contradiction:
         return Variety(False, None, "proved", reasons=["linear relations contradict each other"])
     if "field" not in chart.engines:
