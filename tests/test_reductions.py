@@ -1,0 +1,64 @@
+"""What is not modelled changes no answer: every reduction left out, on scenes that it is for and on the catalog."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+import dofkit
+from dofkit.chart.ablation import SCENES, ablated, answered, differences
+from dofkit.reductions import ALL, REDUCTIONS, ReductionName
+
+#: A third of the catalog's scenes: the whole of it takes a minute.
+CATALOG = sorted((Path(__file__).parent.parent / "catalog").glob("*/*.yaml"))[::3]
+#: What is computed with less, by hand: (field, with the reduction, without it) at a family's quick size n.
+LESS: Mapping[str, tuple[str, Callable[[int], int], Callable[[int], int]]] = {
+    "untouched": ("coordinates", lambda n: 4, lambda n: 4 + n),
+    "blocks": ("largest", lambda n: 4, lambda n: 4 * n),
+    "twins": ("coordinates", lambda n: 4, lambda n: 4 * n),
+    "copies": ("relations", lambda n: n, lambda n: 2 * n),
+    "closed": ("forms", lambda n: 0, lambda n: n - 1),
+}
+#: Degrees of freedom of the families' scenes, by hand.
+FREEDOM: Mapping[str, Callable[[int], int]] = {
+    "untouched": lambda n: 4 + n,  # a rolling disc is held by no finite relation
+    "blocks": lambda n: 4 * n,
+    "twins": lambda n: 4 * n,
+    "copies": lambda n: n,  # a chain of n rods in the plane
+    "eliminations": lambda n: n + 1,  # 3n less n planes and n - 1 rods
+    "classes": lambda n: n + 1,  # a parallelogram and n rods
+    "closed": lambda n: 3 * n - (n - 1),
+    "cheapest": lambda n: 3,  # one lamina
+}
+
+
+def test_every_reduction_says_what_it_leaves_out_and_has_scenes() -> None:
+    assert set(REDUCTIONS) == set(get_args(ReductionName)) == set(SCENES) == set(FREEDOM)
+    assert all(reduction.title and reduction.leaves_out and reduction.sound for reduction in REDUCTIONS.values())
+
+
+@pytest.mark.parametrize("name", REDUCTIONS)
+def test_what_a_reduction_leaves_out_changes_no_answer(name: ReductionName) -> None:
+    n = SCENES[name].quick
+    full, without = ablated(name, name, n, SCENES[name].scene(n), (name,))
+    assert without.unchanged, without.differs
+    assert not full.undecided
+    study, _ = answered(SCENES[name].scene(n), ALL, 1)
+    assert study is not None
+    assert study.report.dof == FREEDOM[name](n)
+    if name in LESS:
+        field, less, more = LESS[name]
+        assert (getattr(full, field), getattr(without, field)) == (less(n), more(n))
+
+
+@pytest.mark.parametrize("path", CATALOG, ids=lambda path: path.stem)
+def test_the_catalog_is_answered_alike_without_any_reduction(path: Path) -> None:
+    scene = dofkit.load(path).model_dump(mode="json", exclude_unset=True)
+    full, _ = answered(scene, ALL, 1)
+    without, _ = answered(scene, frozenset(), 1)
+    assert full is not None
+    assert without is not None
+    assert differences(full.report, without.report) == []
