@@ -15,10 +15,12 @@ from dofkit.deadline import expired
 from dofkit.exact.balls import FloatPoint, RealSearch, jacobian
 from dofkit.exact.engines import BOTH
 from dofkit.exact.program import values
+from dofkit.explicit import PLAIN, QUADRATIC, explicit
 from dofkit.expr import Expr
 from dofkit.local import ball_point
 from dofkit.local_chart import Chart
 from dofkit.nearby import damped
+from dofkit.normal import Finite
 from dofkit.rigid import displacements_real
 from dofkit.system import Rotation
 from dofkit.variety import pose_point
@@ -48,13 +50,25 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     dependent = set(a.dependent)
     direct = [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
-        return direct
+        return _explicit(block, a.dof, setting) or direct
     if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
     if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear:
         return direct if len(direct) == a.dof else None
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
     return found if found is not None else (direct if len(direct) == a.dof and not turning else None)
+
+
+def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:
+    """Those by which the relations give all others at once: an angle rather than what it makes of lengths.
+
+    At a reference configuration a coefficient may be 0, so that only numbers are divided by there.
+    """
+    if block.forms or block.nonlinear:
+        return None
+    relations = [p.expr for r in block.finite if isinstance(p := r.piece, Finite)]
+    most = QUADRATIC if setting.reference is None else PLAIN
+    return explicit(relations, block.coordinates, len(block.coordinates) - dof, most)
 
 
 def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from dofkit import expr as ex
@@ -99,13 +99,25 @@ def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIO
     finite += [Relation(g) for a in outcome.answers for g in a.hidden]
     integrals = list(_integrals(study, names))
     eliminator = Eliminator(study.setting.positive, by_potential(energy.potential, study.system.reference), care)
-    dependent = [c for c in coordinates if c not in free]
     for relations in ([*finite, *integrals], finite, []):
-        elimination = eliminator.eliminated(relations, coordinates, dependent)
+        elimination = _agreeing(eliminator, relations, coordinates, free)
         model = _built_somehow(study, energy, elimination, coordinates)
         if model is not None:
             return model
     raise MotionError("which of the constraints are independent was not decided, so no equations of motion are given")
+
+
+def _agreeing(
+    eliminator: Eliminator, relations: Sequence[Relation], coordinates: Sequence[str], free: Sequence[str]
+) -> Elimination:
+    """An elimination that keeps the report's generalized coordinates, where just as many can be eliminated so."""
+    dependent = [c for c in coordinates if c not in free]
+    found = eliminator.eliminated(relations, coordinates, dependent)
+    if found.solved.keys() != set(dependent) and len(found.solved) == len(dependent):
+        other = replace(eliminator, care=eliminator.care._replace(roots=0)).eliminated(relations, dependent, dependent)
+        if len(other.solved) == len(dependent):
+            return other
+    return found
 
 
 def _possible(study: Study) -> None:
