@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from math import comb, prod
 from typing import Any
 
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
-from dofkit.deadline import check
+from dofkit.deadline import OutOfTimeError, check, limited
 from dofkit.exact.canon import Canon, Poly, TooLargeError, is_identically_zero
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
@@ -19,32 +21,44 @@ from dofkit.lagrange.order import ordered
 
 #: Expressions with more SymPy operations than this are not expanded.
 EXPANDED = 3000
+#: The same for expressions that would have more terms than this.
+TERMS, MANY = 1500, 10**9
+#: Seconds for all that one report tells.
+SECONDS = 6.0
 #: A product that hides a sum with velocities is read as if it were longer by so many symbols.
 HIDDEN = 8
 _RATES = ("velocity", "acceleration")
 
 
-@dataclass(frozen=True)
+@dataclass
 class Tidier:
-    """Writes SymPy's expressions as ours, as short as is found."""
+    """Writes SymPy's expressions as ours, as short as is found; as they are once ``seconds`` have been spent on that."""
 
     bridge: Bridge
     positive: frozenset[Expr]
+    seconds: float = SECONDS
 
     def __call__(self, e: Any) -> Expr:
         plain = self.bridge.expr(e)
         best, size = plain, length(plain)
-        for form in self._forms(e, plain):
+        start = time.monotonic()
+        try:
+            with limited(self.seconds):
+                for form in self._forms(e, plain):
+                    check()
+                    if length(form) < size and is_identically_zero(form - plain, self.positive) is True:
+                        best, size = form, length(form)
+        except OutOfTimeError:
             check()
-            if length(form) < size and is_identically_zero(form - plain, self.positive) is True:
-                best, size = form, length(form)
+        self.seconds -= time.monotonic() - start
         return ordered(best)
 
     def _forms(self, e: Any, plain: Expr) -> Iterator[Expr]:
+        check()
         found = by_rates(plain, self.positive)
         if found is not None:
             yield found
-        if int(e.count_ops()) > EXPANDED:
+        if int(e.count_ops()) > EXPANDED or terms(plain) > TERMS:
             return
         import sympy
 
@@ -55,6 +69,24 @@ class Tidier:
                 yield self.bridge.expr(form)
             except (UntranslatableError, ZeroDivisionError):
                 continue
+
+
+def terms(e: Expr) -> int:
+    """No fewer than the terms of any sum in ``e`` once products and powers are written out."""
+    memo: dict[Expr, int] = {}
+    for node in ex.nodes(e):
+        parts = [memo[child] for child in ex.children(node)]
+        if node.op == "add":
+            many = sum(parts)
+        elif node.op == "mul":
+            many = prod(parts)
+        elif node.op == "pow" and node.args[1].op == "num" and node.args[1].args[0].denominator == 1:
+            power = min(abs(node.args[1].args[0].numerator), TERMS)
+            many = comb(min(parts[0], TERMS) + power - 1, power)
+        else:
+            many = 1
+        memo[node] = min(many, MANY)
+    return max(memo.values())
 
 
 def by_rates(e: Expr, positive: frozenset[Expr]) -> Expr | None:
