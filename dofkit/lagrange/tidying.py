@@ -32,7 +32,7 @@ _RATES = ("velocity", "acceleration")
 
 @dataclass
 class Tidier:
-    """Writes SymPy's expressions as ours, as short as is found; as they are once ``seconds`` have been spent on that."""
+    """Writes SymPy's expressions as ours, as short as is found while ``seconds`` last."""
 
     bridge: Bridge
     positive: frozenset[Expr]
