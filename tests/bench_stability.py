@@ -12,12 +12,12 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
-from frameworks import Framework
-from randoms import graph
-from sweeps import SWEEPS, Case, drawn_case
 from trials import Outcome, outcome
 
 import dofkit
+from dofkit.chart.families.drawn import Framework
+from dofkit.chart.families.randoms import graph
+from dofkit.chart.families.sweeps import SWEEPS, Case, drawn_case
 from dofkit.methods import MethodName
 
 #: Primes of 3, 6, 14 and 61 bits.

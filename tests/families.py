@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from contexts import identities, near_misses
-from otherwise import other_coordinates
-from steps import tiny_steps
-from trials import Trial
+from dofkit.chart.families.contexts import identities, near_misses
+from dofkit.chart.families.making import Known
+from dofkit.chart.families.otherwise import other_coordinates
+from dofkit.chart.families.steps import tiny_steps
 
 
 @dataclass(frozen=True)
 class Family:
     """``floor``: the least share of right answers; none may be wrong."""
 
-    trials: Callable[[], Iterator[Trial]]
+    trials: Callable[[], Iterator[Known]]
     floor: float
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import random
 
 import pytest
-from frameworks import Framework
-from randoms import Bodies, coarse, dependent, graph, loop, tree
 
 import dofkit
+from dofkit.chart.families.drawn import Framework
+from dofkit.chart.families.randoms import Bodies, coarse, dependent, graph, loop, tree
 from dofkit.methods import BY_ENGINES, MethodName
 from dofkit.report import Report
 

@@ -8,10 +8,11 @@ from functools import cache
 
 import pytest
 from families import FAMILIES
-from traps import TRAPS, Trap
-from trials import Trial, differences
+from trials import differences
 
 import dofkit
+from dofkit.chart.families.making import Known
+from dofkit.chart.families.traps import TRAPS, Trap
 from dofkit.constants import interval
 from dofkit.expr import num
 from dofkit.text import Names, parse_expression
@@ -31,8 +32,8 @@ OPEN: dict[tuple[str, str], tuple[int, str]] = {
 
 
 @cache
-def groups(family: str) -> dict[str, list[Trial]]:
-    found: dict[str, list[Trial]] = defaultdict(list)
+def groups(family: str) -> dict[str, list[Known]]:
+    found: dict[str, list[Known]] = defaultdict(list)
     for trial in FAMILIES[family].trials():
         found[trial.group].append(trial)
     return found

@@ -5,10 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from sweeps import DIGITS, JOINTED, NEAR, SWEEPS, Case, Near
 from trials import differences
 
 import dofkit
+from dofkit.chart.families.sweeps import DIGITS, JOINTED, NEAR, SWEEPS, Case, Near
 
 #: (sweep, mechanism) -> (how many are left open, why).
 OPEN: dict[tuple[str, str], tuple[int, str]] = {

@@ -10,7 +10,8 @@ from itertools import combinations
 from typing import Any
 
 from flint import fmpq, fmpq_mat
-from frameworks import Framework, Position
+
+from dofkit.chart.families.drawn import Framework, Position
 
 Vector = tuple[Fraction, Fraction, Fraction]
 #: What a joint allows: freedoms in space.

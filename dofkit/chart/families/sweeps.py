@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from frameworks import Framework, Position, framework, written
-from trials import Trial
+from dofkit.chart.families.drawn import Framework, Position, framework, written
+from dofkit.chart.families.making import Known
 
 Move = Callable[[Position], Position]
 #: (dof, instantaneous_dof); None where it was not derived.
@@ -202,7 +202,7 @@ TOLERANCES = ("1e-4",)
 class Case:
     """A trial, and the framework behind it where it has one."""
 
-    trial: Trial
+    trial: Known
     framework: Framework | None
 
 
@@ -297,13 +297,13 @@ def drawn_case(name: str, drawn: Framework, freedom: Freedom, **more: Any) -> Ca
     return Case(_trial(name, scene, drawn.coordinates, len(drawn.bars), freedom), drawn)
 
 
-def _trial(name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom) -> Trial:
+def _trial(name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom) -> Known:
     dof, first = freedom
     truth: dict[str, Any] = {"consistent": True, "instantaneous_dof": first}
     if dof is not None:
         truth |= {"dof": dof, "velocity_dof": dof, "singular": first != dof}
         truth["redundant_equations"] = max(0, equations - (coordinates - dof))
-    return Trial(name.partition(",")[0], name, scene, truth)
+    return Known(name.partition(",")[0], name, scene, truth)
 
 
 #: Every sweep by name.

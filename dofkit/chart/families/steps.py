@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from trials import Trial, scene
+from dofkit.chart.families.making import Known, scene
 
 #: The sizes of the step, as a person writes them.
 STEPS = ("1e-6", "1e-12", "1e-30", "1/7000000000000000000")
@@ -75,7 +75,7 @@ TIMED: list[tuple[str, str, bool]] = [
 ]
 
 
-def tiny_steps() -> Iterator[Trial]:
+def tiny_steps() -> Iterator[Known]:
     """Every base form and system with every step."""
     for step in STEPS:
         for name, coordinates, text, integrable in FORMS:
@@ -100,6 +100,6 @@ def _trial(
     rows: tuple[str, ...],
     truth: dict[str, Any],
     labels: dict[str, Any],
-) -> Trial:
+) -> Known:
     texts = [row.replace("{e}", f"({step})") for row in rows]
-    return Trial(name, f"{name}, by {step}", scene(coordinates, *texts), truth, labels)
+    return Known(name, f"{name}, by {step}", scene(coordinates, *texts), truth, labels)

@@ -8,7 +8,8 @@ from functools import cache
 from typing import Any
 
 import sympy as sp
-from trials import Trial, scene
+
+from dofkit.chart.families.making import Known, scene
 
 x, y, z, w, theta, phi, psi, r, a = sp.symbols("x y z w theta phi psi r a", real=True)
 Form = Mapping[sp.Symbol, sp.Expr]
@@ -143,7 +144,7 @@ REWRITINGS: Mapping[str, Rewriting] = {
 
 
 @cache
-def _made() -> tuple[Trial, ...]:
+def _made() -> tuple[Known, ...]:
     found = []
     for base in _bases():
         for name, rewriting in REWRITINGS.items():
@@ -153,12 +154,12 @@ def _made() -> tuple[Trial, ...]:
     return tuple(found)
 
 
-def other_coordinates() -> Iterator[Trial]:
+def other_coordinates() -> Iterator[Known]:
     """Every base in every other way of writing it."""
     return iter(_made())
 
 
-def _trial(base: Base, how: str) -> Trial:
+def _trial(base: Base, how: str) -> Known:
     texts = [f"{g} = 0" for g in base.finite]
     for form in base.forms:
         terms = [f"({v}) d{q}" for q, v in form.items() if v != 0]
@@ -167,4 +168,4 @@ def _trial(base: Base, how: str) -> Trial:
     first = len(base.finite) + 1
     labels = {f"c{first + i}": {"holonomic": h} for i, h in enumerate(base.holonomic) if h is not None}
     made = scene([str(q) for q in base.coordinates], *texts)
-    return Trial(base.name, f"{base.name}, {how}", made, truth, labels)
+    return Known(base.name, f"{base.name}, {how}", made, truth, labels)
