@@ -31,10 +31,10 @@ def counted(how: Callable[[Framework], int]) -> Way:
     """A way that gives one number, taken for the dof; only for bars, and where the dof is known."""
 
     def judged(case: Case) -> Outcome | None:
-        if case.framework is None or "dof" not in case.trial.truth:
+        if case.framework is None or "dof" not in case.known.truth:
             return None
         try:
-            return "right" if max(0, how(case.framework)) == case.trial.truth["dof"] else "wrong"
+            return "right" if max(0, how(case.framework)) == case.known.truth["dof"] else "wrong"
         except ValueError:
             return "undecided"
 
@@ -45,8 +45,8 @@ def classified(method: MethodName = "auto", **more: Any) -> Way:
     """Everything that `dofkit.classify` tells, held against everything that is known."""
 
     def judged(case: Case) -> Outcome:
-        scene = dofkit.load({**case.trial.scene, **more})
-        return outcome(case.trial, dofkit.classify(scene, method=method))
+        scene = dofkit.load({**case.known.scene, **more})
+        return outcome(case.known, dofkit.classify(scene, method=method))
 
     return judged
 

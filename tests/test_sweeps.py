@@ -20,7 +20,7 @@ OPEN: dict[tuple[str, str], tuple[int, str]] = {
 
 
 def told(case: Case) -> tuple[list[str], list[str]]:
-    return differences(case.trial, dofkit.classify(dofkit.load(dict(case.trial.scene))))
+    return differences(case.known, dofkit.classify(dofkit.load(dict(case.known.scene))))
 
 
 #: Here much is left open: floating point tells little of a drawing far from the origin.
@@ -32,9 +32,9 @@ def test_nothing_is_wrong_and_little_is_left_open(sweep: str) -> None:
     wrong, opened = [], []
     for case in SWEEPS[sweep]():
         not_true, left_open = told(case)
-        wrong += [f"{case.trial.name}: {line}" for line in not_true]
+        wrong += [f"{case.known.name}: {line}" for line in not_true]
         if left_open:
-            opened.append(case.trial.name)
+            opened.append(case.known.name)
     assert wrong == []
     for (where, mechanism), (number, _) in OPEN.items():
         some = [name for name in opened if name.startswith(mechanism) and where == sweep]
@@ -45,7 +45,7 @@ def test_nothing_is_wrong_and_little_is_left_open(sweep: str) -> None:
 
 def test_measured_drawings_of_any_size_and_anywhere() -> None:
     """None is wrong; where they are drawn, and at any size there, nearly all are answered."""
-    cases = [(case.trial.name, *told(case)) for case in SWEEPS[COARSE]()]
+    cases = [(case.known.name, *told(case)) for case in SWEEPS[COARSE]()]
     assert [(name, wrong) for name, wrong, _ in cases if wrong] == []
     opened = [name for name, _, left_open in cases if left_open]
     assert [name for name in opened if "away" not in name and not name.startswith("three on a rod, space")] == []

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from flint import fmpq, fmpq_mat, nmod_mat
 
-import dofkit
+from dofkit.linkage import redundant_links
 
 Position = tuple[Fraction, ...]
 #: A name of a free joint, or the number of a joint on the ground.
@@ -77,7 +77,7 @@ class Framework:
     def by_graph(self) -> int:
         """The freedom in general position: bars less those that are redundant there."""
         fixed = list(combinations(range(len(self.ground)), 2))
-        redundant = dofkit.redundant_links([*fixed, *self.bars], self.dimension)
+        redundant = redundant_links([*fixed, *self.bars], self.dimension)
         return self.coordinates - len(self.bars) + sum(link not in fixed for link in redundant)
 
     def by_rank(self) -> int:

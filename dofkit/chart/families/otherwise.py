@@ -139,7 +139,7 @@ REWRITINGS: Mapping[str, Rewriting] = {
         {x: x + y**2},
         base.coordinates,
     ),
-    "mixed, then scaled": lambda base: _scaled(-6)(mixed(base)) if len(base.forms) == 2 else None,
+    "mixed, then scaled": lambda base: None if (found := mixed(base)) is None else _scaled(-6)(found),
 }
 
 
@@ -166,6 +166,7 @@ def _trial(base: Base, how: str) -> Known:
         texts.append(f"{' + '.join(terms)} = 0")
     truth: dict[str, Any] = {"consistent": True, "dof": base.dof, "velocity_dof": base.velocity_dof}
     first = len(base.finite) + 1
-    labels = {f"c{first + i}": {"holonomic": h} for i, h in enumerate(base.holonomic) if h is not None}
+    labels = {f"c{i}": {"holonomic": True} for i in range(1, first)}
+    labels |= {f"c{first + i}": {"holonomic": h} for i, h in enumerate(base.holonomic) if h is not None}
     made = scene([str(q) for q in base.coordinates], *texts)
     return Known(base.name, f"{base.name}, {how}", made, truth, labels)

@@ -7,8 +7,8 @@ freedom of both is derived in its comment, and does not depend on the size of th
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -194,16 +194,26 @@ MOVES: dict[str, Move] = {
     "moved a million away": lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)),
     "small and far away": lambda p: tuple(x / MILLION + MILLION for x in p),
 }
+#: (scale, offset) of each.
+MOVED: dict[str, tuple[float, float]] = {
+    "as drawn": (1, 0),
+    "a million times larger": (MILLION, 0),
+    "a million times smaller": (1 / MILLION, 0),
+    "moved a hundred away": (1, 100),
+    "moved a million away": (1, MILLION),
+    "small and far away": (1 / MILLION, MILLION),
+}
 SEEDS = range(2)
 TOLERANCES = ("1e-4",)
 
 
 @dataclass(frozen=True)
 class Case:
-    """A trial, and the framework behind it where it has one."""
+    """What is known of a drawing, what was varied, and the framework behind it where it has one."""
 
-    trial: Known
+    known: Known
     framework: Framework | None
+    swept: Mapping[str, Any] = field(default_factory=dict)
 
 
 def steps() -> Iterator[Case]:
@@ -211,7 +221,8 @@ def steps() -> Iterator[Case]:
     for step in (Fraction(0), *STEPS):
         for near in NEAR:
             freedom = near.beside if step else near.there
-            yield drawn_case(f"{near.name}, {float(step):g} beside", near.at(step), freedom)
+            name = f"{near.name}, {float(step):g} beside"
+            yield drawn_case(name, near.at(step), freedom, {"step": float(step)})
         for jointed in JOINTED:
             yield _jointed(jointed, step, "as drawn")
 
@@ -222,7 +233,8 @@ def sizes() -> Iterator[Case]:
         for step in (Fraction(0), STEPS[0]):
             for near in NEAR:
                 freedom = near.beside if step else near.there
-                yield drawn_case(f"{near.name}, {float(step):g} beside, {how}", near.at(step).moved(move), freedom)
+                name = f"{near.name}, {float(step):g} beside, {how}"
+                yield drawn_case(name, near.at(step).moved(move), freedom, _swept(step, how))
             for jointed in JOINTED:
                 yield _jointed(jointed, step, how)
 
@@ -234,7 +246,8 @@ def shuffles() -> Iterator[Case]:
             for step in (Fraction(0), STEPS[2]):
                 freedom = near.beside if step else near.there
                 drawn = near.at(step).shuffled(random.Random(f"{near.name} {seed}"))
-                yield drawn_case(f"{near.name}, {float(step):g} beside, shuffled by {seed}", drawn, freedom)
+                name = f"{near.name}, {float(step):g} beside, shuffled by {seed}"
+                yield drawn_case(name, drawn, freedom, {"step": float(step)})
 
 
 def turned(position: Position) -> Position:
@@ -259,7 +272,8 @@ def roundings() -> Iterator[Case]:
             drawn = near.at(Fraction(0)).moved(turned).moved(rounded(digits))
             first = drawn.by_rank()
             regular = drawn.coordinates - first == len(drawn.bars)
-            yield drawn_case(f"{near.name}, {digits} digits", drawn, (first if regular else None, first))
+            freedom = (first if regular else None, first)
+            yield drawn_case(f"{near.name}, {digits} digits", drawn, freedom, {"digits": digits})
 
 
 def measured() -> Iterator[Case]:
@@ -268,7 +282,8 @@ def measured() -> Iterator[Case]:
         for near in NEAR:
             drawn = near.at(Fraction(0)).moved(turned).moved(rounded(digits))
             name = f"{near.name}, {digits} digits with tolerance"
-            yield drawn_case(name, drawn, near.there, tolerance=f"1e-{digits}")
+            swept = {"digits": digits, "tolerance": 10.0**-digits}
+            yield drawn_case(name, drawn, near.there, swept, tolerance=f"1e-{digits}")
 
 
 def measured_elsewhere() -> Iterator[Case]:
@@ -279,30 +294,42 @@ def measured_elsewhere() -> Iterator[Case]:
                 for near in NEAR:
                     freedom = near.beside if step else near.there
                     name = f"{near.name}, {float(step):g} beside, {how}, within {tolerance}"
-                    yield drawn_case(name, near.at(step).moved(move), freedom, tolerance=tolerance)
+                    swept = {**_swept(step, how), "tolerance": float(tolerance)}
+                    yield drawn_case(name, near.at(step).moved(move), freedom, swept, tolerance=tolerance)
                 for jointed in JOINTED:
                     yield _jointed(jointed, step, how, tolerance=tolerance)
+
+
+def _swept(step: Fraction, how: str) -> dict[str, Any]:
+    scale, offset = MOVED[how]
+    return {"step": float(step), "scale": scale, "offset": offset}
 
 
 def _jointed(near: Jointed, step: Fraction, how: str, **more: Any) -> Case:
     freedom = near.beside if step else near.there
     equations = 5 * len(near.hinges(step))
     scene = near.scene(step, MOVES[how], **more)
-    return Case(_trial(f"{near.name}, {float(step):g} beside, {how}", scene, 6 * near.bodies, equations, freedom), None)
+    known = _known(f"{near.name}, {float(step):g} beside, {how}", scene, 6 * near.bodies, equations, freedom)
+    return Case(known, None, _swept(step, how) | {key: float(value) for key, value in more.items()})
 
 
-def drawn_case(name: str, drawn: Framework, freedom: Freedom, **more: Any) -> Case:
+def drawn_case(
+    name: str, drawn: Framework, freedom: Freedom, swept: Mapping[str, Any] | None = None, **more: Any
+) -> Case:
     """A framework with what is known of its freedom."""
     scene = drawn.scene(**more)
-    return Case(_trial(name, scene, drawn.coordinates, len(drawn.bars), freedom), drawn)
+    return Case(_known(name, scene, drawn.coordinates, len(drawn.bars), freedom), drawn, dict(swept or {}))
 
 
-def _trial(name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom) -> Known:
+def _known(name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom) -> Known:
+    """Where the rows are independent at the drawing, no constraint can be dropped."""
     dof, first = freedom
     truth: dict[str, Any] = {"consistent": True, "instantaneous_dof": first}
     if dof is not None:
         truth |= {"dof": dof, "velocity_dof": dof, "singular": first != dof}
         truth["redundant_equations"] = max(0, equations - (coordinates - dof))
+    if first == coordinates - equations:
+        truth["redundant"] = []
     return Known(name.partition(",")[0], name, scene, truth)
 
 

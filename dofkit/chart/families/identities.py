@@ -1,0 +1,123 @@
+"""Expressions that are zero and do not look it, or nearly are: what they decide, in each place where they may stand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dofkit.chart.families.contexts import CONTEXTS
+from dofkit.chart.families.making import Known, asked, scene
+from dofkit.chart.families.otherwise import other_coordinates
+from dofkit.chart.families.steps import tiny_steps
+from dofkit.chart.families.traps import NOT_ZERO, TRAPS, Trap
+from dofkit.chart.trial import Trial
+
+#: Of the contexts and the ways of writing, how far on the next trap or base begins.
+STRIDE = 3
+#: Words by which a group of tiny steps is told apart.
+FINITE = ("planes", "circle", "lines", "height", "angle")
+
+
+def zeros(quick: bool) -> Iterator[Trial]:
+    """Zero by an identity; each trap in one context after the other."""
+    for number, trap in enumerate(TRAPS[:: 9 if quick else 1]):
+        for turn in range(1 if quick else 2):
+            known = _turned(trap, trap.zero, True, number + STRIDE * turn)
+            if known is not None:
+                yield from asked("hidden identities", known, "zero by an identity", ("hidden-identity",))
+
+
+def near_zeros(quick: bool) -> Iterator[Trial]:
+    """The same missed by a constant that floating point does not see, or by a sign."""
+    for number, trap in enumerate(TRAPS[:: 9 if quick else 1]):
+        for turn, (miss, trait) in enumerate(
+            ((trap.tiny[number % 2], "near-identity"), *(((trap.sign, "plain"),) if trap.sign else ()))
+        ):
+            known = _turned(trap, miss, False, number + STRIDE * turn)
+            if known is not None:
+                yield from asked("near identities", known, "an identity missed by a constant", (trait,))
+    for number, (name, text, names) in enumerate(() if quick else NOT_ZERO):
+        other = Trap(name, text, None, names, "^" not in text)
+        for turn in range(3):
+            known = _turned(other, text, False, number + STRIDE * turn)
+            if known is not None:
+                yield from asked("near identities", known, "it is not zero", ("near-identity",))
+
+
+def _turned(trap: Trap, text: str, zero: bool, number: int) -> Known | None:
+    """The trap in the first context from this on in which it can stand."""
+    for turn in range(len(CONTEXTS)):
+        found = CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero)
+        if found is not None:
+            return found
+    return None
+
+
+def steps(quick: bool) -> Iterator[Trial]:
+    """Forms and relations a tiny exact step away from integrable, dependent or consistent ones."""
+    for number, known in enumerate(tiny_steps()):
+        if quick and number % 23:
+            continue
+        contradictory = known.truth.get("consistent") is False
+        trait = "tiny-gap" if contradictory or any(word in known.group for word in FINITE) else "near-integrable"
+        yield from asked("tiny steps", known, "a step is exact, however small", (trait,))
+
+
+def rewritten(quick: bool) -> Iterator[Trial]:
+    """The same scene in other coordinates: what is true of it does not change."""
+    for number, known in enumerate(other_coordinates()):
+        if number % (40 if quick else STRIDE):
+            continue
+        how = known.name.removeprefix(f"{known.group}, ")
+        trait = "scale" if "scaled" in how else "offset" if "moved" in how else "rewritten"
+        other = "non-holonomic" if False in {v.get("holonomic") for v in known.labels.values()} else "integrable"
+        yield from asked("other coordinates", known, "coordinates do not change what is true", (trait, other))
+
+
+def bases(quick: bool) -> Iterator[Trial]:
+    """Powers to different bases in the coefficients of forms."""
+    for number, (name, zero) in enumerate(BASES[:: 4 if quick else 1]):
+        trap = Trap(name, zero, None, "w")
+        for turn, (text, is_zero) in enumerate(((zero, True), (f"{zero} + 1e-12", False), (f"{zero} + 1", False))):
+            known = _turned(trap, text, is_zero, 2 * number + turn)
+            if known is not None:
+                because = "one function, written to two bases" if is_zero else "off by a constant"
+                yield from asked("mixed bases", known, because, ("mixed-bases" if is_zero else "near-identity",))
+    for power in (2,) if quick else (2, 3, 5, 8, 12):
+        names = ["x", "y", "z"]
+        same = scene(names, f"({2**power})^x dz + 2^({power} x) dy = 0")
+        other = scene(names, f"({2**power})^x dz + 2^({power} x) y dx = 0")
+        for known, because in (
+            (Known("", f"a factor 2^({power} x)", same, {"dof": 2}, {"c1": {"holonomic": True}}), "dz + dy"),
+            (
+                Known("", f"a contact form by 2^({power} x)", other, {"dof": 3}, {"c1": {"holonomic": False}}),
+                "dz + y dx",
+            ),
+        ):
+            yield from asked("mixed bases", known, f"over the factor: {because}", ("mixed-bases",))
+
+
+#: Zero for every real w.
+BASES = [
+    ("4 and 2", "4^w - 2^(2*w)"),
+    ("8 and 2", "8^w - 2^w*4^w"),
+    ("2 and e", "2^w - exp(w*log(2))"),
+    ("6, 2 and 3", "6^w - 2^w*3^w"),
+    ("12, 2 and 3", "12^w - 2^(2*w)*3^w"),
+    ("half and 2", "(1/2)^w*2^w - 1"),
+    ("root 2 and 2", "sqrt(2)^(2*w) - 2^w"),
+    ("10, 2 and 5", "10^w*5^(-w) - 2^w"),
+    ("2 with 1 more", "2^(w+1) - 2*2^w"),
+    ("e and 1 more", "exp(w+1) - E*exp(w)"),
+    ("quotient of 3 and 2", "(3/2)^w - 3^w/2^w"),
+    ("cosh and e", "2*cosh(w) - exp(w) - exp(-w)"),
+    ("tanh and e", "tanh(w) - 1 + 2/(exp(2*w) + 1)"),
+    ("9 and 3, halves", "9^(w/2) - 3^w"),
+]
+
+FAMILIES = {
+    "hidden identities": zeros,
+    "near identities": near_zeros,
+    "tiny steps": steps,
+    "other coordinates": rewritten,
+    "mixed bases": bases,
+}
