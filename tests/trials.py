@@ -12,7 +12,8 @@ Outcome = Literal["right", "undecided", "wrong"]
 
 def differences(known: Known, report: Report) -> tuple[list[str], list[str]]:
     """(what is answered and not true, what is left open)."""
-    wrong, opened = [], []
+    wrong: list[str] = []
+    opened: list[str] = []
     told = {key: (getattr(report, key), report.verdict) for key in known.truth}
     truth: dict[str, Any] = dict(known.truth)
     for entry in report.constraints:

@@ -18,10 +18,18 @@ from dofkit.chart.families import (
     relations,
     times,
 )
+from dofkit.chart.families.making import few
 from dofkit.chart.trial import Trial
 
-#: Every family by name. ``quick``: a few small members that stand for the others.
-FAMILIES: Mapping[str, Callable[[bool], Iterator[Trial]]] = {
+Family = Callable[[bool], Iterator[Trial]]
+
+
+def _bounded(family: Family) -> Family:
+    """Of the small members, a few that stand for the others."""
+    return lambda quick: few(family(True)) if quick else family(False)
+
+
+_ALL: Mapping[str, Family] = {
     **catalog.FAMILIES,
     **graphs.FAMILIES,
     **joints.FAMILIES,
@@ -35,3 +43,5 @@ FAMILIES: Mapping[str, Callable[[bool], Iterator[Trial]]] = {
     **identities.FAMILIES,
     **equivalence.FAMILIES,
 }
+#: Every family by name. ``quick``: a few small members that stand for the others.
+FAMILIES: Mapping[str, Family] = {name: _bounded(family) for name, family in _ALL.items()}

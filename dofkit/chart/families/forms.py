@@ -34,7 +34,8 @@ def mixed_forms(quick: bool) -> Iterator[Trial]:
 
     The matrix is lower times upper triangular with ones on both diagonals: determinant 1.
     """
-    for n, seed in ((n, seed) for n in ((2,) if quick else (2, 3, 4, 5)) for seed in range(1 if quick else 3)):
+    members = [(2, 0)] if quick else [(2, 0), (2, 1), (3, 0), (3, 1), (4, 0), (5, 0)]
+    for n, seed in members:
         rng = random.Random(f"mixed {n} {seed}")
         names = [*(f"u{k}" for k in range(n)), *(f"v{k}" for k in range(n)), "w"]
         exact = [_exact(rng, k, n) for k in range(n)]
@@ -54,7 +55,6 @@ def mixed_forms(quick: bool) -> Iterator[Trial]:
                 size=n,
                 dof=dof,
                 integrability=every(numbered(n), integrates) if whole else None,
-                redundancy=[],
             )
 
 
@@ -164,7 +164,7 @@ def together(quick: bool) -> Iterator[Trial]:
 
 def near_integrable(quick: bool) -> Iterator[Trial]:
     """n exact forms, one with a step e x_k dx_l in it: it does not integrate, however small the step."""
-    for n, digits in ((n, d) for n in ((1, 2) if quick else (1, 2, 4, 8)) for d in (3, 6, 9, 12, 15, 18, 24, 30)):
+    for n, digits in ((n, d) for n in ((1, 2) if quick else (1, 2, 4)) for d in (3, 6, 9, 12, 18, 30)):
         names = [*(f"z{k}" for k in range(n)), "x", "y"]
         exact = [f"dz{k} + {k + 1}*(y dx + x dy)" for k in range(n)]
         for name, step, holonomic in (("turned", f"1e-{digits}*x dy", False), ("curved", f"1e-{digits}*y dy", True)):

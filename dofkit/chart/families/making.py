@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -45,16 +45,20 @@ def ask(
     integrability: Mapping[str, bool] | None = None,
     redundancy: Sequence[str] | None = None,
 ) -> Iterator[Trial]:
-    """A trial for every question whose answer is given; ``dof`` -1: the constraints contradict each other."""
+    """A trial for every question whose answer is given; ``dof`` -1: the constraints contradict each other.
+
+    Where only the size varies, ``swept`` says of which member of the family it is the size.
+    """
     truths: dict[Question, Truth | None] = {
         "dof": dof,
         "integrability": None if integrability is None else dict(integrability),
         "redundancy": None if redundancy is None else sorted(redundancy),
     }
+    member = {"member": name.replace(str(size), "n")} if size > 1 and not swept else {}
     for question, truth in truths.items():
         if truth is not None:
             told = f"{name}: {question}"
-            yield Trial(family, told, question, scene, truth, because, tuple(traits), size, dict(swept or {}))
+            yield Trial(family, told, question, scene, truth, because, tuple(traits), size, dict(swept or member))
 
 
 def same(
@@ -116,3 +120,26 @@ def every(names: Sequence[str], value: bool) -> dict[str, bool]:
 def numbered(number: int, first: int = 1) -> list[str]:
     """The names of constraints without one: c1, c2, ..."""
     return [f"c{i}" for i in range(first, first + number)]
+
+
+#: How many trials of a question stand for a family.
+FEW = 2
+
+
+def few(trials: Iterable[Trial]) -> Iterator[Trial]:
+    """Trials that stand for a family: of the first question a small one, the next with another truth; then one each."""
+    chosen: dict[str, list[Trial]] = {}
+    for trial in sorted(trials, key=lambda trial: trial.size):
+        known = chosen.setdefault(trial.question, [])
+        most = FEW if next(iter(chosen)) == trial.question else 1
+        if len(known) < most and kind(trial) not in map(kind, known):
+            known.append(trial)
+    return (trial for known in chosen.values() for trial in known)
+
+
+def kind(trial: Trial) -> Any:
+    """What must not be the same of all trials of a family and question, lest a method be right by always saying it."""
+    truth = trial.truth
+    if isinstance(truth, dict):
+        return tuple(sorted(set(truth.values())))
+    return bool(truth) if isinstance(truth, list) else truth

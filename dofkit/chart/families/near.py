@@ -18,16 +18,18 @@ POSES = {
     "three on a rod, space": "shaky",
     **dict.fromkeys((jointed.name for jointed in sweeps.JOINTED), "overconstrained"),
 }
+#: The steps that are taken.
+STEPS = (0, 1e-1, 1e-3, 1e-6, 1e-9, 1e-12)
 DERIVED = "derived by hand at the singular pose and beside it, for every step"
 
 
 def near_singular(quick: bool) -> Iterator[Trial]:
     """At singular poses, and 10^-1 ... 10^-12 beside them."""
     for number, case in enumerate(sweeps.steps()):
-        if quick and number % 17:
+        if number % 17 if quick else case.swept["step"] not in STEPS:
             continue
         trait = "near-singular" if case.swept["step"] else POSES.get(case.known.group, "shaky")
-        yield from asked("near singular", case.known, DERIVED, (trait,), swept=case.swept)
+        yield from asked("near singular", case.known, DERIVED, (trait,), swept=case.swept, questions=("dof",))
 
 
 def scaled(quick: bool) -> Iterator[Trial]:
@@ -36,7 +38,7 @@ def scaled(quick: bool) -> Iterator[Trial]:
         if number % (31 if quick else 2):
             continue
         traits = (_moved(case), "near-singular" if case.swept["step"] else POSES.get(case.known.group, "shaky"))
-        yield from asked("size and place", case.known, DERIVED, traits, swept=case.swept)
+        yield from asked("size and place", case.known, DERIVED, traits, swept=case.swept, questions=("dof",))
 
 
 def rounded(quick: bool) -> Iterator[Trial]:
@@ -45,7 +47,7 @@ def rounded(quick: bool) -> Iterator[Trial]:
         if quick and number % 11:
             continue
         because = "the exact rank of what is written: independent bars stay so, and nothing is singular there"
-        yield from asked("rounded", case.known, because, ("rounded",), swept=case.swept)
+        yield from asked("rounded", case.known, because, ("rounded",), swept=case.swept, questions=("dof",))
 
 
 def measured(quick: bool) -> Iterator[Trial]:
@@ -53,7 +55,9 @@ def measured(quick: bool) -> Iterator[Trial]:
     for number, case in enumerate(sweeps.measured()):
         if quick and number % 11:
             continue
-        yield from asked("rounded, with tolerance", case.known, DERIVED, ("measured",), swept=case.swept)
+        yield from asked(
+            "rounded, with tolerance", case.known, DERIVED, ("measured",), swept=case.swept, questions=("dof",)
+        )
 
 
 def measured_elsewhere(quick: bool) -> Iterator[Trial]:
@@ -62,7 +66,9 @@ def measured_elsewhere(quick: bool) -> Iterator[Trial]:
         if number % (29 if quick else 2):
             continue
         traits = ("measured", _moved(case))
-        yield from asked("size and place, with tolerance", case.known, DERIVED, traits, swept=case.swept)
+        yield from asked(
+            "size and place, with tolerance", case.known, DERIVED, traits, swept=case.swept, questions=("dof",)
+        )
 
 
 def _moved(case: sweeps.Case) -> str:

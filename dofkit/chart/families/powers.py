@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dofkit.chart.families.making import ask, every, numbered, scene
 from dofkit.chart.trial import Trial
 
-POWERS = (1, 2, 3, 4, 5, 8, 16, 32, 64)
+POWERS = (1, 2, 3, 4, 8, 16, 31, 32, 64)
 #: The largest power of a sum that a scene may hold, as powers of powers are bounded.
 LARGEST = 32
 
@@ -97,7 +97,6 @@ def sums_of_squares(quick: bool) -> Iterator[Trial]:
                 traits,
                 size=n,
                 dof=dof,
-                redundancy=None if dof < 0 else [],
             )
         rates = " + ".join(f"(x{k}dot - {'y' if k else 'x1'} ydot)^2" for k in range(n))
         yield from ask(

@@ -144,8 +144,8 @@ def rotations(quick: bool) -> Iterator[Trial]:
 
 def linear_rows(quick: bool) -> Iterator[Trial]:
     """Rows of a linear system; the last a combination of the others, at a gap; scaled; with coefficients far apart."""
-    sizes = (3, 6) if quick else (3, 6, 12, 24)
-    for n, digits in ((n, d) for n in sizes for d in ((6, 30) if quick else (6, 9, 12, 20, 30, 60))):
+    sizes = (3, 6) if quick else (3, 6, 12)
+    for n, digits in ((n, d) for n in sizes for d in ((6, 30) if quick else (6, 12, 30, 60))):
         if n > 6 and digits > 30:
             continue
         rng = random.Random(f"rows {n}")
@@ -218,13 +218,13 @@ def touching(quick: bool) -> Iterator[Trial]:
                     size=len(rows),
                     swept={"gap": float(e)},
                     dof=dof,
-                    redundancy=None if dof < 0 else over,
+                    redundancy=None if dof < 0 or digits not in (0, 12) else over,
                 )
 
 
 def scales(quick: bool) -> Iterator[Trial]:
     """Circles and planes of any size, anywhere, in any unit: what follows from what does not change."""
-    for power in (-9, 9) if quick else (-30, -12, -9, -6, -3, 3, 6, 9, 12, 30):
+    for power in (-9, 9) if quick else (-30, -9, -6, 3, 6, 9, 30):
         r, at = f"1e{power}", f"1e{abs(power)}"
         members: list[tuple[str, str, Sequence[str], int, Sequence[str], str]] = [
             ("a circle, and again in another unit", "x y z", [f"x^2 + y^2 = ({r})^2", f"(x/({r}))^2 + (y/({r}))^2 = 1"],
