@@ -31,8 +31,8 @@ def zeros(quick: bool) -> Iterator[Trial]:
 def near_zeros(quick: bool) -> Iterator[Trial]:
     """The same missed by a constant that floating point does not see, or by a sign."""
     for number, trap in enumerate(TRAPS[:: 9 if quick else 1]):
-        other = [(trap.sign, "plain")] if trap.sign and number % 3 == 0 else []
-        for turn, (miss, trait) in enumerate([(trap.tiny[number % 2], "near-identity"), *other]):
+        signs = [(trap.sign, "plain")] if trap.sign and number % 3 == 0 else []
+        for turn, (miss, trait) in enumerate([(trap.tiny[number % 2], "near-identity"), *signs]):
             known = _turned(trap, miss, False, number + STRIDE * turn)
             if known is not None:
                 yield from asked("near identities", known, "an identity missed by a constant", (trait,))
