@@ -15,7 +15,7 @@ from itertools import combinations
 import networkx as nx
 
 from dofkit.deadline import check
-from dofkit.exact.sparse import SparseRow, Supports, echelon, rank_of_rows
+from dofkit.exact.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
 SEARCHED = 12
@@ -165,20 +165,49 @@ def _droppable(parts: Sequence[Rows], members: list[int], bases: Sequence[_Basis
         return [o for o in members if o not in kept_of]
     if len(members) > SEARCHED:
         return _exchanged(parts, members, rows_of)
-    everything = set(members)
-    dropped = _greedy(parts, list(reversed(members)), everything, [])
+    within = _Dispensable(parts, members)
+    dropped = _greedy(within, list(reversed(members)), [])
     for size in range(len(members) - 1, len(dropped), -1):
         for choice in combinations(reversed(members), size):
-            if _spans(parts, everything - set(choice), everything):
+            if within.can_go(choice):
                 return list(choice)
     return dropped
 
 
-def _greedy(parts: Sequence[Rows], order: Sequence[int], everything: set[int], gone: Sequence[int]) -> list[int]:
+class _Dispensable:
+    """Which of some constraints can go together.
+
+    Rows can go without loss of rank where they are independent in the dual matroid, whose matrix is that of the sums
+    of rows that are 0 (Whitney): as many rows at most as there are such sums, however many rows there are.
+    """
+
+    def __init__(self, parts: Sequence[Rows], members: Sequence[int]) -> None:
+        self._tables: list[tuple[dict[int, list[SparseRow]], int, int]] = []
+        everything = set(members)
+        for part in parts:
+            own = [i for i, owner in enumerate(part.owners) if owner in everything]
+            finite = [i for i in own if part.finite[i]]
+            for numbers in (own,) if len(finite) == len(own) else (own, finite):
+                sums = vanishing([part.matrix[i] for i in numbers], part.p)
+                of: dict[int, list[SparseRow]] = {}
+                for i, column in zip(numbers, transposed(sums, len(numbers)), strict=True):
+                    of.setdefault(part.owners[i], []).append(column)
+                self._tables.append((of, len(sums), part.p))
+
+    def can_go(self, owners: Sequence[int]) -> bool:
+        """Do the others imply these? Finite ones only by finite ones: a rate does not fix a constant."""
+        for of, most, p in self._tables:
+            rows = [row for owner in owners for row in of.get(owner, ())]
+            if len(rows) > most or rank_of_rows(rows, p) < len(rows):
+                return False
+        return True
+
+
+def _greedy(within: _Dispensable, order: Sequence[int], gone: Sequence[int]) -> list[int]:
     """What can go besides ``gone``, one after the other."""
     dropped = list(gone)
     for owner in order:
-        if owner not in dropped and _spans(parts, everything - {*dropped, owner}, everything):
+        if owner not in dropped and within.can_go([*dropped, owner]):
             dropped.append(owner)
     return dropped
 
@@ -188,17 +217,17 @@ def _exchanged(parts: Sequence[Rows], members: Sequence[int], rows_of: Mapping[i
 
     Constraints of several equations are no matroid: what is found cannot be enlarged so, but may not be the most.
     """
-    everything = set(members)
+    within = _Dispensable(parts, members)
     last_first = list(reversed(members))
     small_first = sorted(last_first, key=lambda o: rows_of[o])
-    dropped = max((_greedy(parts, order, everything, []) for order in (last_first, small_first)), key=len)
+    dropped = max((_greedy(within, order, []) for order in (last_first, small_first)), key=len)
     until = time.process_time() + EXCHANGE_SECONDS
     better = True
     while better:
         better = False
         for back in dropped:
             check()
-            found = _greedy(parts, [o for o in small_first if o != back], everything, [o for o in dropped if o != back])
+            found = _greedy(within, [o for o in small_first if o != back], [o for o in dropped if o != back])
             if len(found) > len(dropped):
                 dropped, better = found, True
                 break

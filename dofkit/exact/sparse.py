@@ -69,8 +69,28 @@ def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -
             found.add(i, rest, used)
             independent.append(i)
         elif supports:
-            dependent[i] = found.support(used)
+            dependent[i] = tuple(sorted(found.support(used)))
     return Echelon(tuple(independent), dependent)
+
+
+def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
+    """A basis of the sums of rows that are 0, row -> factor each: for every dependent row it and those before it.
+
+    >>> vanishing([{0: 1}, {0: 1, 1: 1}, {1: 2}], 7)
+    [{2: 1, 1: 5, 0: 2}]
+    """
+    alone = _private(rows)
+    reduction = _Reduction(p, Counter(c for row in rows for c in row))
+    found = []
+    for i, row in enumerate(rows):
+        if i in alone:
+            continue
+        rest, used = reduction.reduced(row)
+        if rest:
+            reduction.add(i, rest, used)
+        else:
+            found.append({i: 1} | {k: -v % p for k, v in reduction.support(used).items()})
+    return found
 
 
 def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
@@ -166,9 +186,9 @@ class _Reduction:
             found[column] = (reduced[number] - sum(v * found[c] for c, v in others)) % p
         return found
 
-    def support(self, used: Mapping[int, int]) -> tuple[int, ...]:
-        """The rows of which a sum of pivot rows is the sum: each is its row less earlier pivots, unfolded backwards."""
-        left, found = dict(used), []
+    def support(self, used: Mapping[int, int]) -> SparseRow:
+        """A sum of pivot rows as one of rows, row -> factor: each is its row less earlier ones, unfolded backwards."""
+        left, found = dict(used), SparseRow()
         pending = [-k for k in left]
         heapify(pending)
         while pending:
@@ -177,13 +197,13 @@ class _Reduction:
             factor = left.pop(number) * inverse % self.p
             if not factor:
                 continue
-            found.append(row)
+            found[row] = factor
             for k, v in earlier.items():
                 if k not in left:
                     left[k] = 0
                     heappush(pending, -k)
                 left[k] = (left[k] - factor * v) % self.p
-        return tuple(sorted(found))
+        return found
 
 
 class Solved:
