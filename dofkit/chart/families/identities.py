@@ -19,29 +19,29 @@ TAKEN = ("1e-12", "1e-30")
 FINITE = ("planes", "circle", "lines", "height", "angle")
 
 
-def zeros(quick: bool) -> Iterator[Trial]:
-    """Zero by an identity; each trap in one context after the other."""
-    for number, trap in enumerate(TRAPS[:: 9 if quick else 1]):
-        for turn in range(1 + (number % 3 == 0)):
-            known = _turned(trap, trap.zero, True, number + STRIDE * turn)
-            if known is not None:
-                yield from asked("hidden identities", known, "zero by an identity", ("hidden-identity",))
+def identities(quick: bool) -> Iterator[Trial]:
+    """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
+    seen = set()
+    for trap, text, zero, trait, number in _traps(9 if quick else 1):
+        known = _turned(trap, text, zero, number)
+        if known is not None and known.name not in seen:
+            seen.add(known.name)
+            because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
+            yield from asked("identities", known, because, (trait,))
 
 
-def near_zeros(quick: bool) -> Iterator[Trial]:
-    """The same missed by a constant that floating point does not see, or by a sign."""
-    for number, trap in enumerate(TRAPS[:: 9 if quick else 1]):
-        signs = [(trap.sign, "plain")] if trap.sign and number % 3 == 0 else []
-        for turn, (miss, trait) in enumerate([(trap.tiny[number % 2], "near-identity"), *signs]):
-            known = _turned(trap, miss, False, number + STRIDE * turn)
-            if known is not None:
-                yield from asked("near identities", known, "an identity missed by a constant", (trait,))
-    for number, (name, text, names) in enumerate(() if quick else NOT_ZERO):
-        other = Trap(name, text, None, names, "^" not in text)
+def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
+    """Each trap, an expression, whether it is zero, the trait, and in which context it stands."""
+    for number, trap in enumerate(TRAPS[::stride]):
+        yield trap, trap.zero, True, "hidden-identity", number
+        yield trap, trap.tiny[number % 2], False, "near-identity", number
+        if number % 3 == 0:
+            yield trap, trap.zero, True, "hidden-identity", number + STRIDE
+        if number % 3 == 1 and trap.sign:
+            yield trap, trap.sign, False, "plain", number + STRIDE
+    for number, (name, text, names) in enumerate(NOT_ZERO[::stride]):
         for turn in range(3):
-            known = _turned(other, text, False, number + STRIDE * turn)
-            if known is not None:
-                yield from asked("near identities", known, "it is not zero", ("near-identity",))
+            yield Trap(name, text, None, names, "^" not in text), text, False, "near-identity", number + STRIDE * turn
 
 
 def _turned(trap: Trap, text: str, zero: bool, number: int) -> Known | None:
@@ -116,8 +116,7 @@ BASES = [
 ]
 
 FAMILIES = {
-    "hidden identities": zeros,
-    "near identities": near_zeros,
+    "identities": identities,
     "tiny steps": steps,
     "other coordinates": rewritten,
     "mixed bases": bases,
