@@ -10,9 +10,9 @@ from motions import PLANE, acceleration, check, energies, names_of, scene, vanis
 
 import dofkit
 from dofkit.errors import SceneError
-from dofkit.expr import parameter, substitute, velocity
+from dofkit.expr import ZERO, Expr, parameter, substitute, velocity
 from dofkit.lagrange import MotionError
-from dofkit.text import parse_expression
+from dofkit.text import Names, parse_expression
 
 # The lectures' systems: accelerations by Newton's law, or known solutions.
 
@@ -372,6 +372,53 @@ def test_a_constant_velocity_leaves_a_constant_that_does_not_matter() -> None:
     assert "initial state" in report.notes[0]
 
 
+def test_energies_that_fix_no_accelerations_are_told() -> None:
+    for kinetic, potential, said in (("5", "x", "1 = 0"), ("0", "x y", "no velocity occurs")):
+        with pytest.raises(MotionError, match=said):
+            dofkit.lagrange(scene(coordinates="x y", **energies(kinetic, potential)))
+    together = scene(coordinates="x y", **energies("(xdot + ydot)^2", "x^2"))
+    assert "do not determine" in dofkit.lagrange(together).notes[-1]
+
+
+def test_a_ball_rolls() -> None:
+    """On the plane without forces its centre and its spin are steady; sloping gravity gives 5/7 of what slides."""
+    ball = scene(
+        {"type": "roll", "body": "B", "radius": "R"},
+        bodies=[{"name": "B", "mass": "m", "inertia": "2 m R^2/5", "coordinates": ["x", "y", "z", *ANGLES]}],
+        forces=[{"type": "gravity", "acceleration": "g", "direction": [1, 0, 0]}],
+    )
+    report = dofkit.lagrange(ball)
+    assert report.eliminated == {"z": "R"}
+    assert len(report.multipliers) == 2
+    names = names_of(ball, report)
+    # in space xdot = R wy, ydot = -R wx, and (2/5 m R^2 + m R^2) wy' = m g R
+    rates = parse_rates(names)
+    accelerations = {acceleration("x"): parse_expression("5 g/7", names), acceleration("y"): ZERO}
+    forces = {parameter("lam1"): parse_expression("2 m g/7", names), parameter("lam2"): ZERO}
+    for text in report.equations[:2]:
+        assert vanishes(substitute(zero(text, names), {**accelerations, **forces}))
+    for text in report.equations[2:]:
+        assert vanishes(substitute(zero(text, names), {**rates, **forces}))
+
+
+ANGLES = ("phi", "theta", "psi")
+
+
+def parse_rates(names: Names) -> dict[Expr, Expr]:
+    """The Euler angles' accelerations from w' = (0, 5 g/(7 R), 0), with
+    w = (theta' cos phi + psi' sin theta sin phi, theta' sin phi - psi' sin theta cos phi, phi' + psi' cos theta)."""
+    turn = "(5 g/(7 R))"
+    across = "(psidot thetadot cos(theta))"
+    # the rates of wx and wy without theta'' and psi''
+    gx = f"(-thetadot phidot sin(phi) + {across} sin(phi) + psidot phidot sin(theta) cos(phi))"
+    gy = f"(thetadot phidot cos(phi) - {across} cos(phi) + psidot phidot sin(theta) sin(phi))"
+    nutation = f"({turn} sin(phi) - {gx} cos(phi) - {gy} sin(phi))"
+    spin = f"((-{turn} cos(phi) - {gx} sin(phi) + {gy} cos(phi))/sin(theta))"
+    precession = f"(psidot thetadot sin(theta) - {spin} cos(theta))"
+    found = {"theta": nutation, "psi": spin, "phi": precession}
+    return {acceleration(n): parse_expression(text, names) for n, text in found.items()}
+
+
 def test_equations_too_long_to_read_keep_a_multiplier() -> None:
     """Every text can be read back: the grammar takes at most 2000 characters."""
     steep = scene(
@@ -390,3 +437,5 @@ def test_an_unstable_equilibrium_has_no_frequencies() -> None:
     assert small is not None
     assert small.stiffness == [["-g*l*m"]]
     assert small.frequencies == []
+    assert small.unstable
+    assert small.others[0] == {"theta": "pi"}

@@ -88,23 +88,86 @@ def test_energy_is_conserved_with_multipliers() -> None:
     assert drift(two, [3.0, -4.0, 7.0, -7.0, 0.8, 0.6, 1.4, 1.4]) < 1e-9
 
 
-def test_what_is_handed_over_suits_both_methods() -> None:
+BOB: dict[str, Any] = {
+    "dimension": 2, "forces": [{"type": "gravity", "acceleration": 10}],
+    "particles": [{"name": n, "mass": 1, "coordinates": [f"x{n}", f"y{n}"]} for n in "AB"],
+}  # fmt: skip
+UPPER = {"type": "link", "between": [[0, 0], "A"], "length": 5}
+LOWER = {"type": "link", "between": ["A", "B"], "length": 5}
+HANDED: dict[str, tuple[Scene, list[int], dict[int, int], list[float], list[float]]] = {
+    # scene, mass by speed, force by speed, a state on the constraints
+    "disc": (
+        scene("dx = 2 cos(theta) dphi", "dy = 2 sin(theta) dphi", coordinates="x y theta phi",
+              **energies("(xdot^2 + ydot^2)/2 + 3 thetadot^2/2 + 7 phidot^2/2", forces={"phi": 5})),
+        [1, 1, 3, 7], {3: 5}, [0.1, 0.2, 0.0, 0.4], [1.0, 0.0, 0.3, 0.5],
+    ),
+    "sleigh": (
+        scene("sin(theta) dx = cos(theta) dy", coordinates="x y theta",
+              **energies("(xdot^2 + ydot^2)/2 + 3 thetadot^2/2", "10 y")),
+        [1, 1, 3], {1: -10}, [0.1, 0.2, 0.0], [0.7, 0.0, 0.4],
+    ),
+    "two links": (
+        scene(UPPER, LOWER, **BOB), [1, 1, 1, 1], {1: -10, 3: -10}, [3.0, -4.0, 7.0, -7.0], [0.8, 0.6, 1.4, 1.4],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", HANDED)
+def test_what_is_handed_over_suits_both_methods(name: str) -> None:
+    """Kane's and Lagrange's accelerations are Newton's: M a = F + A^T lam and A a = -(dA/dt) v, by hand."""
+    import numpy as np
     from sympy.physics.mechanics import KanesMethod, Particle, Point
 
-    given = dofkit.lagrange(dofkit.load("trolley-pendulum")).to_sympy()
-    assert len(given.coordinates) == len(given.speeds) == len(given.kinematics) == 2
-    assert not given.configuration
-    disc = dofkit.lagrange(
-        scene("dx = R cos(theta) dphi", "dy = R sin(theta) dphi", coordinates="x y theta phi",
-              **energies(f"{PLANE} + I1 thetadot^2/2 + I3 phidot^2/2"))
-    ).to_sympy()  # fmt: skip
-    assert len(disc.velocity) == 2
-    frame = disc.frame
-    origin = Point("O")
-    origin.set_vel(frame, disc.speeds[0] * frame.x + disc.speeds[1] * frame.y)
-    method = KanesMethod(frame, **disc.kanes_arguments())
-    rest, star = method.kanes_equations([Particle("P", origin, sympy.Symbol("m", positive=True))], [])
-    assert rest.shape == star.shape == (2, 1)
+    made, masses, pushed, q0, u0 = HANDED[name]
+    given = dofkit.lagrange(made).to_sympy()
+    n = len(given.coordinates)
+    bodies, loads = [], []
+    for i, mass in enumerate(masses):
+        point = Point(f"O{i}")
+        point.set_vel(given.frame, given.speeds[i] * given.frame.x)
+        bodies.append(Particle(f"P{i}", point, sympy.Integer(mass)))
+        loads += [(point, pushed[i] * given.frame.x)] if i in pushed else []
+    kane = KanesMethod(given.frame, **given.kanes_arguments())
+    kane.kanes_equations(bodies, loads)
+    order = [*kane.q, *kane.u]
+    here = dict(zip([*given.coordinates, *given.speeds], [*q0, *u0], strict=True))
+    found = np.linalg.solve(_at(kane.mass_matrix_full, here), _at(kane.forcing_full, here))
+    by_kane = dict(zip(order, found.ravel(), strict=True))
+    lagrange = given.lagranges_method()
+    lagrange.form_lagranges_equations()
+    here = dict(zip([*given.coordinates, *(q.diff() for q in given.coordinates)], [*q0, *u0], strict=True))
+    other = np.linalg.solve(_at(lagrange.mass_matrix_full, here), _at(lagrange.forcing_full, here)).ravel()[n : 2 * n]
+    assert np.allclose([by_kane[u] for u in given.speeds], other)
+    assert np.allclose(other, BY_HAND[name])
+
+
+def _at(matrix: Any, state: Any) -> Any:
+    import numpy as np
+
+    rates = {q: v for q, v in state.items() if q.is_Derivative}
+    return np.array(matrix.xreplace(rates).xreplace(state).evalf(), dtype=float)
+
+
+def _by_newton(masses: list[float], force: list[float], rows: list[list[float]], rates: list[float]) -> list[float]:
+    """Accelerations with M a - A^T lam = F and A a = rates."""
+    import numpy as np
+
+    n, k = len(masses), len(rows)
+    whole = np.zeros((n + k, n + k))
+    whole[:n, :n], whole[:n, n:], whole[n:, :n] = np.diag(masses), -np.array(rows).T, np.array(rows)
+    return list(np.linalg.solve(whole, [*force, *rates])[:n])
+
+
+BY_HAND = {
+    # at theta = 0: x'' = 2 phi'', y'' = 2 theta' phi' = 0.3, (7 + 4) phi'' = 5
+    "disc": [10 / 11, 0.3, 0.0, 5 / 11],
+    # at theta = 0: y'' = theta' x' = 0.28, nothing acts along x
+    "sleigh": [0.0, 0.28, 0.0],
+    # r.a = -v.v for both links
+    "two links": _by_newton(
+        [1, 1, 1, 1], [0, -10, 0, -10], [[3, -4, 0, 0], [-4, 3, 4, -3]], [-(0.8**2 + 0.6**2), -(0.6**2 + 0.8**2)]
+    ),
+}
 
 
 def test_a_report_read_back_is_not_handed_over() -> None:
@@ -134,9 +197,83 @@ def test_a_pendulums_frequency() -> None:
     small = dofkit.lagrange(dofkit.load("pendulum-angle"), linearize=True).linearized
     assert small is not None
     assert small.frequencies == ["sqrt(g)/sqrt(l)"]
-    ladder = dofkit.lagrange(dofkit.load("sliding-ladder-angle"), linearize=True)
-    assert ladder.linearized is None
-    assert "no equilibrium" in ladder.notes[-1]
+    ladder = dofkit.lagrange(dofkit.load("sliding-ladder-angle"), linearize=True).linearized
+    assert ladder is not None
+    assert ladder.equilibrium == {"theta": "pi/2"}
+    assert ladder.unstable
+    wire = dofkit.lagrange(dofkit.load("bead-on-wire-arc-length"), linearize=True)
+    assert wire.linearized is None
+    assert "no equilibrium" in wire.notes[-1]
+
+
+def chain_of_links(n: int) -> Scene:
+    """Particles of mass m one below the other, by links of length l."""
+    names = ["O", *(f"P{i}" for i in range(1, n + 1))]
+    links = [
+        {"type": "link", "between": [[0, 0] if i == 0 else names[i], names[i + 1]], "length": "l"} for i in range(n)
+    ]
+    bobs = [{"name": f"P{i}", "mass": "m", "coordinates": [f"x{i}", f"y{i}"]} for i in range(1, n + 1)]
+    return scene(*links, dimension=2, particles=bobs, forces=[{"type": "gravity", "acceleration": "g"}])
+
+
+def test_small_motions_with_multipliers() -> None:
+    """Tensions 2 m g and m g: x1'' = -2 g x1/l + g (x2 - x1)/l, x2'' = -g (x2 - x1)/l; omega^2 = (2 +- sqrt 2) g/l."""
+    report = dofkit.lagrange(chain_of_links(2), linearize=True)
+    assert len(report.multipliers) == 2
+    small = report.linearized
+    assert small is not None
+    assert small.coordinates == ["x1", "x2"]
+    assert small.equilibrium == {"x1": "0", "y1": "-l", "x2": "0", "y2": "-2*l"}
+    assert small.mass == [["m", "0"], ["0", "m"]]
+    assert small.stiffness == [["3*g*m/l", "-g*m/l"], ["-g*m/l", "g*m/l"]]
+    assert small.frequencies == [f"sqrt(2 {sign} sqrt(2))*sqrt(g)/sqrt(l)" for sign in "+-"]
+    assert not small.unstable
+
+
+def test_small_motions_of_a_pendulum_given_by_a_link() -> None:
+    small = dofkit.lagrange(chain_of_links(1), linearize=True).linearized
+    assert small is not None
+    assert small.equilibrium == {"x1": "0", "y1": "-l"}
+    assert small.frequencies == ["sqrt(g)/sqrt(l)"]
+
+
+def test_small_motions_of_a_disc_on_its_springs() -> None:
+    """Rolling along x with x = l phi: (m + J/l^2) x'' = -k x; y follows to second order only."""
+    disc = scene(
+        "dx = l cos(theta) dphi", "dy = l sin(theta) dphi", coordinates="x y theta phi",
+        **energies(f"{PLANE} + J thetadot^2/2 + J phidot^2/2", "k x^2/2 + k theta^2/2"),
+    )  # fmt: skip
+    small = dofkit.lagrange(disc, linearize=True).linearized
+    assert small is not None
+    assert small.coordinates == ["x", "theta"]
+    assert small.mass == [["J/l^2 + m", "0"], ["0", "J"]]
+    assert small.stiffness == [["k", "0"], ["0", "k"]]
+
+
+def test_all_places_of_rest_of_a_bead_on_a_turning_hoop() -> None:
+    """l theta'' = (l w^2 cos(theta) - g) sin(theta): 0, pi, and cos(theta) = g/(l w^2)."""
+    hoop = scene(coordinates="theta", **energies("m l^2 (thetadot^2 + w^2 sin(theta)^2)/2", "-m g l cos(theta)"))
+    small = dofkit.lagrange(hoop, linearize=True).linearized
+    assert small is not None
+    assert small.equilibrium == {"theta": "0"}
+    assert small.frequencies == ["sqrt(g - l*w^2)/sqrt(l)"]
+    assert {e["theta"] for e in small.others} >= {"pi", "acos(g/(l*w^2))"}
+
+
+def test_an_equilibrium_where_what_was_eliminated_has_no_value() -> None:
+    """On y + y^3 = x^2, y is x^2 to second order: m x'' = -2 m g x."""
+    bowl = scene("y + y^3 = x^2", coordinates="x y", **energies(PLANE, "m g y"))
+    small = dofkit.lagrange(bowl, linearize=True).linearized
+    assert small is not None
+    assert small.coordinates == ["x"]
+    assert small.stiffness == [["2*g*m"]]
+
+
+def test_nothing_rests_where_time_enters_a_constraint() -> None:
+    rod = scene("x^2 + y^3 + y = t", coordinates="x y", **energies(PLANE, "m g y"))
+    report = dofkit.lagrange(rod, linearize=True)
+    assert report.linearized is None
+    assert "Not linearized" in report.notes[-1]
 
 
 def test_a_hanging_mass_rests_where_its_spring_holds_it() -> None:

@@ -18,6 +18,7 @@ from dofkit.lagrange.elimination import ELIMINATIONS, Care
 from dofkit.lagrange.energies import Energy, Reader, missing
 from dofkit.lagrange.linear import linearized
 from dofkit.lagrange.model import Model, MotionError, modelled
+from dofkit.lagrange.regularity import SINGULAR, degenerate
 from dofkit.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.lowering import system_of
 from dofkit.scene import Scene
@@ -50,7 +51,7 @@ def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None)
     try:
         with limited(DEFAULT_SECONDS if budget is None else budget):
             derived = derived_of(scene)
-            return _told(derived, linearize)
+            return _told(derived, *(_small(scene, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise MotionError(f"no equations of motion are given: {error}") from None
 
@@ -61,10 +62,12 @@ def derived_of(scene: Scene) -> Derived:
     Where they would be longer than a text of a scene may be, less is eliminated, and more multipliers are kept.
     """
     source = read(scene)
+    freest: Model | None = None
     for care in ELIMINATIONS[:-1]:
         model = source.model(care)
         if not model.elimination.solved:
             return derive(model)
+        freest = freest or model
         if len(to_text(model.energy.lagrangian)) <= LONGEST:
             try:
                 with limited(TRYING):
@@ -72,8 +75,16 @@ def derived_of(scene: Scene) -> Derived:
             except OutOfTimeError:
                 continue
             if _readable(derived):
-                return derived
-    return derive(source.model(ELIMINATIONS[-1]))
+                return _with_note(derived, freest)
+    return _with_note(derive(source.model(ELIMINATIONS[-1])), freest)
+
+
+def _with_note(derived: Derived, freest: Model | None) -> Derived:
+    """Says so where more could have been eliminated."""
+    model = derived.model
+    if freest is None or model.elimination.solved.keys() >= freest.elimination.solved.keys():
+        return derived
+    return replace(derived, model=replace(model, notes=(*model.notes, LONG)))
 
 
 def _readable(derived: Derived) -> bool:
@@ -94,8 +105,6 @@ class Source:
     def model(self, care: Care = ELIMINATIONS[0]) -> Model:
         """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""
         model = modelled(self.study, self.energy, self.names, care)
-        if care != ELIMINATIONS[0]:
-            model = replace(model, notes=(*model.notes, LONG))
         used = frozenset().union(*(e.symbols for e in _energies(model)))
         faults = missing(used)
         if faults:
@@ -132,14 +141,23 @@ def _energies(model: Model) -> list[Expr]:
     return [e.kinetic, e.potential, e.dissipation, *e.forces.values()]
 
 
-def _told(derived: Derived, linearize: bool) -> MotionReport:
+def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str, ...]]:
+    """Small motions, or why they are not given; what was eliminated may have no value at rest, and is then kept."""
+    try:
+        return linearized(derived), ()
+    except MotionError as error:
+        why = f"Not linearized: {error}."
+    if not derived.model.elimination.solved or derived.model.elimination.constants:
+        return None, (why,)
+    try:
+        return linearized(derive(read(scene).model(ELIMINATIONS[-1]))), ()
+    except MotionError:
+        return None, (why,)
+
+
+def _told(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -> MotionReport:
     model = derived.model
-    small, notes = None, list(model.notes)
-    if linearize:
-        try:
-            small = linearized(derived)
-        except MotionError as error:
-            notes.append(f"Not linearized: {error}.")
+    more = (*((SINGULAR,) if degenerate(derived) else ()), *more)
     report = MotionReport(
         scene=model.study.system.name,
         coordinates=list(model.names),
@@ -154,7 +172,7 @@ def _told(derived: Derived, linearize: bool) -> MotionReport:
         cyclic=cyclic(derived),
         conserved=list(conserved(derived)),
         linearized=small,
-        notes=notes,
+        notes=[*model.notes, *more],
         verdict=model.study.report.verdict,
     )
     report._derived = derived

@@ -5,14 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dofkit import expr as ex
+from dofkit.deadline import OutOfTimeError, check, limited
 from dofkit.exact.canon import is_identically_zero
 from dofkit.expr import Expr
 from dofkit.lagrange.derivation import Derived
 from dofkit.lagrange.elimination import Remaining
 from dofkit.lagrange.order import ordered
 from dofkit.lagrange.report import Conserved
+from dofkit.lagrange.tidying import by_rates, length
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.text import to_text
+
+#: Seconds for writing the energy shorter.
+SECONDS = 2.0
 
 
 def cyclic(derived: Derived) -> list[str]:
@@ -47,7 +52,19 @@ def energy_function(derived: Derived) -> tuple[Expr, bool]:
     powers = ex.add(*(ex.velocity(n) * p for n, p in derived.momenta.items()))
     function = powers - derived.lagrangian
     total = own.kinetic + own.potential
-    return (ordered(total), True) if _zero(derived, function - total) else (ordered(function), False)
+    whole = _zero(derived, function - total)
+    return _shorter(derived, total if whole else function), whole
+
+
+def _shorter(derived: Derived, e: Expr) -> Expr:
+    """The same, sorted by velocities where that is shorter."""
+    try:
+        with limited(SECONDS):
+            found = by_rates(e, derived.model.positive)
+    except OutOfTimeError:
+        check()
+        found = None
+    return ordered(e if found is None or length(found) >= length(e) or not _zero(derived, found - e) else found)
 
 
 def _zero(derived: Derived, e: Expr) -> bool:

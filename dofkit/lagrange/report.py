@@ -25,18 +25,22 @@ class Conserved(Model):
 
 
 class Linearized(Model):
-    """M qddot + C qdot + K q = 0 for small deviations q from an equilibrium.
+    """M qddot + C qdot + K q = 0 for small deviations q of ``coordinates`` from an equilibrium.
 
-    ``characteristic``: det(M s^2 + C s + K); ``frequencies``: the angular ones where C is 0, as text; empty where no
-    formula is given, and where one is not real: the equilibrium is unstable then.
+    ``characteristic``: det(M s^2 + C s + K), empty for large systems; ``frequencies``: the angular ones where C is 0,
+    as text; empty where no formula is given, and where one is not real. ``unstable``: deviations grow, which a negative
+    square of a frequency shows; false where that is not known. ``others``: equilibria found beside this one.
     """
 
+    coordinates: list[str]
     equilibrium: dict[str, str]
     mass: list[list[str]]
     damping: list[list[str]]
     stiffness: list[list[str]]
     characteristic: str
     frequencies: list[str]
+    unstable: bool = False
+    others: list[dict[str, str]] = Field(default_factory=list)
 
 
 class MotionReport(Model):

@@ -42,9 +42,14 @@ def _section(title: str, lines: list[str]) -> Iterator[str]:
 
 def _linearized(found: Linearized) -> Iterator[str]:
     place = ", ".join(f"{n} = {v}" for n, v in found.equilibrium.items())
-    yield f"Linearized at {place}: M qddot + C qdot + K q = 0"
+    yield f"Linearized at {place}: M qddot + C qdot + K q = 0, q = ({', '.join(found.coordinates)})"
     for name, matrix in (("M", found.mass), ("C", found.damping), ("K", found.stiffness)):
         yield f"  {name} = [" + "; ".join(", ".join(row) for row in matrix) + "]"
-    yield f"  {found.characteristic} = 0"
+    if found.characteristic:
+        yield f"  {found.characteristic} = 0"
     if found.frequencies:
         yield f"  angular frequencies {', '.join(found.frequencies)}"
+    if found.unstable:
+        yield "  unstable: the square of a frequency is negative, and deviations grow"
+    for other in found.others:
+        yield "  another equilibrium: " + ", ".join(f"{n} = {v}" for n, v in other.items())
