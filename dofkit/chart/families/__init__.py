@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from dofkit.chart.families import (
+    anywhere,
     blocks,
     catalog,
     chains,
@@ -33,6 +34,7 @@ _ALL: Mapping[str, Family] = {
     **catalog.FAMILIES,
     **graphs.FAMILIES,
     **joints.FAMILIES,
+    **anywhere.FAMILIES,
     **near.FAMILIES,
     **chains.FAMILIES,
     **blocks.FAMILIES,

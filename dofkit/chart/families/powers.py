@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dofkit.chart.families.making import ask, every, numbered, scene
 from dofkit.chart.trial import Trial
 
-POWERS = (1, 2, 3, 4, 8, 16, 31, 32, 64)
+POWERS = (1, 2, 3, 8, 16, 32, 64)
 #: The largest power of a sum that a scene may hold, as powers of powers are bounded.
 LARGEST = 32
 
