@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from flint import ctx
 
+from dofkit.alone.reporting import report_alone
 from dofkit.answers import Answer, Setting
 from dofkit.beside import with_counts
 from dofkit.blocks import Block, uses_time
@@ -25,7 +26,7 @@ from dofkit.expr import Expr
 from dofkit.integrable import integrable_part
 from dofkit.labelling import entries_of
 from dofkit.lowering import lower
-from dofkit.methods import METHODS, MethodName
+from dofkit.methods import BY_ENGINES, METHODS, MethodName
 from dofkit.normal import Finite
 from dofkit.preparing import prepared
 from dofkit.reductions import ALL, Reductions
@@ -50,7 +51,7 @@ def classify(scene: Scene | System, budget: float | None = None, method: MethodN
     ``budget``: seconds for the scene; what is not finished then is undecided. The work is then done in a process of
     its own, which is killed where it does not end by itself (1 s or a quarter of the budget later), or needs too much
     memory: then everything is undecided, and the reason says so. Without a budget it is done here, and no new part of
-    it is begun after 60 s. ``method``: a name of `METHODS`; one engine alone leaves open what it cannot answer.
+    it is begun after 60 s. ``method``: a name of `METHODS`; one alone leaves open what it cannot answer.
     Raises `SceneError` with every fault where the scene cannot be read as mathematics.
     """
     if budget is None:
@@ -91,6 +92,9 @@ def _classified(scene: Scene | System, seconds: float, method: MethodName) -> Re
     if isinstance(system, Report):
         return system
     try:
+        if method not in BY_ENGINES:
+            with limited(until - time.monotonic()):
+                return report_alone(system, method)
         return examined(system, until - time.monotonic(), method).report
     except OutOfTimeError as error:
         return sketch(system, str(error))

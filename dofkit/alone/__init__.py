@@ -17,17 +17,22 @@ from dofkit.methods import METHODS, MethodName, Question
 from dofkit.reading import load
 from dofkit.scene import Scene
 
-__all__ = ["Knobs", "Told", "answered", "answering"]
+__all__ = ["Knobs", "Told", "answered", "answering", "module_of"]
 
 #: What a method may end with where a scene is not what it is for.
 FAILURES = (ArithmeticError, NoPointError, OutOfTimeError, NotImplementedError, ValueError)
+
+
+def module_of(method: MethodName) -> Any:
+    """The module of a method, which has the name of its row."""
+    return import_module(f"dofkit.alone.{method}")
 
 
 def answering(method: MethodName, question: Question) -> Callable[..., Told] | None:
     """The function that answers a question by a method; None where the method has none."""
     found: Callable[..., Told] | None = None
     if question in METHODS[method].uses:
-        found = getattr(import_module(f"dofkit.alone.{method}"), question)
+        found = getattr(module_of(method), question)
     return found
 
 

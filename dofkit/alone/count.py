@@ -4,13 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from dofkit.alone.reporting import Found, Label, many
 from dofkit.alone.told import Knobs, Told
 from dofkit.alone.written import Written, as_written, labelled
 from dofkit.labels import exact
 from dofkit.parts import GROUND
+from dofkit.report import weakest
 from dofkit.scene import Scene
+from dofkit.system import System
 
-_BELOW = "the count is {}: some equations have to depend on others or to contradict them, and it does not tell which"
+CLOSED = "It is closed as written (all mixed partial derivatives agree), so it integrates to a finite relation."
+NOT_CLOSED = (
+    "It is not closed as written: the classroom's test of mixed partial derivatives calls it non-holonomic, but a "
+    "factor may make it integrable, which only Frobenius' condition tells."
+)
+_BELOW = (
+    "the textbook count is {}: some equations have to depend on others or to contradict them, "
+    "and it does not tell which"
+)
 
 
 def naive(written: Written) -> int:
@@ -67,3 +78,37 @@ def plain(text: str) -> tuple[str, ...]:
     bare = "".join(text.split()).replace("**", "^").replace("·", "").replace("*", "")
     sides = bare.split("=") if "=" in bare else [bare, "0"]
     return tuple(sorted(sides))
+
+
+def found(system: System) -> Found:
+    """The count with its assumption; closed forms are holonomic (Poincaré's lemma), and no others are known to be."""
+    written = as_written(system)
+    labels: dict[int, Label] = {}
+    for i, form in written.forms:
+        closed, sure = exact(form, written.positive)
+        label = Label(True, CLOSED, sure, True, True) if closed else Label(None, NOT_CLOSED, "undecided", exact=closed)
+        labels[i] = label if i not in labels else _both(labels[i], label)
+    return Found({}, {i: x for i, x in labels.items() if i not in written.others}, _sentences(written))
+
+
+def _both(a: Label, b: Label) -> Label:
+    worse = a if a.holonomic is None else b
+    return Label(worse.holonomic, worse.reason, weakest(a.verdict, b.verdict), worse.alone, worse.exact)
+
+
+def _sentences(written: Written) -> list[str]:
+    number = naive(written)
+    if number < 0:
+        told = [f"T{_BELOW[1:].format(number)}."]
+    else:
+        told = [
+            f"The textbook count gives {many(number, 'degree')} of freedom: it takes every finite equation for "
+            "independent of the others, and for one freedom."
+        ]
+    differential = len(written.forms) + sum(why != "inequality" for why in written.others.values())
+    if differential:
+        told.append(
+            f"It does not count {many(differential, 'differential equation')}, which may integrate to finite relations "
+            "or hide some."
+        )
+    return told

@@ -9,17 +9,22 @@ from fractions import Fraction
 from flint import fmpq, fmpq_mat, fmpz
 
 from dofkit import expr as ex
+from dofkit.alone.atdrawing import at_points
 from dofkit.alone.pointwise import Looked, Matrix, Rows, drawn_value, droppable, freedom, labels, look, same
+from dofkit.alone.reporting import Found
 from dofkit.alone.told import Knobs, Told, cannot
 from dofkit.alone.written import Written, as_written, posed
 from dofkit.exact.program import value_of
 from dofkit.exact.ring import Ring, Scalar, Var
+from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.scene import Scene
+from dofkit.system import System
 
 #: Draws of a rational point, and points that answers are compared at.
 DRAWS, COMPARED = 8, 3
 IRRATIONAL = "a number that occurs is irrational, and only rational ones are computed with"
+KINK = "something within abs() is 0 there, where there is no gradient"
 NOWHERE = "no rational configuration is given, and none was found by solving the equations one after the other"
 
 
@@ -53,6 +58,8 @@ class RationalPoint:
         elif var.kind == "root":
             self.given[key] = rational_root(args[0], var.degree)
         elif var.kind == "sign":
+            if args[0] == 0:
+                raise IrrationalError(KINK)
             self.given[key] = fmpq(1 if args[0] > 0 else -1)
         elif var.kind == "symbol" or var.kind == "call" or self.free:
             self.given[key] = self.draw()
@@ -177,7 +184,7 @@ def solved(written: Written, ring: Ring, order: Sequence[tuple[int, Expr]], poin
         point.given[symbol] = -start / below
 
 
-def _look(scene: Scene, knobs: Knobs) -> tuple[Looked, Rationals] | Told:
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked, Rationals] | Told:
     numbers = Rationals(knobs.seed)
     written = as_written(scene)
     if written.system.tolerance is not None:
@@ -214,3 +221,12 @@ def redundancy(scene: Scene, knobs: Knobs) -> Told:
 def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
     """By what holds at a few rational points."""
     return same(posed(scene, answer), Rationals(knobs.seed, COMPARED))
+
+
+def found(system: System) -> Found:
+    """What the rational point proves; where the drawing is the point, functions have their own values there."""
+    looked = _look(system, Knobs())
+    if isinstance(looked, Told):
+        return Found({}, {}, [f"Nothing is told: {looked.reason}."])
+    trusted = system.reference is not None or independent_generators(looked[0].rows.ring)
+    return at_points(*looked, "proved", trusted)

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from dofkit.alone.reporting import Found, many
 from dofkit.alone.told import Knobs, Told, cannot
+from dofkit.answers import Answer
+from dofkit.blocks import Row, split
 from dofkit.exact.field import prime_for
 from dofkit.exact.sparse import SparseRow, rank_of_rows
+from dofkit.frameworks import framework_answer
 from dofkit.linkage import Linkage, linkage
 from dofkit.lowering import lower
+from dofkit.normal import Finite
 from dofkit.placed import general
+from dofkit.preparing import prepared
 from dofkit.redundancy import Rows, analyse
+from dofkit.report import Generic, weakest
 from dofkit.scene import Scene
 from dofkit.system import System
 from dofkit.twists import KINDS, rows_of
@@ -94,3 +101,45 @@ def redundant(system: System, seed: int) -> list[int]:
         return sorted(pairs[k][0] for k in framework(system, pairs).redundant_places)
     rows, owners, p = generic_rows(system, seed)
     return analyse([Rows(rows, owners, [True] * len(rows), p)]).redundant
+
+
+def found(system: System) -> Found:
+    """The count in general position; it is the scene's own where all lengths were left out."""
+    why = outside(system)
+    if why is not None:
+        return Found({}, {}, [f"Nothing is told: {why}."])
+    pairs = links(system)
+    gone = redundant(system, 0)
+    equations = sum(len(c.relations) for c in system.constraints)
+    own = rank(system, 0)
+    sure = framework(system, pairs).proof("redundant").verdict if pairs is not None else "probable"
+    dof, too_many = len(system.coordinates) - own, equations - own
+    names = [system.constraints[i].name for i in gone]
+    said = f"In general position there are {many(dof, 'degree')} of freedom, and {many(too_many, 'equation')} too many"
+    said += f" ({', '.join(names)} can be dropped)" if names else ""
+    generic = Generic(dof=dof, redundant_equations=too_many, differs=None, verdict=sure)
+    answers = general_position(system)
+    if answers is None:
+        more = "whether the given geometry is special (parallel, concurrent, collinear) a graph does not see."
+        return Found({"generic": generic}, {}, [f"{said}; {more}"])
+    verdict = weakest(*(a.verdict for a in answers))
+    fields = {
+        "consistent": True,
+        "dof": dof,
+        "velocity_dof": dof,
+        "redundant_equations": too_many,
+        "redundant": names,
+    }
+    return Found(fields, {}, [f"{said}; all lengths are generic, so this is the scene's own."], not too_many, verdict)
+
+
+def general_position(system: System) -> list[Answer] | None:
+    """The answers to a scene that is nothing but links of generic lengths, block by block; None for any other."""
+    reduced, setting = prepared(system)
+    if any(r.inequalities or len(n.branches) != 1 for r in reduced for n in r.normals):
+        return None
+    pieces = [(i, p) for i, r in enumerate(reduced) for n in r.normals for p in n.pieces]
+    rows = [Row(i, p) for i, p in pieces if isinstance(p, Finite)]
+    blocks, _ = split([c.name for c in system.coordinates], rows)
+    answers = [framework_answer(b, setting) for b in blocks]
+    return None if None in answers else [a for a in answers if a is not None]

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from dofkit import expr as ex
+from dofkit.alone.atdrawing import at_points
 from dofkit.alone.pointwise import Looked, Matrix, Rows, drawn_value, droppable, freedom, labels, look, same
+from dofkit.alone.reporting import Found
 from dofkit.alone.told import Knobs, Told
 from dofkit.alone.written import Written, as_written, posed
 from dofkit.asking import CONTRADICTORY
@@ -17,9 +20,12 @@ from dofkit.exact.balls import FloatPoint, RealSearch
 from dofkit.exact.ring import Scalar
 from dofkit.expr import Expr
 from dofkit.scene import Scene
+from dofkit.system import System
 
 #: Starts of Newton's method, and points that are looked at.
 STARTS, POINTS = 10, 5
+#: A singular value is clearly not 0 above the first share of the largest, and no more than rounding below the second.
+SIGNAL, ROUNDING = 1e-6, 1e-13
 NOWHERE = "Newton's method found no configuration from {} starts"
 
 
@@ -90,7 +96,7 @@ def singular_values(matrix: Matrix) -> Any:
     return np.linalg.svd(np.array(matrix, dtype=float), compute_uv=False)
 
 
-def _look(scene: Scene, knobs: Knobs) -> tuple[Looked | None, Floats]:
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked | None, Floats]:
     numbers = Floats(knobs.tolerance, knobs.seed)
     return look(as_written(scene), numbers), numbers
 
@@ -118,3 +124,34 @@ def redundancy(scene: Scene, knobs: Knobs) -> Told:
 def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
     """By differences within the tolerance, at a few points."""
     return same(posed(scene, answer), Floats(knobs.tolerance, knobs.seed))
+
+
+def found(system: System) -> Found:
+    """What singular values tell that are clearly parted: none is between rounding and what is clearly not 0."""
+    looked, numbers = _look(system, Knobs())
+    if looked is None:
+        return Found({}, {}, [f"{NOWHERE.format(STARTS)}: whether there is one is not told."])
+    sample = looked.samples[0]
+    if any(not numbers.vanishes(r, [*row, 1.0]) for r, row in zip(sample.residuals, sample.finite, strict=True)):
+        return Found({}, {}, ["Nothing is told: the drawing does not satisfy the equations."])
+    sentence, clear = _gap([row[: looked.rows.n] for row in sample.rows])
+    if system.tolerance is not None or any(v.kind == "sign" for v in looked.rows.ring.vars):
+        clear = False
+    told = at_points(looked, numbers, "numeric", clear)
+    fields = told.fields if clear else {}
+    return replace(told, fields=fields, warnings=[*told.warnings, sentence])
+
+
+def _gap(matrix: Matrix) -> tuple[str, bool]:
+    """The gap between the singular values, as a sentence, and whether it is clear."""
+    if not matrix or not matrix[0]:
+        return "There are no equations.", True
+    singular = singular_values(matrix)
+    largest = float(singular[0]) or 1.0
+    shares = [float(v) / largest for v in singular]
+    kept, dropped = [v for v in shares if v > Knobs().tolerance], [v for v in shares if v <= Knobs().tolerance]
+    clear = all(v > SIGNAL for v in kept) and all(v < ROUNDING for v in dropped)
+    said = f"the smallest singular value that counts is {min(kept, default=0.0):.1e} of the largest"
+    said += f", the largest that is taken for 0 is {max(dropped):.1e}" if dropped else ", none is taken for 0"
+    verdict = "a clear gap" if clear else "no clear gap between 0 and what is not 0"
+    return f"Numeric: {said}: {verdict}.", clear

@@ -226,3 +226,9 @@ def drawn_value(value: Expr, point: Any) -> Scalar:
     ring = Ring([value])
     node = ring.node(value)
     return values(ring, point)[node]
+
+
+def regular(found: Looked, numbers: Numbers) -> bool:
+    """Are all rows independent over q at every point that was looked at? Then dt is not in their span either."""
+    n = found.rows.n
+    return all(numbers.rank([row[:n] for row in s.rows]) == len(s.rows) for s in found.samples)

@@ -13,11 +13,13 @@ from typing import Any
 import sympy
 
 from dofkit import expr as ex
+from dofkit.alone.reporting import Found, many
 from dofkit.alone.told import Knobs, Told
 from dofkit.alone.written import Written, as_written, labelled, posed
 from dofkit.expr import Expr
 from dofkit.lagrange.bridge import Bridge
 from dofkit.scene import Scene
+from dofkit.system import System
 
 #: A form as its coefficients by increasing indices of differentials.
 Form = dict[tuple[int, ...], Any]
@@ -107,8 +109,12 @@ def dof(scene: Scene, knobs: Knobs) -> Told:
     """Coordinates less the rank that SymPy finds, forms that pass Frobenius' test included."""
     del knobs
     symbols = Symbols(as_written(scene))
-    kept = [k for k, passes in enumerate(passing(symbols)) if passes]
-    return Told(symbols.n - int(symbols.rows(range(len(symbols.finite)), kept).rank()))
+    return Told(_freedom(symbols, passing(symbols)))
+
+
+def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
+    kept = [k for k, p in enumerate(passes) if p]
+    return symbols.n - int(symbols.rows(range(len(symbols.finite)), kept).rank())
 
 
 def integrability(scene: Scene, knobs: Knobs) -> Told:
@@ -167,3 +173,22 @@ def _alike(a: Sequence[Any], b: Sequence[Any]) -> bool:
     if len(a) != len(b):
         return False
     return any(all(sympy.simplify(x + sign * y) == 0 for x, y in zip(a, b, strict=True)) for sign in (-1, 1))
+
+
+def found(system: System) -> Found:
+    """What SymPy says, as warnings only: none of it is sure."""
+    symbols = Symbols(as_written(system))
+    passes = passing(symbols)
+    where = "at the drawing" if symbols.drawing else "in the whole space, not only where the constraints hold"
+    told = [
+        f"SymPy's rank gives {many(_freedom(symbols, passes), 'degree')} of freedom: it is that of the Jacobian "
+        f"{where}, and takes for non-zero what SymPy does not see to be 0."
+    ]
+    names = [c.name for c in system.constraints]
+    for verb, said in ((True, "integrable"), (False, "not integrable")):
+        named = [names[i] for (i, _), p in zip(symbols.forms, passes, strict=True) if p is verb]
+        if named:
+            told.append(
+                f"SymPy's wedge products call {', '.join(dict.fromkeys(named))} {said}, by one step of Frobenius."
+            )
+    return Found({}, {}, told)
