@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from dofkit.errors import DofkitError, SceneError, TextError
 
 if TYPE_CHECKING:
+    from dofkit.asking import ask
     from dofkit.catalog import catalog_names, catalog_text
     from dofkit.classify import classify, derived_flag
     from dofkit.homework.assignment import load_assignment
@@ -35,6 +36,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "TextError",
+    "ask",
     "catalog_names",
     "catalog_text",
     "classify",
@@ -54,6 +56,7 @@ _HOMES = {
     "Linkage": "dofkit.linkage",
     "Report": "dofkit.report",
     "Scene": "dofkit.scene",
+    "ask": "dofkit.asking",
     "catalog_names": "dofkit.catalog",
     "catalog_text": "dofkit.catalog",
     "classify": "dofkit.classify",

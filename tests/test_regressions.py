@@ -10,6 +10,7 @@ import pytest
 import dofkit
 
 XYZ = ["x", "y", "z"]
+PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59)
 
 
 def scene(*constraints: Any, coordinates: list[str] | None = None, **more: Any) -> dict[str, Any]:
@@ -17,6 +18,11 @@ def scene(*constraints: Any, coordinates: list[str] | None = None, **more: Any) 
 
 
 TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
+    (
+        "no prime has 17 square roots; their sum is 80.05, and 80.05/sqrt(2) < 100",
+        scene(f"x - y = {' + '.join(f'sqrt({p})' for p in PRIMES)}", "x^2+y^2=10000", coordinates=["x", "y"]),
+        {"consistent": True, "dof": 0},
+    ),
     ("a root of velocities is no crash", scene("sqrt(xdot^2+ydot^2)=zdot"), {"dof": 3, "velocity_dof": 2}),
     ("without c3 the plane y=0 appears", scene("x*y=0", "y*z=0", "z*x=0"), {"dof": 1, "redundant": []}),
     ("x*y=0 and x*z=0: neither can go", scene("x*y=0", "x*z=0"), {"dof": 2, "redundant": []}),

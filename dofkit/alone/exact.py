@@ -14,6 +14,7 @@ from dofkit.alone.pointwise import Looked, Matrix, Rows, drawn_value, droppable,
 from dofkit.alone.reporting import Found
 from dofkit.alone.told import Knobs, Told, cannot
 from dofkit.alone.written import Written, as_written, posed
+from dofkit.asking import CONTRADICTORY
 from dofkit.exact.program import value_of
 from dofkit.exact.ring import Ring, Scalar, Var
 from dofkit.exact.trust import independent_generators
@@ -30,6 +31,10 @@ NOWHERE = "no rational configuration is given, and none was found by solving the
 
 class IrrationalError(ArithmeticError):
     """A value is no rational number."""
+
+
+class ContradictionError(ArithmeticError):
+    """Linear equations have no solution."""
 
 
 class RationalPoint:
@@ -121,14 +126,16 @@ class Rationals:
     def points(self, written: Written, rows: Rows, drawn: bool) -> list[RationalPoint]:
         if drawn:
             return [self._drawn(written)]
-        order = solvable(written)
-        if order is None:
+        order, found = solvable(written), list[RationalPoint]()
+        if order is None and not _linear(written):
             return []
-        found: list[RationalPoint] = []
         for k in range(DRAWS):
             point = RationalPoint(random.Random(f"dofkit rational {self.seed} {k}"), free=True)
             try:
-                solved(written, rows.ring, order, point)
+                if order is None:
+                    solved_together(written, point)
+                else:
+                    solved(written, rows.ring, order, point)
                 value_of_all(rows, point)
             except (IrrationalError, ZeroDivisionError):
                 continue
@@ -184,6 +191,34 @@ def solved(written: Written, ring: Ring, order: Sequence[tuple[int, Expr]], poin
         point.given[symbol] = -start / below
 
 
+def _linear(written: Written) -> bool:
+    """Are the finite equations linear in the coordinates together?"""
+    movable = set(written.coordinates)
+    slopes = (ex.diff(g, s) for _, g in written.finite for s in written.coordinates if s in g.symbols)
+    return all(movable.isdisjoint(slope.symbols) for slope in slopes)
+
+
+def solved_together(written: Written, point: RationalPoint) -> None:
+    """Solve linear equations A q = b; what is free is drawn. Raises ZeroDivisionError where there is no solution."""
+    columns = written.coordinates
+    for s in columns:
+        point.given[s] = fmpq(0)
+    rows = []
+    for _, g in written.finite:
+        slopes = [ex.diff(g, s) for s in columns]
+        ring = Ring([g, *slopes], written.positive)
+        rows.append([value_of(ring, point, ring.node(e)) for e in (*slopes, g)])
+    reduced, rank = fmpq_mat(rows).rref()
+    pivots = [next(c for c in range(len(columns) + 1) if reduced[r, c] != 0) for r in range(rank)]
+    if len(columns) in pivots:
+        raise ContradictionError("the linear equations contradict each other")
+    for c in set(range(len(columns))) - set(pivots):
+        point.given[columns[c]] = point.draw()
+    for r, c in enumerate(pivots):
+        moved = sum((reduced[r, k] * point.given[columns[k]] for k in range(c + 1, len(columns))), fmpq(0))
+        point.given[columns[c]] = -reduced[r, len(columns)] - moved
+
+
 def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked, Rationals] | Told:
     numbers = Rationals(knobs.seed)
     written = as_written(scene)
@@ -193,6 +228,8 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked, Rationals] | Tol
         found = look(written, numbers)
     except IrrationalError as error:
         return cannot(str(error))
+    except ContradictionError as error:
+        return Told(CONTRADICTORY, str(error))
     if found is None:
         return cannot(NOWHERE)
     if any(found.samples[0].residuals):
@@ -209,13 +246,18 @@ def dof(scene: Scene, knobs: Knobs) -> Told:
 def integrability(scene: Scene, knobs: Knobs) -> Told:
     """By Frobenius' test at that point."""
     found = _look(scene, knobs)
-    return found if isinstance(found, Told) else Told(labels(found[0]))
+    return _unless_contradictory(found) if isinstance(found, Told) else Told(labels(found[0]))
 
 
 def redundancy(scene: Scene, knobs: Knobs) -> Told:
     """By the ranks there with and without each constraint."""
     found = _look(scene, knobs)
-    return found if isinstance(found, Told) else Told(droppable(*found))
+    return _unless_contradictory(found) if isinstance(found, Told) else Told(droppable(*found))
+
+
+def _unless_contradictory(told: Told) -> Told:
+    """Where nothing can hold, nothing is told of labels."""
+    return Told(None, told.reason, told.cannot)
 
 
 def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:

@@ -109,7 +109,7 @@ def found(system: System) -> Found:
     if why is not None:
         return Found({}, {}, [f"Nothing is told: {why}."])
     pairs = links(system)
-    gone = redundant(system, 0)
+    gone = redundant(system, 0) if pairs is not None else []
     equations = sum(len(c.relations) for c in system.constraints)
     own = rank(system, 0)
     sure = framework(system, pairs).proof("redundant").verdict if pairs is not None else "probable"

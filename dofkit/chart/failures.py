@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Literal
 
-from dofkit.methods import METHODS, MethodName, Question
-
-Outcome = Literal["wrong", "undecided", "cannot", "timed out"]
+from dofkit.methods import METHODS, MethodName
 
 #: Every trait of a trial, in words.
 TRAITS: Mapping[str, str] = {
@@ -210,7 +207,7 @@ _SENTENCES: Mapping[MethodName, Sequence[tuple[str, str]]] = {
 }  # fmt: skip
 
 #: Why a method takes long, where that is not its cost alone.
-_SLOW: Mapping[MethodName, str] = {
+_SLOW: Mapping[str, str] = {
     "auto": "Exact arithmetic on what hangs together here takes longer than it was given.",
     "field": "Exact elimination on what hangs together here takes longer than it was given.",
     "balls": "It computes at hundreds of bits with every entry of a matrix, and climbs to more where they do not tell.",
@@ -221,7 +218,7 @@ _SLOW: Mapping[MethodName, str] = {
     "count": "Even reading that many equations takes longer than it was given.",
 }
 
-WHY: Mapping[tuple[MethodName, str], str] = {
+WHY: Mapping[tuple[str, str], str] = {
     (method, trait): sentence
     for method, sentences in _SENTENCES.items()
     for sentence, traits in sentences
@@ -229,18 +226,20 @@ WHY: Mapping[tuple[MethodName, str], str] = {
 }
 
 
-def explained(method: MethodName, question: Question, traits: Sequence[str], outcome: Outcome, reason: str = "") -> str:
+def explained(method: str, question: str, traits: Sequence[str], outcome: str, reason: str = "") -> str:
     """Why a method fails on a trial, as a sentence; never empty.
 
-    ``traits``: of the trial, the one that matters most first; ``reason``: what the method said itself.
+    ``traits``: of the trial, the one that matters most first; ``outcome``: ``wrong``, ``undecided``, ``cannot`` or
+    ``timed out``; ``reason``: what the method said itself.
     """
+    row = next((row for name, row in METHODS.items() if name == method), None)
+    cannot = _sentence(row.cannot) if row is not None else f"{method} does not answer this."
     if outcome == "cannot" or (outcome == "undecided" and reason):
-        return _sentence(reason or METHODS[method].cannot)
+        return _sentence(reason) if reason else cannot
     if outcome == "timed out":
-        use = METHODS[method].uses.get(question)
-        return f"{_SLOW[method]} Its cost: {use.costs}." if use else _SLOW[method]
-    found = next((WHY[method, trait] for trait in traits if (method, trait) in WHY), None)
-    return found or _sentence(METHODS[method].cannot)
+        costs = [use.costs for asked, use in row.uses.items() if asked == question] if row is not None else []
+        return " ".join([_SLOW.get(method, cannot), *(f"Its cost: {cost}." for cost in costs)])
+    return next((WHY[method, trait] for trait in traits if (method, trait) in WHY), cannot)
 
 
 def _sentence(text: str) -> str:

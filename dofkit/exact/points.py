@@ -122,6 +122,9 @@ class Solver:
     # -- planning -------------------------------------------------------------------------------
 
     def _make_plan(self) -> None:
+        if self.probe is None:
+            self.plan.stuck = True
+            return
         remaining = list(self.relations)
         solved_last: list[tuple[int, Unit]] = []
         everything = {u for node in remaining for u in units_in(self.ring, node)}
