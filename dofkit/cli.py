@@ -170,6 +170,9 @@ def chart(
         Path | None, typer.Option("--from", metavar="DIR", help="Draw again from the data of a run.")
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="A few small trials of each family: under a minute.")] = False,
+    most: Annotated[
+        int | None, typer.Option("--most", metavar="N", min=0, help="Trials of each family and question; 0: all.")
+    ] = None,
     scheduler: Annotated[
         str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A Dask cluster that does the work.")
     ] = None,
@@ -185,7 +188,7 @@ def chart(
     from dofkit.chart.command import Options, run
     from dofkit.chart.selecting import Selection
 
-    selection = Selection(question or (), families or (), methods or (), quick)
+    selection = Selection(question or (), families or (), methods or (), quick, most)
     try:
         whole = run(Options(selection, out, source, scheduler, workers, timeout))
     except (DofkitError, OSError) as error:

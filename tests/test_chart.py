@@ -19,6 +19,7 @@ from dofkit.alone.told import Knobs
 from dofkit.chart import command, runner, statistics, storing, table, tasks
 from dofkit.chart.judging import judged
 from dofkit.chart.record import AUTO, Data, Line, Outcome, Ran, Reduction, Score
+from dofkit.chart.selecting import Selection
 from dofkit.chart.summary import summary
 from dofkit.chart.trial import Trial
 from dofkit.cli import app
@@ -118,7 +119,9 @@ def test_answers_are_judged(truth: Any, told: Any, outcome: Outcome) -> None:
 def test_sweeps_turn_what_the_trials_sweep() -> None:
     base = next(chart_methods.family(True))
     rounded = [replace(base, name=f"r{d}-{k}", swept={"digits": d}) for d in (3, 9) for k in range(40)]
-    near = [replace(base, name="n", swept={"gap": "1/1000"}), replace(base, name="far", size=99, swept={"gap": "1"})]
+    near = [replace(base, name=name, swept={"gap": gap}) for name, gap in (("n", -1e-3), ("m", "1/1000"), ("far", 1))]
+    near.append(replace(base, name="large", size=99, swept={"gap": 1e-3}))
+    rounded.append(replace(base, name="said", swept={"digits": 5, "tolerance": 1e-5}))
     found = list(tasks.sweeps([*rounded, *near], ["auto", "numeric", "balls"], False))
     tolerances = [task for task in found if task.knob == "tolerance"]
     assert {task.knobs.tolerance for task in tolerances} == {task.value for task in tolerances} == set(tasks.TOLERANCES)
@@ -127,8 +130,21 @@ def test_sweeps_turn_what_the_trials_sweep() -> None:
     tolerant = [task for task in found if task.knob == "scene tolerance"]
     assert all(task.trial.scene["tolerance"] == task.value and task.knobs == Knobs() for task in tolerant)
     balls = [task for task in found if task.knob == "bits"]
-    assert {task.trial.name for task in balls} == {"n"}
+    assert {(task.trial.name, task.group) for task in balls} == {("n", "0.001"), ("m", "0.001")}
     assert not [task for task in found if task.method == "field"]
+
+
+def test_of_many_trials_some_are_taken_from_the_smallest_to_the_largest() -> None:
+    trials = [replace(t, name=f"{t.name}{k}") for t in chart_methods.family(False) for k in range(3)]
+    assert [t.size for t in Selection(most=4).thinned(trials)] == [1, 2, 4, 8]
+    assert len(Selection(most=0).thinned(trials)) == len(trials) == 24
+    assert [t.size for t in Selection(quick=True).thinned(trials)] == [1, 8]
+    assert list(Selection(["dof"], [], ["auto", "field"], True, 7).options()) == [
+        "--question dof",
+        "--methods auto,field",
+        "--quick",
+        "--most 7",
+    ]
 
 
 # -- what the lines say ----------------------------------------------------------------------------
@@ -312,10 +328,10 @@ def test_the_command_runs_tells_and_redraws(tmp_path: Path) -> None:
     out = tmp_path / "new" / "folder"
     done = CliRunner().invoke(app, [*arguments, "--out", str(out)])
     assert done.exit_code == 0, done.output
-    assert "auto: 4 trials, 0 wrong, 0 left open" in done.output
+    assert "auto: 2 trials, 0 wrong, 0 left open" in done.output
     assert "nothing is drawn without matplotlib: pip install 'dofkit[chart]'" in done.output
     data = storing.read(out)
-    assert len(data.lines) == 2 * 4
+    assert len(data.lines) == 2 * 2
     assert {found.outcome for found in data.lines} == {"right"}
     assert data.ran.command == "dofkit chart --families boxes --methods auto,field --quick"
     again = CliRunner().invoke(app, ["chart", "--from", str(out), "--out", str(tmp_path / "again")])

@@ -29,7 +29,7 @@ from dofkit.workers import Job
 from dofkit.workers.pool import cores
 
 #: Seconds of processor time for a trial, and in a quick run.
-LIMIT, LIMIT_QUICK = 5.0, 1.0
+LIMIT, LIMIT_QUICK = 3.0, 0.5
 #: Seconds that measuring one reduction on one scene may take.
 REDUCTION_SECONDS = 120.0
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"
@@ -76,9 +76,10 @@ def run(options: Options) -> bool:
     started, found = time.monotonic(), Found()
     date = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
     chosen = options.selection.chosen(FAMILIES)
-    trials = chosen.trials(FAMILIES)
+    known = chosen.trials(FAMILIES)
+    trials = chosen.thinned(known)
     work = list(tasks.crossed(trials, chosen.methods))
-    swept = list(tasks.sweeps(trials, chosen.methods, chosen.quick))
+    swept = list(tasks.sweeps(known, chosen.methods, chosen.quick))
     try:
         _gather(options, work, swept, found)
     except KeyboardInterrupt:

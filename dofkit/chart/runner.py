@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Protocol
 
-from dofkit.chart.asking import MODULES, Asked, answered
+from dofkit.chart.asking import AGAIN, MODULES, Asked, answered
 from dofkit.chart.judging import judged
 from dofkit.chart.record import Line, Outcome
 from dofkit.chart.tasks import Task
@@ -45,7 +45,8 @@ class Bench:
     def submit(self, task: Task) -> Future[Ended]:
         """Begin with a trial."""
         t = task.trial
-        asked = Asked(t.scene, t.question, task.method, task.knobs, t.answer, self.limit, self.answering)
+        again = 0 if task.knob else AGAIN
+        asked = Asked(t.scene, t.question, task.method, task.knobs, t.answer, self.limit, again, self.answering)
         return self.crew.submit(self.ask, Job(answered, asked, PATIENCE * self.limit + SPARE))
 
     def line(self, task: Task, ended: Ended) -> Line:

@@ -11,17 +11,23 @@ from dofkit.chart.trial import Trial
 from dofkit.methods import METHODS, Question
 from dofkit.values import suggestion
 
+#: Trials of each family and question, at most, where nothing is said; and in a quick run.
+MOST, MOST_QUICK = 32, 2
 Families = Mapping[str, Callable[[bool], Iterator[Trial]]]
 
 
 @dataclass(frozen=True)
 class Selection:
-    """Questions, families and methods by name; an empty one stands for all of them."""
+    """Questions, families and methods by name; an empty one stands for all of them.
+
+    ``most``: so many trials of each family and question, at most; 0: all.
+    """
 
     questions: Sequence[str] = ()
     families: Sequence[str] = ()
     methods: Sequence[str] = ()
     quick: bool = False
+    most: int | None = None
 
     def chosen(self, families: Families) -> Selection:
         """With all names written out. Raises ChartError with the nearest one for a name that is none."""
@@ -30,6 +36,7 @@ class Selection:
             _known(self.families, list(families), "family"),
             _known(self.methods, list(METHODS), "method"),
             self.quick,
+            self.most,
         )
 
     def trials(self, families: Families) -> list[Trial]:
@@ -39,6 +46,14 @@ class Selection:
             raise ChartError("no trial of these families asks such a question")
         return found
 
+    def thinned(self, trials: Sequence[Trial]) -> list[Trial]:
+        """Not more of each family and question than wanted, from the smallest to the largest."""
+        most = self.most if self.most is not None else MOST_QUICK if self.quick else MOST
+        rows: dict[tuple[str, str], list[Trial]] = {}
+        for trial in trials:
+            rows.setdefault((trial.family, trial.question), []).append(trial)
+        return [trial for row in rows.values() for trial in evenly(sorted(row, key=lambda t: t.size), most or len(row))]
+
     def options(self) -> Iterator[str]:
         """The same, as it is written on the command line."""
         for option, names in (("question", self.questions), ("families", self.families), ("methods", self.methods)):
@@ -46,6 +61,15 @@ class Selection:
                 yield f"--{option} {','.join(names)}"
         if self.quick:
             yield "--quick"
+        if self.most is not None:
+            yield f"--most {self.most}"
+
+
+def evenly(row: Sequence[Trial], most: int) -> list[Trial]:
+    """So many of them, at most, the first and the last and what lies between them at even distances."""
+    if len(row) <= most:
+        return list(row)
+    return [row[round(i * (len(row) - 1) / max(1, most - 1))] for i in range(most)]
 
 
 def _known(asked: Iterable[str], known: Sequence[str], what: str) -> list[str]:

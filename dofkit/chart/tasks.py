@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from typing import Any, NamedTuple
 
 from dofkit.alone.told import Knobs
 from dofkit.chart.trial import Trial
 
-#: Of each group of a sweep so many trials, at most; the fewer where it is to be quick.
-MOST_SWEPT, MOST_SWEPT_QUICK = 24, 6
+#: Of each question in a group of a sweep so many trials, at most; the fewer where it is to be quick.
+MOST_SWEPT, MOST_SWEPT_QUICK = 10, 2
+#: Sweeps of balls take what misses a special case by less than this.
+NEAR = 0.1
 #: Values of the knobs, all of them and a few.
 TOLERANCES = tuple(10.0**-k for k in range(1, 17))
 BITS = (16, 24, 32, 48, 64, 96, 128, 192, 256, 512)
@@ -49,7 +52,7 @@ def crossed(trials: Iterable[Trial], methods: Sequence[str]) -> Iterator[Task]:
 
 def sweeps(trials: Sequence[Trial], methods: Sequence[str], quick: bool) -> Iterator[Task]:
     """The tolerance of numbers, the tolerance of scenes, the precision of balls and the size of a field's primes."""
-    few = Few(MOST_SWEPT_QUICK, 2, 1) if quick else Few(MOST_SWEPT, 1, 3)
+    few = Few(MOST_SWEPT_QUICK, 3, 1) if quick else Few(MOST_SWEPT, 1, 3)
     for method, swept in (("numeric", _rounding), ("auto", _tolerant), ("balls", _precision), ("field", _primes)):
         if method in methods:
             yield from swept(trials, few)
@@ -64,22 +67,33 @@ class Few(NamedTuple):
 
 
 def _rounding(trials: Sequence[Trial], few: Few) -> Iterator[Task]:
-    for trial, group in _groups(trials, "digits", few.most):
+    for trial, group in _groups(trials, _digits, few.most):
         for value in TOLERANCES[:: few.stride]:
             yield Task(trial, "numeric", Knobs(tolerance=value), "tolerance", value, group)
 
 
 def _tolerant(trials: Sequence[Trial], few: Few) -> Iterator[Task]:
-    for trial, group in _groups([t for t in trials if t.question in BY_GEOMETRY], "digits", few.most):
+    for trial, group in _groups([t for t in trials if t.question in BY_GEOMETRY], _digits, few.most):
         for value in TOLERANCES[:: few.stride]:
             scene: dict[str, Any] = {**trial.scene, "tolerance": value}
             yield Task(replace(trial, scene=scene), "auto", Knobs(), "scene tolerance", value, group)
 
 
 def _precision(trials: Sequence[Trial], few: Few) -> Iterator[Task]:
-    for trial, group in _groups(trials, "gap", few.most):
+    for trial, group in _groups(trials, _gap, few.most):
         for bits in BITS[:: few.stride]:
             yield Task(trial, "balls", Knobs(bits=bits), "bits", bits, group)
+
+
+def _digits(trial: Trial) -> str | None:
+    """To how many digits its numbers are rounded, where nothing in the scene says so."""
+    return str(trial.swept["digits"]) if "digits" in trial.swept and "tolerance" not in trial.swept else None
+
+
+def _gap(trial: Trial) -> str | None:
+    """By how much it misses a special case, where that is little."""
+    gap = abs(float(Fraction(str(trial.swept.get("gap", 0)))))
+    return f"{gap:g}" if 0 < gap < NEAR else None
 
 
 def _primes(trials: Sequence[Trial], few: Few) -> Iterator[Task]:
@@ -90,12 +104,13 @@ def _primes(trials: Sequence[Trial], few: Few) -> Iterator[Task]:
                 yield Task(trial, "field", Knobs(prime_bits=bits, seed=seed), "prime bits", bits, trial.question)
 
 
-def _groups(trials: Iterable[Trial], key: str, most: int) -> Iterator[tuple[Trial, str]]:
-    """The trials in which something is swept, a few for each of its values, with that value."""
+def _groups(trials: Iterable[Trial], key: Callable[[Trial], str | None], most: int) -> Iterator[tuple[Trial, str]]:
+    """Small trials of each group, with its name."""
     groups: dict[str, list[Trial]] = {}
     for trial in trials:
-        if key in trial.swept and trial.size <= SMALL:
-            groups.setdefault(str(trial.swept[key]), []).append(trial)
+        group = key(trial) if trial.size <= SMALL else None
+        if group is not None:
+            groups.setdefault(group, []).append(trial)
     for group, members in groups.items():
         for trial in _spread(members, most):
             yield trial, group
