@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-import time
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -21,9 +20,9 @@ def answered(
     if method == "hangs" and size > 2:
         while True:
             pass
-    if method == "sleeps" and size > 2:
-        time.sleep(60)
-    if method == "crashes" and "size" in scene:
+    if method == "deaf" and size == 8 and scene["k"]:
+        sum(range(10**11))
+    if method == "crashes" and size == 2:
         ctypes.string_at(0)
     if method == "raises":
         raise KeyError("x")
@@ -39,5 +38,5 @@ def family(quick: bool) -> Iterator[Trial]:
     """Four sizes, two trials each."""
     for size in (1, 2) if quick else (4, 1, 2, 8):
         for k in range(2):
-            scene = {"coordinates": ["x"], "constraints": [], "size": size}
+            scene = {"coordinates": ["x"], "constraints": [], "size": size, "k": k}
             yield Trial("boxes", f"box-{size}-{k}", "dof", scene, 2, "by construction", ("large",), size)

@@ -67,7 +67,8 @@ def test_every_trial_has_its_line_whatever_the_method_does() -> None:
     found = {m: {(line.size, line.outcome) for line in lines if line.method == m} for m in methods}
     for method, outcome in (("right", "right"), ("wrong", "wrong"), ("undecided", "undecided"), ("cannot", "cannot")):
         assert found[method] == {(size, outcome) for size in (1, 2, 4, 8)}
-    assert found["raises"] == found["crashes"] == found["undecided"]
+    assert found["raises"] == found["undecided"]
+    assert found["crashes"] == {(1, "right"), (2, "undecided"), (4, "right"), (8, "right")}
     assert found["hangs"] == {(1, "right"), (2, "right"), (4, "timed out"), (8, "timed out")}
     why = {(line.method, line.size): line.why for line in lines}
     assert why["right", 1] == ""
@@ -81,9 +82,16 @@ def test_every_trial_has_its_line_whatever_the_method_does() -> None:
 
 
 def test_workers_stay_warm() -> None:
-    told = [line.told for line in ran(["process"])]
+    lines = ran(["process", "hangs"])
+    told = [line.told for line in lines if line.method == "process"]
     assert len(told) == 8
     assert len(set(told)) <= 2
+    assert any(line.outcome == "timed out" for line in lines)
+
+
+def test_what_hears_no_signal_is_killed() -> None:
+    lines = ran(["deaf"])
+    assert [line.outcome for line in lines] == ["right"] * 7 + ["timed out"]
 
 
 def test_ladders_climb_by_size_and_other_ladders_go_on() -> None:

@@ -12,7 +12,7 @@ from typing import Any
 from dofkit.alone.told import Knobs, Told
 from dofkit.workers import Json
 from dofkit.workers.child import named
-from dofkit.workers.limits import cut
+from dofkit.workers.limits import LateError, interrupting
 
 #: What is shorter, in seconds, is done again, so many times, and the least is taken.
 SHORT, AGAIN = 0.05, 2
@@ -49,12 +49,17 @@ class Asked:
 
 
 def answered(asked: Asked) -> Json:
-    """What is told, as a mapping ``value, reason, cannot``, with ``seconds``."""
+    """What is told, as a mapping ``value, reason, cannot``, with ``seconds``; None where these went beyond the limit.
+
+    What is late is interrupted, so that the process stays warm; only what cannot be is killed with it.
+    """
     function = named(asked.answering)
     _warm_up(function, asked)
-    cut(asked.limit)
-    told, seconds = _timed(function, asked)
-    cut(0)
+    try:
+        with interrupting(asked.limit):
+            told, seconds = _timed(function, asked)
+    except LateError:
+        return None
     if seconds < SHORT:
         seconds = min([seconds, *(_timed(function, asked)[1] for _ in range(asked.again))])
     return {**asdict(told), "seconds": seconds}

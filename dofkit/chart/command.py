@@ -6,7 +6,7 @@ import os
 import platform
 import tempfile
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -138,30 +138,25 @@ def writable(out: Path) -> None:
 
 
 def _gather(options: Options, work: Sequence[tasks.Task], swept: Sequence[tasks.Task], found: Found) -> None:
+    """Reductions are measured beside the trials: each of their runs needs the one before."""
     with _bench(options) as bench, _bar() as bar:
+        job = Job(asking.ablated, options.selection.quick, REDUCTION_SECONDS)
+        reduced = bench.crew.submit(bench.ask, job) if _reduces(options.selection) else None
         for name, some, lines in (("trials", work, found.lines), ("sweeps", swept, found.sweeps)):
             shown = bar.add_task(name, total=len(some))
             for line in runner.run(some, bench):
                 lines.append(line)
                 bar.update(shown, advance=1)
-        if _reduces(options.selection):
+        if reduced is not None:
             shown = bar.add_task("reductions", total=None)
-            found.reductions += _reductions(bench, options.selection.quick)
+            found.reductions += [Reduction.model_validate(row) for row in reduced.result().value or ()]
             bar.update(shown, total=1, completed=1)
     found.complete = True
 
 
 def _reduces(selection: Selection) -> bool:
-    """Reductions are measured where everything is: they are about `auto` on scenes of their own."""
-    return not (selection.questions or selection.families or selection.methods) and bool(
-        find_spec("dofkit.chart.ablation")
-    )
-
-
-def _reductions(bench: runner.Bench, quick: bool) -> Iterable[Reduction]:
-    job = Job(asking.ablated, quick, REDUCTION_SECONDS)
-    ended = bench.crew.submit(bench.ask, job).result()
-    return [Reduction.model_validate(row) for row in ended.value or ()]
+    """They are measured where everything is: they are about `auto` on scenes of their own."""
+    return not (selection.questions or selection.families or selection.methods)
 
 
 @contextmanager

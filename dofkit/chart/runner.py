@@ -53,13 +53,13 @@ class Bench:
         """What became of a trial."""
         if ended.ended == "absent":
             raise StoppedError(ended.reason)
-        if ended.finished:
+        if ended.finished and ended.value is not None:
             told, seconds = ended.value["value"], float(ended.value["seconds"])
             outcome = judged(task.trial.truth, told)
             if told is None and ended.value["cannot"]:
                 outcome = "cannot"
             return self._told(task, told, outcome, seconds, str(ended.value["reason"]))
-        if ended.ended in ("overrun", "memory"):
+        if ended.finished or ended.ended in ("overrun", "memory"):
             reason = ended.reason if ended.ended == "memory" else f"not done after {self.limit:g} s"
             return self._told(task, None, "timed out", self.limit, reason)
         return self._told(task, None, "undecided", self.limit, f"it failed: {ended.reason}")

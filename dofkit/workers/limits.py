@@ -7,6 +7,9 @@ import os
 import signal
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
 
 if sys.platform != "win32":
     import resource
@@ -49,14 +52,32 @@ def allow_processor(seconds: float) -> None:
         _set(resource.RLIMIT_CPU, math.ceil(time.process_time() + seconds))
 
 
-def cut(seconds: float) -> None:
-    """Let the system end this process once it has used so many more seconds of processor time; 0: never mind.
+class LateError(BaseException):
+    """The processor time allowed was used up. Nothing but who allowed it should catch this."""
 
-    Unlike `allow_processor` in fractions of a second, and only where there are such timers.
+
+@contextmanager
+def interrupting(seconds: float) -> Iterator[None]:
+    """Raise LateError in this block once it has used so many seconds of processor time, where there are such timers.
+
+    A library that hears no signals meanwhile is ended by the system soon after. Only in the main thread.
     """
-    if sys.platform != "win32":
-        signal.signal(signal.SIGPROF, signal.SIG_DFL)
-        signal.setitimer(signal.ITIMER_PROF, seconds)
+    if sys.platform == "win32":
+        yield
+        return
+    allow_processor(seconds + SPARE)
+    before = signal.signal(signal.SIGPROF, _late)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
+        _set(resource.RLIMIT_CPU, resource.RLIM_INFINITY)
+
+
+def _late(number: int, frame: FrameType | None) -> None:
+    raise LateError(signal.Signals(number).name)
 
 
 def grown(memory: int) -> bool:

@@ -16,6 +16,8 @@ from dofkit.chart.record import ALL, AUTO, OUTCOMES, Chart, Front, Score
 
 #: Points of a mark's radius; that of ``auto`` is larger.
 RADIUS, RADIUS_AUTO = 8.0, 11.0
+#: Seconds that no clock here tells from 0.
+SHORTEST = 1e-6
 
 
 def draw(chart: Chart) -> Figure | None:
@@ -47,7 +49,7 @@ def draw(chart: Chart) -> Figure | None:
 def _panel(axes: Axes, question: str, members: list[Score], front: Front | None) -> tuple[list[Any], list[Any]]:
     """Draw it; the labels that are to be placed, and the corners of the front."""
     axes.set_xscale("log")
-    times = [score.median_seconds or 0.0 for score in members]
+    times = [_time(score) for score in members]
     axes.set_xlim(min(times) / 4, max(times) * 4)
     axes.xaxis.set_minor_locator(NullLocator())
     axes.set_ylim(-9, 112)
@@ -66,7 +68,7 @@ def _panel(axes: Axes, question: str, members: list[Score], front: Front | None)
         style |= {"fontweight": "bold"} if score.method == AUTO else {}
         style |= {"color": "#A33B00"} if score.wrong else {}
         text = f"{score.method}\n{_percent(score.share_right)} right, {wrong}"
-        marks.append((score.median_seconds, 100 * score.share_right, text, style))
+        marks.append((_time(score), 100 * score.share_right, text, style))
     return marks[::-1], stair
 
 
@@ -75,8 +77,8 @@ def _stair(axes: Axes, on: list[Score]) -> list[tuple[float, float]]:
     corners = [(on[0].median_seconds or 0.0, 100 * on[0].share_right)]
     for score in on[1:]:
         corners += [
-            (score.median_seconds or 0.0, corners[-1][1]),
-            (score.median_seconds or 0.0, 100 * score.share_right),
+            (_time(score), corners[-1][1]),
+            (_time(score), 100 * score.share_right),
         ]
     corners.append((axes.get_xlim()[1], corners[-1][1]))
     axes.plot([x for x, _ in corners], [y for _, y in corners], color="#000000", linewidth=1.3, zorder=2)
@@ -87,7 +89,7 @@ def _pie(axes: Axes, score: Score, ringed: bool) -> None:
     """Shares of the outcomes as wedges, the same size wherever it stands."""
     radius = RADIUS_AUTO if score.method == AUTO else RADIUS
     counts = [score.right, score.wrong, score.undecided, score.timed_out, score.cannot]
-    at, turn = (score.median_seconds or 0.0, 100 * score.share_right), 0.25
+    at, turn = (_time(score), 100 * score.share_right), 0.25
     for outcome, count in zip(OUTCOMES, counts, strict=True):
         if not count:
             continue
@@ -103,6 +105,10 @@ def _pie(axes: Axes, score: Score, ringed: bool) -> None:
     axes.scatter(
         *at, s=(2 * radius) ** 2, facecolors="none", edgecolors=edge, linewidths=width, zorder=5, clip_on=False
     )
+
+
+def _time(score: Score) -> float:
+    return max(score.median_seconds or 0.0, SHORTEST)
 
 
 def _percent(share: float) -> str:

@@ -2,37 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from dofkit.chart.figures.style import OUTCOME_COLOURS, OUTCOME_HATCHES, QUESTIONS, sheet
+from dofkit.chart.figures.style import OUTCOME_COLOURS, OUTCOME_HATCHES, sheet
 from dofkit.chart.record import ALL, AUTO, OUTCOMES, Chart, Score
 
 #: Inches of a row, and of a column.
 ROW, COLUMN, NAMES = 0.235, 1.02, 2.3
 #: The part of a cell that its bar fills.
 BAR, WIDE = 0.86, 0.95
+_COUNTS = ("trials", "right", "wrong", "undecided", "timed_out", "cannot")
 
 
 def draw(chart: Chart) -> Figure | None:
-    """A row for each family, question by question; a column for each method."""
-    parts = [score for score in chart.scores if score.family != ALL]
-    if not parts:
+    """A row for each family, all its questions together; a column for each method."""
+    cells = together([score for score in chart.scores if score.family != ALL])
+    if not cells:
         return None
-    methods = list(dict.fromkeys(score.method for score in parts))
-    rows: list[tuple[str, str]] = []
-    for question in QUESTIONS:
-        families = dict.fromkeys(score.family for score in parts if score.question == question)
-        rows += [(question, "")] * bool(families) + [(question, family) for family in families]
+    families = list(dict.fromkeys(family for family, _ in cells))
+    methods = list(dict.fromkeys(method for _, method in cells))
     title = "Where each method is right, wrong, undecided or too slow"
     width = NAMES + COLUMN * len(methods)
-    figure = sheet(width, ROW * (len(rows) + 1) + 0.3, title, chart.captions["matrix"], _legend())
+    figure = sheet(width, ROW * (len(families) + 1) + 0.3, title, chart.captions["matrix"], _legend())
     axes = figure.subplots()
     axes.set_xlim(0, len(methods))
-    axes.set_ylim(len(rows), -0.1)
+    axes.set_ylim(len(families), -0.1)
     axes.grid(visible=False)
     axes.spines[:].set_visible(False)
     axes.xaxis.tick_top()
@@ -40,23 +39,26 @@ def draw(chart: Chart) -> Figure | None:
     for tick, method in zip(axes.get_xticklabels(), methods, strict=True):
         tick.set_fontweight("bold" if method == AUTO else "normal")
         tick.set_fontsize(10)
-    axes.set_yticks([k + 0.5 for k in range(len(rows))], [_row_name(*row, parts) for row in rows])
-    for tick, (_, family) in zip(axes.get_yticklabels(), rows, strict=True):
-        tick.set_fontweight("normal" if family else "bold")
+    trials = {family: max(s.trials for (f, _), s in cells.items() if f == family) for family in families}
+    axes.set_yticks([k + 0.5 for k in range(len(families))], [f"{family} ({trials[family]})" for family in families])
     axes.tick_params(length=0)
-    cells = {(score.question, score.family, score.method): score for score in parts}
-    for y, (question, family) in enumerate(rows):
+    for y, family in enumerate(families):
         for x, method in enumerate(methods):
-            if (score := cells.get((question, family, method))) is not None:
+            if (score := cells.get((family, method))) is not None:
                 _cell(axes, x, y, score)
     return figure
 
 
-def _row_name(question: str, family: str, parts: list[Score]) -> str:
-    if not family:
-        return QUESTIONS[question]
-    trials = max(score.trials for score in parts if (score.question, score.family) == (question, family))
-    return f"{family} ({trials})"
+def together(scores: Iterable[Score]) -> dict[tuple[str, str], Score]:
+    """By family and method, the counts of all questions."""
+    found: dict[tuple[str, str], Score] = {}
+    for score in scores:
+        other = found.get((score.family, score.method))
+        if other is not None:
+            counts = {name: getattr(score, name) + getattr(other, name) for name in _COUNTS}
+            score = score.model_copy(update={"question": ALL, **counts})
+        found[score.family, score.method] = score
+    return found
 
 
 def _cell(axes: Axes, x: int, y: int, score: Score) -> None:
