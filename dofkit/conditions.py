@@ -30,6 +30,11 @@ class Condition:
     expr: Expr
     sense: Sense
 
+    @property
+    def strict(self) -> bool:
+        """Is it > 0?"""
+        return self.sense == ">"
+
 
 def conditions_of(e: Expr, positive: frozenset[Expr]) -> tuple[Condition, ...]:
     """Where ``e`` has a real value, less what always holds; a denominator counts in lowest terms."""

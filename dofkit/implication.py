@@ -11,11 +11,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product as cartesian
 
+from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.blocks import Row, coordinates_of, split
 from dofkit.branches import all_of, conditional, through_reference
-from dofkit.conditions import Condition
+from dofkit.conditions import Condition, conditions_of
 from dofkit.deadline import OutOfTimeError, check
+from dofkit.emptiness import no_solution
 from dofkit.exact.balls import BallPoint
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.expr import Expr
@@ -24,9 +26,13 @@ from dofkit.solving import in_time
 from dofkit.states import States, value_at, vanishes
 from dofkit.velocities import MAX_WAYS, Way, form_rate, reduced
 
+#: No coordinate has this name.
+SLACK = "_s"
 RELATIONS = (Finite, Pfaffian, Nonlinear)
-#: Choices of branches that are looked at, and states on each: each may lie on another part of the set.
+#: Choices of branches that are looked at, and states on each.
 MAX_CHOICES, STATES = 16, 4
+#: States where a root is drawn on the way: the set may fall into parts, and all of these miss half of it once in 2^40.
+PARTED_STATES = 40
 #: Real states that are looked at where a relation may hold on one part of the set and fail on another.
 MANY_STATES = 16
 
@@ -62,6 +68,8 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
     if any(a.consistent is False for a in answers):
         return True
     hidden = [g for a in answers for g in a.hidden]
+    if _undefined(relation, names, way.rows, setting):
+        return False
     known = all(a.consistent for a in answers)
     given = [r.piece for r in way.rows if isinstance(r.piece, Condition)]
     asked = [p for b in relation.branches for p in b if isinstance(p, Condition) and p not in given]
@@ -77,6 +85,27 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
     except (OutOfTimeError, ArithmeticError, NoPointError):
         return None
     return held if held or known else None
+
+
+def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], setting: Setting) -> bool:
+    """Is there a configuration of the rows at which a logarithm of a finite relation has no value? True is certified.
+
+    Where u > 0 does not hold, u = -s^2 for some s.
+    """
+    standing = [r for r in rows if isinstance(r.piece, Finite)]
+    own, theirs = (
+        {c.expr for p in pieces if isinstance(p, Finite) for c in conditions_of(p.expr, setting.positive) if c.strict}
+        for pieces in (relation.pieces, [r.piece for r in standing])
+    )
+    moved = {*names, *(str(s.args[1]) for u in own for s in u.symbols if s.args[0] == "coordinate")}
+    for u in sorted(own - theirs, key=repr):
+        beyond = ex.add(u, ex.power(ex.coordinate(SLACK), ex.num(2)))
+        if no_solution([*(r.piece.expr for r in standing if isinstance(r.piece, Finite)), beyond], setting.positive):
+            continue
+        states = States([*sorted(moved), SLACK], [*standing, Row(0, Finite(beyond))], (), setting, (), True)
+        if next(states.certain(2), None) is not None:
+            return True
+    return False
 
 
 def at_state(piece: Finite | Pfaffian | Nonlinear) -> Expr:
@@ -97,8 +126,14 @@ def _held(
     ``smaller``: over the reals the set may be smaller than over GF(p), where nothing is refuted then. Nor is it where
     the set may have parts without real points.
     """
-    drawn = [p for k in range(STATES) if (p := states.draw(k)) is not None]
-    seen = [_some_vanish(states, p, branches) for p in drawn if _all_vanish(states, p, written)]
+    many = STATES if states.rational else PARTED_STATES
+    seen = list[bool | None]()
+    for k in range(many):
+        p = states.draw(k)
+        if p is not None and _all_vanish(states, p, written):
+            seen.append(_some_vanish(states, p, branches))
+            if seen[-1] is False:
+                break
     plain = not written and not given and states.independent and not smaller
     if plain and False in seen and states.rational:
         return False

@@ -36,6 +36,7 @@ PRODUCT_NOTE = "a product is zero on several branches; each is looked at, and th
 EMPTY_NOTE = "no real configuration satisfies it: every term has the same sign and one never vanishes"
 POLE_NOTE = "where a denominator vanishes it says nothing: such zeros of the numerator are left out"
 FACTOR_NOTE = "a factor that never vanishes was taken out"
+EXPONENT_NOTE = "two exponentials are equal over the reals only where their exponents are: those are compared"
 
 
 class TooManyBranchesError(Exception):
@@ -234,6 +235,10 @@ class _Zeros:
     def _factor(
         self, canon: Canon, signs: Signs, factor: Any, written: Expr | None
     ) -> tuple[list[Conjunction], list[str]]:
+        exponent = self._exponent(canon, factor)
+        if exponent is not None:
+            found, said = self.of(exponent)
+            return list(found), [EXPONENT_NOTE, *said]
         even = sum_of_even(factor, signs)
         if even is not None:
             if any(not zeros for zeros in even):
@@ -246,6 +251,22 @@ class _Zeros:
                 return [], [EMPTY_NOTE]
             return [tuple(split)], [SQUARES_NOTE]
         return [(written if written is not None else canon.to_expr(factor),)], []
+
+    def _exponent(self, canon: Canon, factor: Any) -> Expr | None:
+        """u - v - log(c) of exp(u) - c exp(v), c > 0; None of anything else, and where velocities occur."""
+        terms = list(factor.to_dict().items())
+        present = canon.generators_in(factor)
+        if len(terms) != 2 or any(canon.ring.vars[i].kind != "exp" for i in present):
+            return None
+        (first, a), (second, b) = terms
+        shown = {i: canon.ring.var_expr[i] for i in present}
+        moving = any(s.args[0] == "velocity" for e in shown.values() for s in e.symbols)
+        if a * b > 0 or moving or any(e.op != "fn" for e in shown.values()):
+            return None
+        last = len(first) - 1
+        powers = {i: int(first[last - i]) - int(second[last - i]) for i in present}
+        scale = ex.fn("log", ex.num(_fraction(fmpq(-a) / fmpq(b))))
+        return ex.add(scale, *(ex.mul(ex.num(k), shown[i].args[1]) for i, k in powers.items()))
 
     def _monomials(self, canon: Canon, even: list[list[int]]) -> tuple[list[Conjunction], list[str]]:
         """Every monomial vanishes: of each, one generator does."""
@@ -277,7 +298,7 @@ class _Zeros:
         if factor.total_degree() != 2:
             return None
         present = canon.generators_in(factor)
-        if any(canon.ring.vars[i].kind != "symbol" or i in signs.positive for i in present):
+        if any(canon.ring.vars[i].kind not in ("symbol", "exp") for i in present):
             return None
         place = {index: i for i, index in enumerate(present)}
         form, one = _quadratic_form(canon, factor, place), len(present)
@@ -289,7 +310,8 @@ class _Zeros:
         linear = []
         for r in range(rank):
             entries = [reduced[r, c] for c in range(one + 1)]
-            if all(v == 0 for v in entries[:one]):
+            told = [i for i, v in zip(present, entries[:one], strict=True) if v != 0]
+            if not told or (len(told) == 1 and told[0] in signs.positive and entries[one] == 0):
                 return []
             linear.append(ex.add(*(ex.mul(ex.num(_fraction(v)), s) for v, s in zip(entries, shown, strict=True))))
         return linear

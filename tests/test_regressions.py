@@ -26,6 +26,9 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
     ("a root of velocities is no crash", scene("sqrt(xdot^2+ydot^2)=zdot"), {"dof": 3, "velocity_dof": 2}),
     ("without c3 the plane y=0 appears", scene("x*y=0", "y*z=0", "z*x=0"), {"dof": 1, "redundant": []}),
     ("x*y=0 and x*z=0: neither can go", scene("x*y=0", "x*z=0"), {"dof": 2, "redundant": []}),
+    ("one of two branches", scene("y^2=sin(x)^2", "y=sin(x)"), {"dof": 2, "redundant": ["c1"]}),
+    ("its other one", scene("y^2=1-cos(x)^2", "y=-sin(x)"), {"dof": 2, "redundant": ["c1"]}),
+    ("logs have one sign only", scene("x*y=1", "log(x)+log(y)=0"), {"dof": 2, "redundant": ["c1"]}),
     ("half a circle is no circle", scene("x^2+y^2=l^2", "y=-sqrt(l^2-x^2)", parameters=["l"]), {"redundant": ["c1"]}),
     ("x = 0 follows over the reals only", scene("x^2+y^2=z", "z+x^2+y^2=0", "x=0"), {"dof": 0, "redundant": ["c3"]}),
     (

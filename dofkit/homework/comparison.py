@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 from itertools import chain
+from itertools import product as cartesian
 
 from dofkit import expr as ex
 from dofkit.answers import Setting
@@ -22,19 +23,22 @@ from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.field import NoPointError
 from dofkit.exact.sparse import rank_of_rows
 from dofkit.expr import Expr
-from dofkit.homework.multiples import same_up_to_numbers
+from dofkit.homework.multiples import power_of, same_up_to_numbers
 from dofkit.homework.sides import same_side
 from dofkit.implication import follows
 from dofkit.lowering import lower
-from dofkit.normal import Finite, Normal, Pfaffian
+from dofkit.normal import Finite, Normal, Pfaffian, Piece
 from dofkit.preparing import prepared
 from dofkit.scene import Scene
 from dofkit.solving import Outcome, Reduced, solve
 from dofkit.system import System
 from dofkit.variety import field_jacobian, find
+from dofkit.zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
 
 #: The share of the time that is left in which an answer may be found impossible.
 POSSIBLE = 0.3
+#: Choices of branches on which gradients are looked at.
+MAX_BRANCHES = 16
 #: Constraints of a scene with the answer in the place of those that were asked for are named so.
 ANSWER = "the answer"
 
@@ -108,6 +112,9 @@ class Comparison:
             return self._unilateral()
         if same_up_to_numbers(self._given, self._wanted, self.setting.positive):
             return Compared(Sameness.SAME, tuple(True for _ in self._wanted))
+        times = power_of(self._given, self._wanted, self.setting.positive)
+        if times:
+            return Compared(Sameness.SAME if times == 1 else Sameness.IRREGULAR, tuple(True for _ in self._wanted))
         sound = self._sound
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
         met = [self._follow(r.normals, kept) for r in self._wanted]
@@ -235,19 +242,28 @@ class Comparison:
     # regularity
 
     def _regularity(self) -> Sameness:
-        """The same set: is the answer's gradient as good there?"""
+        """The same set: is the answer's gradient as good there, on every branch?"""
         if any(isinstance(p, Pfaffian) for n in self._answer for p in n.pieces):
             return Sameness.IRREGULAR if any(map(_is_square, self._given)) else Sameness.SAME
-        pieces = [p for n in (*self._others, *self._all_wanted) for p in n.pieces if isinstance(p, Finite)]
-        if len(pieces) != sum(len(n.branches) for n in (*self._others, *self._all_wanted) if n.pieces):
-            return Sameness.SAME
+        if _lost(self._answer) and not _lost(self._all_wanted):
+            return Sameness.IRREGULAR
         raw = [e.expr for r in self._given for e in r.constraint.relations]
-        before = [p.expr for n in self._others for p in n.pieces if isinstance(p, Finite)]
-        wanted = [p.expr for n in self._all_wanted for p in n.pieces if isinstance(p, Finite)]
-        ranks = self._ranks(pieces, [*before, *raw], [*before, *wanted])
-        if ranks is None:
+        branches = list(cartesian(*(n.branches for n in (*self._others, *self._all_wanted) if n.branches)))
+        told = {self._as_regular(choice, raw) for choice in branches[:MAX_BRANCHES]}
+        if None in told or len(branches) > MAX_BRANCHES:
             return Sameness.UNDECIDED if any(n.notes for n in self._answer) else Sameness.SAME
-        return Sameness.IRREGULAR if ranks[0] < ranks[1] else Sameness.SAME
+        return Sameness.IRREGULAR if False in told else Sameness.SAME
+
+    def _as_regular(self, choice: Sequence[Sequence[Piece]], raw: Sequence[Expr]) -> bool | None:
+        """Do the gradients of the answer as written span as much as those that were asked for, on one branch?"""
+        finite = [[p for p in branch if isinstance(p, Finite)] for branch in choice]
+        others = len([n for n in self._others if n.branches])
+        before = [p.expr for branch in finite[:others] for p in branch]
+        wanted = [p.expr for branch in finite[others:] for p in branch]
+        if not wanted:
+            return True
+        ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *wanted])
+        return None if ranks is None else ranks[0] >= ranks[1]
 
     def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
         """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""
@@ -298,6 +314,11 @@ def _differential(g: Expr) -> Normal:
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
     slopes = {str(s.args[1]): ex.diff(g, s) for s in moving}
     return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, ex.diff(g, ex.TIME)),),))
+
+
+def _lost(normals: Sequence[Normal]) -> bool:
+    """Was a relation a power or a sum of squares in exponentials? Points over GF(p) do not know the zeros of those."""
+    return any(EXPONENT_NOTE in n.notes and not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes) for n in normals)
 
 
 def _is_square(r: Reduced) -> bool:
