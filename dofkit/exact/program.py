@@ -114,8 +114,7 @@ def gradient(ring: Ring, at: Sequence[Scalar], point: Point, seeds: Iterable[tup
     for node, seed in seeds:
         adjoint[node] = adjoint[node] + seed if node in adjoint else seed
     found: dict[int, Scalar] = {}
-    pending = reachable(ring, adjoint)
-    for node in pending:
+    for node in ring.order(tuple(adjoint)):
         bar = adjoint.pop(node, None)
         if bar is None:
             continue

@@ -111,6 +111,7 @@ class Ring:
         self._denominators = _angle_arguments(given, self.alias)
         self._split = split_logs(given, positive)
         self._memo: dict[Expr, int] = {}
+        self._orders: dict[tuple[int, ...], list[int]] = {}
         self._interned: dict[tuple[int, Any], int] = {}
         self._var_of: dict[tuple[Any, ...], int] = {}
         self._building: dict[str, Callable[[Expr], int]] = {
@@ -139,6 +140,13 @@ class Ring:
         if found is None:
             found = self._interned[key] = len(self.code)
             self.code.append(key)
+        return found
+
+    def order(self, roots: tuple[int, ...]) -> list[int]:
+        """Every instruction that the roots depend on, the last first: worked out once, for gradients at many points."""
+        found = self._orders.get(roots)
+        if found is None:
+            found = self._orders[roots] = reachable(self, roots)
         return found
 
     def negative(self, node: int) -> int:
