@@ -30,6 +30,8 @@ from dofkit.zeros import never_vanishes
 
 #: Steps of programs over boxes that one search may take; bits of the balls behind them.
 MAX_STEPS, BITS = 60_000, 64
+#: So many before polynomials are tried, which tell at once what boxes tell slowly: nested circles of nearly one radius.
+SOON = 6_000
 #: A box thinner than this, or this far out, is not cut any further.
 THINNEST, FARTHEST = 1e-7, 1e7
 #: Polynomials are combined up to this size.
@@ -53,27 +55,27 @@ def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions
     wanted = [(e, ZERO) for e in relations] + [(e, NON_NEGATIVE) for e in conditions]
     if not wanted:
         return False
+    ranges = dict.fromkeys(positive, NON_NEGATIVE)
     with ctx.workprec(BITS):
-        excluded = _excluded(wanted, dict.fromkeys(positive, NON_NEGATIVE))
-        if excluded:
-            return True
-        if not _faithful(relations, positive):
-            return False
         try:
-            found = _system(relations, positive)
-            return found is None or _algebraically(found, excluded is None)
+            soon = _excluded(wanted, ranges, SOON)
+            system = None if soon else _system(relations, positive)
+            excluded = _excluded(wanted, ranges) if soon is None else soon
+            return bool(excluded or (system is not None and _algebraically(system, excluded is None)))
+        except EmptyError:
+            return True
         except (TooLargeError, ZeroDivisionError, DomainError):
             return False
 
 
-def _excluded(wanted: Sequence[Wanted], ranges: Mapping[Expr, Interval]) -> bool | None:
+def _excluded(wanted: Sequence[Wanted], ranges: Mapping[Expr, Interval], steps: int = MAX_STEPS) -> bool | None:
     """Branch and prune: is every box of the whole excluded within the bounds? False: one shrinks to a point."""
     try:
         relations = Relations(wanted)
         boxes: list[Box] = [contract(relations, [ranges.get(v, WHOLE) for v in relations.variables])]
     except EmptyError:
         return True
-    while relations.work < MAX_STEPS:
+    while relations.work < steps:
         check()
         if not boxes:
             return True
@@ -141,10 +143,18 @@ def _is_exp(e: Expr) -> bool:
 
 
 def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> System | None:
-    """Numerators in the canonical ring, the generators' own relations, linear combinations and resultants.
+    """Polynomials that vanish wherever the relations hold; None where there are none to be had.
 
-    None where one of them never vanishes: then there is no solution.
+    Raises EmptyError where one of them has no real root.
     """
+    try:
+        return _polynomials(relations, positive) if _faithful(relations, positive) else None
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return None
+
+
+def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> System:
+    """Numerators in the canonical ring, the generators' own relations, linear combinations and resultants."""
     ring = Ring(relations, positive)
     nodes = [ring.node(e) for e in relations]
     canon = Canon(ring)
@@ -158,7 +168,9 @@ def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> System | No
     symbols = tuple(ex.parameter(f"generator {count - 1 - i}") for i in range(count))
     ranges = {symbols[count - 1 - v.index]: _range(v, ring) for v in ring.vars}
     if any(_known(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything):
-        return None
+        raise EmptyError
+    if any(_without_real_roots(p) for p in everything):
+        raise EmptyError
     return System(tuple(everything), symbols, ranges)
 
 
@@ -269,9 +281,7 @@ def _without_real_roots(p: Poly) -> bool:
 
 
 def _algebraically(system: System, search: bool) -> bool:
-    """No real solution of the polynomials: one of them has none, or every box of space or of its charts goes."""
-    if any(_without_real_roots(p) for p in system.polynomials):
-        return True
+    """No real solution of the polynomials: every box of space or of its charts goes."""
     plain = [(_expression(p, system.symbols), ZERO) for p in system.polynomials]
     excluded = _excluded(plain, system.ranges) if search else False
     if excluded or excluded is False:
