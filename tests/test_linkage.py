@@ -313,6 +313,7 @@ def test_larger_graphs(seed: int, d: int) -> None:
     assert list(dofkit.linkage(links, d).redundant_places) == Positions(26, d).basis(links)[1]
 
 
+@pytest.mark.xdist_group("compiled")
 @pytest.mark.parametrize("d", [1, 2])
 def test_compiled_loops_give_the_same(d: int, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from fractions import Fraction
 from functools import cache
+from zlib import crc32
 
 import pytest
 from families import FAMILIES
@@ -29,6 +30,8 @@ OPEN: dict[tuple[str, str], tuple[int, str]] = {
     ("near misses of identities", "exp of -1000"): (1, "exp(-1000) is 0 in floating point"),
     ("tiny steps from integrable", "a circle of tiny radius"): (1, "a radius of 10^-30 looks like a point"),
 }
+#: Trials of a group that are all tried.
+SMALL = 8
 
 
 @cache
@@ -39,13 +42,19 @@ def groups(family: str) -> dict[str, list[Known]]:
     return found
 
 
+def tried(family: str, group: str) -> list[Known]:
+    """All of a small group, every other one of a large one: the odd ones of some groups, the even ones of others."""
+    trials = groups(family)[group]
+    return trials if len(trials) <= SMALL else trials[crc32(group.encode()) % 2 :: 2]
+
+
 GROUPS = [(family, group) for family in FAMILIES for group in groups(family)]
 
 
 @pytest.mark.parametrize(("family", "group"), GROUPS)
 def test_nothing_is_wrong_and_little_is_left_open(family: str, group: str) -> None:
     wrong, opened = [], []
-    for trial in groups(family)[group]:
+    for trial in tried(family, group):
         not_true, left_open = differences(trial, dofkit.classify(dofkit.load(dict(trial.scene))))
         wrong += [f"{trial.name}: {line}" for line in not_true]
         opened += [f"{trial.name}: {left_open}"] * bool(left_open)
@@ -67,6 +76,7 @@ def test_what_is_left_open_is_there() -> None:
 
 def test_there_are_many() -> None:
     assert len(TRAPS) >= 25
+    assert sum(len(tried(family, group)) for family, group in GROUPS) >= 1600
     assert sum(len(trials) for family in FAMILIES for trials in groups(family).values()) >= 3000
 
 
