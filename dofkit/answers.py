@@ -80,7 +80,8 @@ class Setting:
 
     ``grows``: the growth vector; ``flag``: the derived flag.
     ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
-    that rigid links join, by constraint; ``reductions``: those in use.
+    that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the
+    constraints that weld.
     """
 
     positive: frozenset[Expr]
@@ -97,3 +98,4 @@ class Setting:
     distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
     links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)
     reductions: Reductions = ALL
+    welds: frozenset[int] = frozenset()

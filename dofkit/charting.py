@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from dofkit import expr as ex
 from dofkit.answers import Setting
-from dofkit.blocks import Block, expressions, uses_time
+from dofkit.blocks import Block, Row, expressions, uses_time
 from dofkit.deadline import check
 from dofkit.exact.ring import Ring
 from dofkit.exact.terms import linear_terms
 from dofkit.expr import Expr
 from dofkit.local_chart import Chart
 from dofkit.normal import Finite
+from dofkit.reductions import ReductionName
 
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
@@ -68,4 +69,27 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
         setting.engines,
         setting.size,
         setting.reductions,
+        _kinds(block, setting, len(extra)),
     )
+
+
+def _kinds(block: Block, setting: Setting, more: int) -> tuple[ReductionName, ...]:
+    """Which reduction may use each finite relation of the block, and so many more."""
+    angles = {ex.coordinate(c.name) for c in setting.roles if c.role in ("angle", "phi", "theta", "psi")}
+    owners = {ex.coordinate(c.name): c.owner for c in setting.roles if c.role in ("x", "y", "z")}
+    other: ReductionName = "eliminations"
+    return (*(_kind(row, setting, angles, owners) for row in block.finite), *(other,) * more)
+
+
+def _kind(row: Row, setting: Setting, angles: set[Expr], owners: Mapping[Expr, str | None]) -> ReductionName:
+    if row.constraint in setting.welds:
+        return "welds"
+    symbols = row.piece.expr.symbols if isinstance(row.piece, Finite) else frozenset[Expr]()
+    if symbols <= angles:
+        return "still"
+    links = setting.links.get(row.constraint)
+    if links and symbols <= owners.keys():
+        ends = {owners[s] for s in symbols}
+        if any(ends == {*pair} for pair in links) and len(symbols) == 2 * setting.dimension:
+            return "clusters"
+    return "eliminations"

@@ -348,6 +348,12 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
         yield f"{rigid} dependent set{'s' * (rigid > 1)} taken for one rigid body each"
     if followed and left_out:
         yield f"{followed} other dependent set{'s' * (followed > 1)} followed apart from all else"
+    spared = sum(k.spared for k in looked)
+    if spared:
+        yield (
+            f"{spared} coordinate{'s' * (spared > 1)} fewer where motions were followed (welded bodies and rigid "
+            "clusters as one, bodies that do not turn as particles, what a linear relation gives explicitly)"
+        )
 
 
 def _warnings(system: System, reduced: Sequence[Reduced], outcome: Outcome) -> list[str]:

@@ -11,6 +11,7 @@ from flint import arb, ctx
 
 from dofkit import expr as ex
 from dofkit.exact.balls import BallPoint, OutsideDomainError, jacobian, precision
+from dofkit.exact.field import FieldPoint
 from dofkit.exact.program import values
 from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.ring import Ring
@@ -24,11 +25,13 @@ from dofkit.rank import without_time
 from dofkit.report import weakest
 from dofkit.rigid import rigid_motions, rigid_motions_real
 from dofkit.separate import Looked, chart_of, dependent_parts
+from dofkit.smaller import smaller
 from dofkit.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
 
 #: A gap between singular values that tells them apart.
 CLEAR = 1e3
 RIGID = f"what is dependent is rigid: {WHOLE}"
+EXPLICIT = "every relation gives a coordinate by others, so the set is a graph"
 
 
 @dataclass(frozen=True)
@@ -78,10 +81,29 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     if apart is not None:
         local, looked = apart
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
+    if rank < len(matrix) and not timed:
+        local, spared = _with_fewer(chart, known, point, rigid, few)
+        looked = Looked(coordinates=n - spared, spared=spared)
+        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
     if rank < len(matrix) and few and "balls" in chart.engines:
         ball = ball_point(chart, known, point.rng)
     local = _at_fixed_time(local_at(chart, point, ball, rigid, chart.time), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball)
+
+
+def _with_fewer(
+    chart: Chart, known: Mapping[Expr, Expr], point: FieldPoint, rigid: int, few: bool
+) -> tuple[Local, int]:
+    """The local dimension by a chart with fewer coordinates, where there is one, and how many went."""
+    small = smaller(chart, known)
+    spared = chart.coordinates - small.coordinates
+    here = point if small is chart else pose_point(small, known, 3)
+    if here is None:
+        return Local(None, "undecided", "the relations have no value there"), spared
+    if not small.nodes:
+        return Local(small.coordinates, "proved", EXPLICIT), spared
+    ball = ball_point(small, known, here.rng) if few and "balls" in chart.engines else None
+    return local_at(small, here, ball, rigid), spared
 
 
 def _by_parts(
@@ -99,30 +121,36 @@ def _by_parts(
     if len(parts) == 1 and len(parts[0].rows) == len(matrix):
         return None
     found = []
+    followed = more = 0
     for part in parts:
-        local = _of_part(chart_of(chart, part.rows), known, part.rank)
+        own = chart_of(chart, part.rows)
+        local, spared = _of_part(own, known, part.rank)
         if local is None:
             return None
         found.append(local)
+        followed += 0 if local.reason == RIGID else own.coordinates - spared
+        more += spared
     reasons = dict.fromkeys(local.reason for local in found)
     looked_at = {row for part in parts for row in part.rows}
     local = Local(dimension, weakest(*(local.verdict for local in found)), "; ".join(reasons))
     rigid = sum(local.reason == RIGID for local in found)
-    return local, Looked(len(matrix) - len(looked_at), rigid, len(found) - rigid)
+    return local, Looked(len(matrix) - len(looked_at), rigid, len(found) - rigid, followed, more)
 
 
-def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> Local | None:
-    """One class by itself; None where its set is not known to be a manifold of the codimension of its rank."""
+def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local | None, int]:
+    """One class by itself, and how many coordinates went before it was followed.
+
+    None where its set is not known to be a manifold of the codimension of its rank.
+    """
     point = pose_point(chart, known, 3)
     if point is None:
-        return None
+        return None, 0
     left = len(chart.columns) - rank
     rigid = rigid_motions(chart, point)
     if left == rigid:
-        return Local(left, "proved", RIGID)
-    looked = left - rigid <= BALL_COLUMNS and "balls" in chart.engines
-    local = local_at(chart, point, ball_point(chart, known, point.rng) if looked else None, rigid)
-    return local if local.dimension == left else None
+        return Local(left, "proved", RIGID), 0
+    local, spared = _with_fewer(chart, known, point, rigid, left - rigid <= BALL_COLUMNS)
+    return (local if local.dimension == left else None), spared
 
 
 def _at_fixed_time(local: Local, timed: int) -> Local:

@@ -9,7 +9,7 @@ from dofkit import expr as ex
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
-from dofkit.reductions import ALL, Reductions
+from dofkit.reductions import ALL, ReductionName, Reductions
 from dofkit.system import Coordinate
 
 
@@ -19,7 +19,8 @@ class Chart:
 
     ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
     real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute; ``engines`` those
-    that may look at it; ``size`` is the scale of lengths; ``reductions``: those in use.
+    that may look at it; ``size`` is the scale of lengths; ``reductions``: those in
+    use, and ``kinds`` which of them may use each relation.
     """
 
     ring: Ring
@@ -33,6 +34,7 @@ class Chart:
     engines: Engines = BOTH
     size: float = 1.0
     reductions: Reductions = ALL
+    kinds: tuple[ReductionName, ...] = ()
 
     @property
     def coordinates(self) -> int:

@@ -26,6 +26,7 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         distances={} if system.tolerance else system.distances,
         links=_links(system),
         reductions=reductions,
+        welds=frozenset(i for i, c in enumerate(system.constraints) if c.type == "weld"),
     )
     return reduced, setting
 

@@ -9,7 +9,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
-ReductionName = Literal["untouched", "blocks", "twins", "copies", "eliminations", "classes", "closed", "cheapest"]
+ReductionName = Literal[
+    "untouched",
+    "blocks",
+    "twins",
+    "copies",
+    "still",
+    "welds",
+    "clusters",
+    "eliminations",
+    "classes",
+    "closed",
+    "cheapest",
+]
 Reductions = frozenset[ReductionName]
 
 
@@ -42,10 +54,28 @@ REDUCTIONS: Mapping[ReductionName, Reduction] = {
         "relations that an earlier constraint wrote already, up to a number",
         "the same set and the same span; what is redundant is told from the list of copies",
     ),
+    "still": Reduction(
+        "bodies that do not turn",
+        "where relations are followed from a drawing, the angles that a linear relation fixes or ties to other angles",
+        "the set is a graph over the other coordinates, so they are coordinates of it",
+    ),
+    "welds": Reduction(
+        "welded bodies are one",
+        "where relations are followed from a drawing, the coordinates of the second body of a weld that is linear: of "
+        "bodies whose frames coincide there",
+        "the set is a graph over the coordinates of the first body",
+    ),
+    "clusters": Reduction(
+        "rigid clusters of links are one body",
+        "where relations are followed from a drawing in the plane, all but two particles of a cluster whose links are "
+        "infinitesimally rigid there, at rational places",
+        "infinitesimally rigid is rigid (Asimow and Roth): near the drawing the cluster is where a body takes it",
+    ),
     "eliminations": Reduction(
         "explicit coordinates",
-        "linear relations among the finite ones: they are solved beforehand, exactly, and not at every point",
-        "an invertible change of a system of linear equations has the same solutions (Gauss)",
+        "linear relations among the finite ones, solved beforehand and not at every point; where relations are "
+        "followed from a drawing, the coordinates that such a relation gives (z = 0)",
+        "an invertible change of linear equations has the same solutions (Gauss), and they are a graph",
     ),
     "classes": Reduction(
         "classes of dependent relations",

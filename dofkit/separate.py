@@ -33,11 +33,16 @@ class Part:
 
 
 class Looked(NamedTuple):
-    """What was looked at: relations ``left_out``, classes that are ``rigid``, and those that were ``followed``."""
+    """What was looked at: relations ``left_out``, classes that are ``rigid``, and those that were ``followed``.
+
+    The latter in so many ``coordinates``, where there would have been ``spared`` more.
+    """
 
     left_out: int = 0
     rigid: int = 0
     followed: int = 0
+    coordinates: int = 0
+    spared: int = 0
 
 
 def dependent_parts(chart: Chart, found: Echelon) -> list[Part]:
@@ -77,4 +82,5 @@ def chart_of(chart: Chart, rows: Sequence[int]) -> Chart:
         columns=columns,
         unknowns=tuple(u for u in chart.unknowns if u in mentioned),
         relations=relations,
+        kinds=tuple(chart.kinds[r] for r in rows),
     )

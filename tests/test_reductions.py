@@ -20,6 +20,11 @@ LESS: Mapping[str, tuple[str, Callable[[int], int], Callable[[int], int]]] = {
     "blocks": ("largest", lambda n: 4, lambda n: 4 * n),
     "twins": ("coordinates", lambda n: 4, lambda n: 4 * n),
     "copies": ("relations", lambda n: n, lambda n: 2 * n),
+    "still": ("followed", lambda n: 2, lambda n: n + 2),  # where the last is, and how all are turned
+    # Three cranks and a row, without the place of the crank that turns about the origin.
+    "welds": ("followed", lambda n: 9 + 3 - 2, lambda n: 9 + 3 * n - 2),
+    "clusters": ("followed", lambda n: 4, lambda n: 2 * n),  # two of the joints
+    "eliminations": ("followed", lambda n: 2 * n, lambda n: 3 * n),
     "closed": ("forms", lambda n: 0, lambda n: n - 1),
 }
 #: Degrees of freedom of the families' scenes, by hand.
@@ -28,7 +33,10 @@ FREEDOM: Mapping[str, Callable[[int], int]] = {
     "blocks": lambda n: 4 * n,
     "twins": lambda n: 4 * n,
     "copies": lambda n: n,  # a chain of n rods in the plane
-    "eliminations": lambda n: n + 1,  # 3n less n planes and n - 1 rods
+    "still": lambda n: n - 1,  # each slides on the one before it, and the last along a circle
+    "welds": lambda n: 1,  # a parallelogram
+    "clusters": lambda n: 1,
+    "eliminations": lambda n: 1,
     "classes": lambda n: n + 1,  # a parallelogram and n rods
     "closed": lambda n: 3 * n - (n - 1),
     "cheapest": lambda n: 3,  # one lamina
