@@ -21,9 +21,9 @@ from dofkit.forms import Frame
 from dofkit.local_chart import Chart
 from dofkit.manifold import Local, Manifold
 from dofkit.motion import INDEPENDENT, WHOLE, numeric_dimension
-from dofkit.rank import without_time
+from dofkit.rank import rank_of, without_time
 from dofkit.report import weakest
-from dofkit.rigid import rigid_motions, rigid_motions_real
+from dofkit.rigid import rigid_fields, rigid_motions_real
 from dofkit.separate import Looked, chart_of, dependent_parts
 from dofkit.smaller import smaller
 from dofkit.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
@@ -69,7 +69,8 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     rank = rank_of_rows(matrix, point.p)
     rank_q = rank_of_rows(without_time(matrix, n), point.p) if len(chart.columns) > n else rank
     timed = len(chart.columns) - n
-    rigid = rigid_motions(chart, point)
+    fields = rigid_fields(chart, point)
+    rigid = rank_of(fields, point.p)
     ball = None
     if not exact:
         ball = ball_point(chart, known, point.rng) if "balls" in chart.engines else None
@@ -82,7 +83,7 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
         local, looked = apart
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
     if rank < len(matrix) and not timed:
-        local, spared = _with_fewer(chart, known, point, rigid, few)
+        local, spared = _with_fewer(chart, known, point, fields, few)
         looked = Looked(coordinates=n - spared, spared=spared)
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
     if rank < len(matrix) and few and "balls" in chart.engines:
@@ -92,18 +93,24 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
 
 
 def _with_fewer(
-    chart: Chart, known: Mapping[Expr, Expr], point: FieldPoint, rigid: int, few: bool
+    chart: Chart, known: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]], few: bool
 ) -> tuple[Local, int]:
-    """The local dimension by a chart with fewer coordinates, where there is one, and how many went."""
-    small = smaller(chart, known)
+    """The local dimension by a chart with fewer coordinates, where there is one, and how many went.
+
+    ``fields``: the motions of the whole as one body over the chart's columns; what they are on fewer is what is left.
+    """
+    small, free = smaller(chart, known)
     spared = chart.coordinates - small.coordinates
     here = point if small is chart else pose_point(small, known, 3)
     if here is None:
         return Local(None, "undecided", "the relations have no value there"), spared
     if not small.nodes:
-        return Local(small.coordinates, "proved", EXPLICIT), spared
+        return Local(free, "proved", EXPLICIT), spared
+    kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
+    rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
     ball = ball_point(small, known, here.rng) if few and "balls" in chart.engines else None
-    return local_at(small, here, ball, rigid), spared
+    local = local_at(small, here, ball, rigid)
+    return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
 
 def _by_parts(
@@ -146,10 +153,11 @@ def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local
     if point is None:
         return None, 0
     left = len(chart.columns) - rank
-    rigid = rigid_motions(chart, point)
+    fields = rigid_fields(chart, point)
+    rigid = rank_of(fields, point.p)
     if left == rigid:
         return Local(left, "proved", RIGID), 0
-    local, spared = _with_fewer(chart, known, point, rigid, left - rigid <= BALL_COLUMNS)
+    local, spared = _with_fewer(chart, known, point, fields, left - rigid <= BALL_COLUMNS)
     return (local if local.dimension == left else None), spared
 
 

@@ -236,7 +236,10 @@ def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> np.n
         ahead[here.dependent] = -np.linalg.solve(j[:, here.dependent], j @ ahead)
     for _ in range(STEPS):
         tangent = ahead - np.linalg.lstsq(j, j @ ahead, rcond=None)[0]
-        tangent = tangent / np.linalg.norm(tangent)
+        size = float(np.linalg.norm(tangent))
+        if not size > 0:
+            return None
+        tangent = tangent / size
         if tangent @ ahead < STRAIGHT * np.linalg.norm(ahead):
             return None
         moved = u + (reach / STEPS) * tangent

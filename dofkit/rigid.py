@@ -19,18 +19,23 @@ TRIES = 8
 
 
 def rigid_motions(chart: Chart, point: FieldPoint) -> int:
-    """The dimension, at the point, of the displacements of everything as one body that keep all relations.
+    """The dimension, at the point, of the displacements of everything as one body that keep all relations."""
+    vectors = rigid_fields(chart, point)
+    return rank_of(vectors, point.p) if vectors else 0
+
+
+def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:
+    """The displacements of everything as one body that keep all relations, at the point, over the columns.
 
     A displacement counts only if every relation is unchanged by it at a random point of the ambient space.
     """
     fields = displacement_fields(chart)
     away = free_point(chart, 11) if fields else None
     if away is None:
-        return 0
+        return []
     slopes = _slopes(chart, away)
     kept = [f for f in fields if _keeps(chart, away, f, slopes)]
-    vectors = [_at(chart, point, f) for f in kept]
-    return rank_of(vectors, point.p) if vectors else 0
+    return [_at(chart, point, f) for f in kept]
 
 
 def rigid_motions_real(chart: Chart, value: Callable[[int], float]) -> int:

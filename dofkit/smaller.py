@@ -42,30 +42,35 @@ class Said(NamedTuple):
     kind: ReductionName
 
 
-def smaller(chart: Chart, drawing: Mapping[Expr, Expr]) -> Chart:
-    """The chart with fewer coordinates; itself where none can go."""
+def smaller(chart: Chart, drawing: Mapping[Expr, Expr]) -> tuple[Chart, int]:
+    """The chart with fewer coordinates, and how many of those that went are free; the chart itself where none can go.
+
+    Free are those that no relation mentions any more: the set is a product with a line for each.
+    """
     said = [Said(g, k) for g, k in zip(chart.relations, chart.kinds, strict=True)]
     if len(said) != len(chart.nodes) or chart.time is not None:
-        return chart
+        return chart, 0
     if "clusters" in chart.reductions:
         said = _as_bodies(chart, said, drawing)
     gone, left = _without_explicit(chart, said)
     if not gone:
-        return chart
+        return chart, 0
     relations = tuple(s.relation for s in left)
     ring = Ring(relations, chart.positive)
     nodes = tuple(ring.node(g) for g in relations)
-    symbols = tuple(s for s in chart.symbols if s not in gone)
-    return replace(
+    mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
+    symbols = tuple(s for s in chart.symbols if s in mentioned)
+    small = replace(
         chart,
         ring=ring,
         nodes=nodes,
         symbols=symbols,
         columns=tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols),
-        unknowns=tuple(u for u in chart.unknowns if u not in gone),
+        unknowns=tuple(u for u in chart.unknowns if u in mentioned),
         relations=relations,
         kinds=tuple(s.kind for s in left),
     )
+    return small, len(chart.symbols) - len(gone) - len(symbols)
 
 
 # Explicit coordinates
