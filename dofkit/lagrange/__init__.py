@@ -8,18 +8,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from dofkit import expr as ex
 from dofkit.classify import Study, studied
-from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
+from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
 from dofkit.errors import Fault, SceneError
+from dofkit.exact.canon import is_identically_zero
 from dofkit.expr import Expr
+from dofkit.lagrange.angles import compound
 from dofkit.lagrange.conserved import conserved, cyclic
 from dofkit.lagrange.derivation import Derived, derive
 from dofkit.lagrange.elimination import ELIMINATIONS, Care
 from dofkit.lagrange.energies import Energy, Reader, missing
 from dofkit.lagrange.linear import linearized
 from dofkit.lagrange.model import Model, MotionError, modelled
+from dofkit.lagrange.order import ordered
 from dofkit.lagrange.regularity import SINGULAR, degenerate
 from dofkit.lagrange.report import Conserved, Linearized, MotionReport
+from dofkit.lagrange.tidying import by_rates, length
 from dofkit.lowering import system_of
 from dofkit.scene import Scene
 from dofkit.survey import survey
@@ -32,6 +37,8 @@ __all__ = ["Conserved", "Linearized", "MotionError", "MotionReport", "derived_of
 LONGEST = 500
 #: Seconds for each attempt with less eliminated than the one before.
 TRYING = 8.0
+#: Seconds for sorting a Lagrangian, and the nodes of one that is too long for that.
+SORTING, MOST_NODES = 2.0, 1500
 #: Said where the elimination was cut short.
 LONG = "More could be eliminated, but the equations would be too long to read: some constraints keep a multiplier."
 
@@ -68,11 +75,13 @@ def derived_of(scene: Scene) -> Derived:
         if not model.elimination.solved:
             return derive(model)
         freest = freest or model
-        if len(to_text(model.energy.lagrangian)) <= LONGEST:
+        model = _sorted(model)
+        if _short(model.energy.lagrangian):
             try:
-                with limited(TRYING):
+                with by_processor(min(TRYING, left())):
                     derived = derive(model)
             except OutOfTimeError:
+                check()
                 continue
             if _readable(derived):
                 return _with_note(derived, freest)
@@ -85,6 +94,37 @@ def _with_note(derived: Derived, freest: Model | None) -> Derived:
     if freest is None or model.elimination.solved.keys() >= freest.elimination.solved.keys():
         return derived
     return replace(derived, model=replace(model, notes=(*model.notes, LONG)))
+
+
+def _short(lagrangian: Expr) -> bool:
+    """Is a Lagrangian short enough for equations that can be read? Roots grow as they are differentiated."""
+    roots = any(
+        n.op == "pow" and n.args[1].op == "num" and n.args[1].args[0].denominator > 1 for n in ex.nodes(lagrangian)
+    )
+    return len(to_text(lagrangian)) <= (LONGEST if roots else 2 * LONGEST)
+
+
+def _sorted(model: Model) -> Model:
+    """The same with kinetic and potential energies sorted by velocities, where that is shorter."""
+    energy = model.energy
+    kinetic, potential = (_shorter(e, model) for e in (energy.kinetic, energy.potential))
+    return replace(model, energy=replace(energy, kinetic=kinetic, potential=potential))
+
+
+def _shorter(e: Expr, model: Model) -> Expr:
+    if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
+        return e
+    try:
+        with by_processor(min(SORTING, left())):
+            found = by_rates(e, model.positive)
+            if found is None:
+                return e
+            found = ordered(compound(found))
+            shorter = length(found) < length(e) and is_identically_zero(found - e, model.positive) is True
+            return found if shorter else e
+    except OutOfTimeError:
+        check()
+        return e
 
 
 def _readable(derived: Derived) -> bool:
@@ -106,7 +146,7 @@ class Source:
         """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""
         model = modelled(self.study, self.energy, self.names, care)
         used = frozenset().union(*(e.symbols for e in _energies(model)))
-        faults = missing(used)
+        faults = missing(used, self.scene)
         if faults:
             raise SceneError(tuple(faults), self.scene.name)
         return model

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dofkit import expr as ex
-from dofkit.deadline import OutOfTimeError, check, limited
+from dofkit.deadline import OutOfTimeError, by_processor, check, left
 from dofkit.exact.canon import is_identically_zero
 from dofkit.expr import Expr
 from dofkit.lagrange.derivation import Derived
@@ -59,7 +59,7 @@ def energy_function(derived: Derived) -> tuple[Expr, bool]:
 def _shorter(derived: Derived, e: Expr) -> Expr:
     """The same, sorted by velocities where that is shorter."""
     try:
-        with limited(SECONDS):
+        with by_processor(min(SECONDS, left())):
             found = by_rates(e, derived.model.positive)
     except OutOfTimeError:
         check()

@@ -287,10 +287,10 @@ def _speed_squared(names: tuple[str, ...]) -> Expr:
     return ex.add(*(ex.velocity(name) ** 2 for name in names))
 
 
-def missing(symbols: frozenset[Expr]) -> list[Fault]:
-    """A fault for everything that was left out and that the motion depends on."""
-    named = sorted(str(s.args[1]) for s in symbols if str(s.args[1]).startswith(MISSING))
-    return [
-        Fault(f"the {name.removeprefix(MISSING)} is missing", hint="give it, or `energies: {kinetic: ...}`")
-        for name in named
-    ]
+def missing(symbols: frozenset[Expr], scene: Scene) -> list[Fault]:
+    """A fault for everything that was left out and that the motion depends on, where it belongs."""
+    named = sorted(str(s.args[1]).removeprefix(MISSING) for s in symbols if str(s.args[1]).startswith(MISSING))
+    where: dict[str, tuple[str | int, ...]] = {p.name: ("particles", i) for i, p in enumerate(scene.particles)}
+    where.update({b.name: ("bodies", i) for i, b in enumerate(scene.bodies)})
+    hint = "give it, or `energies: {kinetic: ...}`"
+    return [Fault(f"the {name} is missing", where.get(name.rpartition(" ")[2], ()), hint=hint) for name in named]

@@ -12,10 +12,11 @@ from typing import Any
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
-from dofkit.deadline import OutOfTimeError, check, limited
+from dofkit.deadline import OutOfTimeError, by_processor, check, left
 from dofkit.exact.canon import Canon, Poly, TooLargeError, is_identically_zero
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
+from dofkit.lagrange.angles import compound
 from dofkit.lagrange.bridge import Bridge, UntranslatableError
 from dofkit.lagrange.order import ordered
 
@@ -41,16 +42,16 @@ class Tidier:
     def __call__(self, e: Any) -> Expr:
         plain = self.bridge.expr(e)
         best, size = plain, length(plain)
-        start = time.monotonic()
+        start = time.thread_time()
         try:
-            with limited(self.seconds):
+            with by_processor(min(self.seconds, left())):
                 for form in self._forms(e, plain):
                     check()
                     if length(form) < size and is_identically_zero(form - plain, self.positive) is True:
                         best, size = form, length(form)
         except OutOfTimeError:
             check()
-        self.seconds -= time.monotonic() - start
+        self.seconds -= time.thread_time() - start
         return ordered(best)
 
     def _forms(self, e: Any, plain: Expr) -> Iterator[Expr]:
@@ -58,6 +59,8 @@ class Tidier:
         found = by_rates(plain, self.positive)
         if found is not None:
             yield found
+            if _products(found):
+                yield compound(found)
         if int(e.count_ops()) > EXPANDED or terms(plain) > TERMS:
             return
         import sympy
@@ -69,6 +72,15 @@ class Tidier:
                 yield self.bridge.expr(form)
             except (UntranslatableError, ZeroDivisionError):
                 continue
+
+
+def _products(e: Expr) -> bool:
+    """Is there a product of a sine or cosine of one angle with that of another?"""
+    for node in ex.nodes(e):
+        turns = {p.args[1] for p in ex.children(node) if p.op == "fn" and p.args[0] in ("sin", "cos")}
+        if node.op == "mul" and len(turns) > 1:
+            return True
+    return False
 
 
 def terms(e: Expr) -> int:
