@@ -288,7 +288,7 @@ def catalog_show(name: Annotated[str, typer.Argument(help="A scene's name.")]) -
 @app.command()
 def schema(
     of: Annotated[
-        str, typer.Argument(metavar="[WHAT]", help="scene, assignment, submission, result or report.")
+        str, typer.Argument(metavar="[WHAT]", help="scene, assignment, submission, result, report or chart.")
     ] = "scene",
 ) -> None:
     """Print the JSON Schema of a scene, or of what is named."""
@@ -297,11 +297,13 @@ def schema(
 
         typer.echo(json.dumps(Scene.model_json_schema(), indent=2))
         return
+    from dofkit.chart.record import Chart
     from dofkit.homework.schemas import SCHEMAS
 
-    if of not in SCHEMAS:
-        raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(SCHEMAS)}", param_hint="WHAT")
-    typer.echo(json.dumps(SCHEMAS[of](), indent=2))
+    known = {**SCHEMAS, "chart": Chart.model_json_schema}
+    if of not in known:
+        raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(known)}", param_hint="WHAT")
+    typer.echo(json.dumps(known[of](), indent=2))
 
 
 def _complain(file: str, faults: Iterable[Fault]) -> None:

@@ -294,6 +294,8 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     header, first = (tmp_path / "trials.csv").read_text(encoding="utf-8").splitlines()[:2]
     assert header.startswith("family,trial,question,method,size,traits,swept,truth,told,outcome,seconds,why")
     assert first.startswith('boxes,b1,dof,auto,1,"[""large""]"')
+    schema = json.loads(CliRunner().invoke(app, ["schema", "chart"]).output)
+    assert set(schema["properties"]) == set(json.loads((tmp_path / "chart.json").read_text(encoding="utf-8")))
     (tmp_path / "chart.json").write_text(json.dumps({"ran": 1}))
     with pytest.raises(storing.ChartError, match="are not those of a run"):
         storing.read(tmp_path)

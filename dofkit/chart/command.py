@@ -76,10 +76,9 @@ def run(options: Options) -> bool:
     started, found = time.monotonic(), Found()
     date = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
     chosen = options.selection.chosen(FAMILIES)
-    known = chosen.trials(FAMILIES)
-    trials = chosen.thinned(known)
+    trials = chosen.thinned(chosen.trials(FAMILIES))
     work = list(tasks.crossed(trials, chosen.methods))
-    swept = list(tasks.sweeps(known, chosen.methods, chosen.quick))
+    swept = list(tasks.sweeps(chosen.swept(FAMILIES), chosen.methods, chosen.quick))
     try:
         _gather(options, work, swept, found)
     except KeyboardInterrupt:

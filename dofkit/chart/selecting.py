@@ -41,10 +41,17 @@ class Selection:
 
     def trials(self, families: Families) -> list[Trial]:
         """All trials of what was chosen, family by family. Raises ChartError where there are none."""
-        found = [t for name in self.families for t in families[name](self.quick) if t.question in self.questions]
+        found = self._all(families, self.quick)
         if not found:
             raise ChartError("no trial of these families asks such a question")
         return found
+
+    def swept(self, families: Families) -> list[Trial]:
+        """Those among which sweeps choose: of all, also in a quick run, which takes fewer of them."""
+        return self._all(families, False)
+
+    def _all(self, families: Families, quick: bool) -> list[Trial]:
+        return [t for name in self.families for t in families[name](quick) if t.question in self.questions]
 
     def thinned(self, trials: Sequence[Trial]) -> list[Trial]:
         """Not more of each family and question than wanted, from the smallest to the largest."""

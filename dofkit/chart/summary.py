@@ -51,8 +51,14 @@ _CAPTIONS = {
         "Share of right answers on coordinates rounded to so many digits. Left: ranks by singular values, where what "
         "is below that share of the largest counts as 0. Right: dofkit, with that tolerance written in the scene."
     ),
-    "bits": "Share undecided by balls of a fixed precision, on scenes that miss a special case by a gap.",
-    "primes": "Share of wrong answers of the field alone with primes of so many bits, drawn by several seeds.",
+    "bits": (
+        "Balls of one precision by themselves, on scenes that miss a special case by a gap: with too few bits no ball "
+        "tells the gap from 0, and who then takes it for 0 is wrong."
+    ),
+    "primes": (
+        "The field by itself with primes of so many bits, drawn anew for each seed: the smaller they are, the more "
+        "often what is not 0 vanishes by chance, or no point is found."
+    ),
     "reductions": (
         "Each dot is a scene answered with one reduction switched off, against the same scene with all of them on; "
         "the bar is the median."

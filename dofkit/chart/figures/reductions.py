@@ -11,6 +11,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 
 from dofkit.chart.figures.style import sheet
 from dofkit.chart.record import Chart, Reduction
+from dofkit.reductions import REDUCTIONS
 
 MADE_FOR, OTHERS = "#0072B2", "#B5B5B5"
 
@@ -27,7 +28,7 @@ def draw(chart: Chart) -> Figure | None:
     left, right = figure.subplots(1, 2, sharey=True)
     _panel(left, names, pairs, lambda row: row.seconds, "seconds without the reduction / with it")
     _panel(right, names, pairs, lambda row: row.largest, "coordinates of the largest block without / with")
-    left.set_yticks(range(len(names)), names)
+    left.set_yticks(range(len(names)), [_title(name) for name in names])
     left.set_ylim(len(names) - 0.5, -0.5)
     return figure
 
@@ -57,6 +58,10 @@ def _panel(
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}×"))
     axes.set_xlabel(heading)
+
+
+def _title(name: str) -> str:
+    return next((reduction.title for key, reduction in REDUCTIONS.items() if key == name), name)
 
 
 def _times(ratio: float) -> str:

@@ -34,31 +34,32 @@ def _right(step: Step) -> int:
     return step.right
 
 
+def _wrong(step: Step) -> int:
+    return step.wrong
+
+
+def _undecided(step: Step) -> int:
+    return step.undecided
+
+
 def _digits(group: str) -> str:
     return f"{group} digits" if group.isdigit() else group
 
 
-NUMERIC = Panel("tolerance", "numeric: ranks by singular values", "tolerance", "right answers", _right, _digits)
-SCENE = Panel(
-    "scene tolerance", "dofkit: the tolerance written in the scene", "tolerance", "right answers", _right, _digits
+def _gap(group: str) -> str:
+    return f"gap $10^{{{round(math.log10(_number(group)[0]))}}}$"
+
+
+_TOLERANCE = "tolerance"
+NUMERIC = Panel("tolerance", "numeric: ranks by singular values", _TOLERANCE, "right answers", _right, _digits)
+SCENE = Panel("scene tolerance", "dofkit: tolerance written in the scene", _TOLERANCE, "right answers", _right, _digits)
+BITS = (
+    Panel("bits", "balls: wrong, taking for 0 what is not", "precision (bits)", "wrong answers", _wrong, _gap, True),
+    Panel("bits", "balls: undecided", "precision (bits)", "undecided", _undecided, _gap, True),
 )
-BITS = Panel(
-    "bits",
-    "balls: precision against a gap",
-    "precision (bits)",
-    "undecided",
-    lambda step: step.undecided,
-    lambda group: f"gap {group}",
-    True,
-)
-PRIMES = Panel(
-    "prime bits",
-    "field: the size of its primes",
-    "bits of the prime",
-    "wrong answers",
-    lambda step: step.wrong,
-    lambda group: group,
-    True,
+PRIMES = (
+    Panel("prime bits", "field: wrong", "bits of its primes", "wrong answers", _wrong, str, True),
+    Panel("prime bits", "field: undecided", "bits of its primes", "undecided", _undecided, str, True),
 )
 
 
@@ -68,13 +69,13 @@ def tolerance(chart: Chart) -> Figure | None:
 
 
 def bits(chart: Chart) -> Figure | None:
-    """Share undecided against the bits of balls, a curve for each gap."""
-    return _draw(chart, (BITS,), "Balls: bits that a gap needs", "bits")
+    """Shares wrong and undecided against the bits of balls, a curve for each gap."""
+    return _draw(chart, BITS, "Balls: how many bits a gap needs", "bits")
 
 
 def primes(chart: Chart) -> Figure | None:
-    """Share wrong against the bits of the primes, a curve for each question."""
-    return _draw(chart, (PRIMES,), "Field: how large a prime must be", "primes")
+    """Shares wrong and undecided against the bits of the primes, a curve for each question."""
+    return _draw(chart, PRIMES, "Field: how large its primes must be", "primes")
 
 
 def _draw(chart: Chart, panels: Sequence[Panel], title: str, name: str) -> Figure | None:
@@ -103,7 +104,9 @@ def _panel(axes: Axes, panel: Panel, steps: Sequence[Step]) -> list[tuple[float,
     axes.xaxis.set_minor_locator(NullLocator())
     ticks = values[:: max(1, math.ceil(len(values) / (12 if panel.binary else 6)))]
     axes.set_xticks(ticks, [f"{v:g}" if panel.binary else f"$10^{{{round(math.log10(v))}}}$" for v in ticks])
-    axes.set_ylim(-4, 104)
+    most = max(100 * panel.counted(step) / step.trials for step in steps)
+    top = 100.0 if most > 50 else max(10.0, 1.2 * most)
+    axes.set_ylim(-0.04 * top, 1.04 * top)
     trials = max(step.trials for step in steps)
     axes.set_title(panel.heading, fontsize=9)
     axes.set_xlabel(panel.x)
