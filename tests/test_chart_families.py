@@ -12,6 +12,7 @@ import pytest
 
 import dofkit
 from dofkit.alone import answered
+from dofkit.chart.failures import TRAITS
 from dofkit.chart.families import FAMILIES
 from dofkit.chart.families.drawn import Framework
 from dofkit.chart.families.making import kind
@@ -43,6 +44,7 @@ def test_trials_are_told_apart_and_of_their_kind(family: str) -> None:
     assert len({trial.name for trial in made}) == len(made)
     assert [trial.name for trial in made if trial.family != family or not trial.because or not trial.traits] == []
     assert [trial.name for trial in made if not _of_its_kind(trial)] == []
+    assert {trait for trial in made for trait in trial.traits} <= TRAITS.keys()
 
 
 def _of_its_kind(trial: Trial) -> bool:

@@ -11,7 +11,7 @@ from dofkit.chart.trial import Trial
 
 def pendulums(quick: bool) -> Iterator[Trial]:
     """Links one after the other from the ground; closed on the ground; and with links written twice."""
-    for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32, 64)) for d in (2, 3)):
+    for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32, 64, 128)) for d in (2, 3)):
         places = [[k, k * k % 3, k % 2][:d] for k in range(n + 1)]
         names = [f"P{k}" for k in range(1, n + 1)]
         particles = [{"name": name, "at": at} for name, at in zip(names, places[1:], strict=True)]
@@ -48,7 +48,7 @@ def _link(name: str, a: Any, b: Any) -> dict[str, Any]:
 
 def bodies(quick: bool) -> Iterator[Trial]:
     """Bodies hinged one to the next, in the plane and in space; every third hinge welded too."""
-    for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16)) for d in (2, 3)):
+    for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32)) for d in (2, 3)):
         names = ["ground", *(f"b{k}" for k in range(n))]
         hinges: list[dict[str, Any]] = []
         for k in range(n):
@@ -122,7 +122,7 @@ def chained_forms(quick: bool) -> Iterator[Trial]:
 
 def trailers(quick: bool) -> Iterator[Trial]:
     """A car that steers with trailers: every configuration is reached (Laumond 1993); on a straight rail it is not."""
-    for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16):
+    for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
         made = car(n)
         forms = numbered(n + 2)
         yield from ask(
@@ -132,7 +132,8 @@ def trailers(quick: bool) -> Iterator[Trial]:
             "controllable: the derived system of n + 2 forms goes down to none (Laumond 1993)",
             ("non-holonomic", "long-chain"),
             size=n + 2,
-            dof=n + 5 - 1,
+            swept={"member": "steers"},
+            dof=n + 4,
             integrability=every(forms, False),
         )
         if n > 3:
@@ -145,6 +146,7 @@ def trailers(quick: bool) -> Iterator[Trial]:
             "its heading stays, so the axle runs straight and one direction is left: all integrate",
             ("together", "long-chain"),
             size=n + 2,
+            swept={"member": "does not steer"},
             dof=1,
             integrability=every(["c1", *numbered(n + 2, 2)], True),
         )

@@ -30,7 +30,7 @@ def _of(links: Sequence[Link], redundant: Sequence[Link]) -> list[str]:
 
 def cliques(quick: bool) -> Iterator[Trial]:
     """All pairs, joint after joint: its first d links put a joint in its place, each further one is redundant."""
-    sizes = {1: (4, 8, 16, 32), 2: (4, 8, 16, 32), 3: (4, 5, 8, 16)}
+    sizes = {1: (4, 8, 16, 32), 2: (4, 8, 16, 32, 64), 3: (4, 5, 8, 16, 32)}
     for d, n in ((d, n) for d, ladder in sizes.items() for n in (ladder[:1] if quick else ladder)):
         links = [(i, j) for j in range(n) for i in range(j)]
         needed = [(i, j) for i, j in links if i < d]
@@ -85,7 +85,7 @@ def bananas(quick: bool) -> Iterator[Trial]:
     On the same ends: the last link of every one but the first says again how far these are apart. In a ring of three
     or more: a polygon of rigid bars, each free to turn about itself.
     """
-    for n in (2, 3) if quick else (2, 3, 4, 8, 16):
+    for n in (2, 3) if quick else (2, 3, 4, 8, 16, 32, 64):
         links: list[Link] = []
         for k in range(n):
             links += _spindle(0, 1, 2 + 3 * k)
@@ -135,7 +135,7 @@ def henneberg(quick: bool) -> Iterator[Trial]:
 
     With links more, each of them is redundant; with the last one left out, there is one freedom more.
     """
-    ladder = {2: (4, 8, 16, 32, 64, 128), 3: (5, 8, 16, 32)}
+    ladder = {2: (4, 8, 16, 32, 64, 128, 256, 512), 3: (5, 8, 16, 32, 64, 128)}
     members = [(d, n, 0) for d, sizes in ladder.items() for n in (sizes[:1] if quick else sizes)]
     for d, n, seed in (*members, *(() if quick else ((2, 8, 1), (3, 8, 1)))):
         links = steps(n, d, random.Random(f"{n} {d} {seed}"))
@@ -175,7 +175,7 @@ def steps(joints: int, dimension: int, rng: random.Random) -> list[Link]:
 
 def trees_on_a_line(quick: bool) -> Iterator[Trial]:
     """Links along a line: one that closes a circle is redundant, and every part moves by itself."""
-    for n in (4, 8) if quick else (4, 8, 16, 32, 64, 128):
+    for n in (4, 8) if quick else (4, 8, 16, 32, 64, 128, 256, 512):
         rng = random.Random(n)
         links = sorted({(min(a, b), max(a, b)) for a, b in (rng.sample(range(n), 2) for _ in range(n))})
         rng.shuffle(links)
@@ -216,7 +216,7 @@ def union(n: int, links: Sequence[Link]) -> tuple[int, list[Link]]:
 
 def clusters(quick: bool) -> Iterator[Trial]:
     """Rigid clusters with one link too many each, hinged one to the next; or with a link less."""
-    for n in (2, 4) if quick else (2, 4, 8, 16, 32):
+    for n in (2, 4) if quick else (2, 4, 8, 16, 32, 64, 128):
         links: list[Link] = []
         for k in range(n):
             links += combinations(range(3 * k, 3 * k + 4), 2)

@@ -154,7 +154,7 @@ def braced_grids(quick: bool) -> Iterator[Trial]:
     A row and a column are joined where their square is braced; a brace that closes a circle is redundant, and every
     part of the graph turns by itself.
     """
-    for m in (2, 3) if quick else (2, 3, 4, 6, 8):
+    for m in (2, 3) if quick else (2, 3, 4, 6, 8, 12):
         spots = [(i, j) for i in range(m) for j in range(m)]
         cycle = [(i, i) for i in range(m)] + [(i, (i + 1) % m) for i in range(m)]
         tree = [(i, 0) for i in range(m)] + [(0, j) for j in range(1, m)]
@@ -204,7 +204,7 @@ def _grid(m: int, braced: Sequence[tuple[int, int]]) -> tuple[dict[str, Any], li
 
 def triangulated(quick: bool) -> Iterator[Trial]:
     """Squares with a diagonal each, of any lengths: rigid, and every square off the border has a link too many."""
-    for m in (2, 3) if quick else (2, 3, 4, 8, 12):
+    for m in (2, 3) if quick else (2, 3, 4, 8, 16):
         links: list[tuple[str, tuple[int, int], tuple[int, int]]] = []
         first = [(i, j) for j in range(m + 1) for i in (0, 1)]
         for i, j in [*first, *((i, j) for i in range(2, m + 1) for j in range(m + 1))]:

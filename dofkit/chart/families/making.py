@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -54,11 +55,11 @@ def ask(
         "integrability": None if integrability is None else dict(integrability),
         "redundancy": None if redundancy is None else sorted(redundancy),
     }
-    member = {"member": name.replace(str(size), "n")} if size > 1 and not swept else {}
+    varied = _varied(name, size, swept)
     for question, truth in truths.items():
         if truth is not None:
             told = f"{name}: {question}"
-            yield Trial(family, told, question, scene, truth, because, tuple(traits), size, dict(swept or member))
+            yield Trial(family, told, question, scene, truth, because, tuple(traits), size, varied)
 
 
 def same(
@@ -75,7 +76,14 @@ def same(
 ) -> Trial:
     """Does a text say the same as a constraint? ``answer``: the constraint's name, and the text."""
     handed = {"constraint": answer[0], "text": answer[1]}
-    return Trial(family, name, "equivalence", scene, truth, because, tuple(traits), size, dict(swept or {}), handed)
+    varied = _varied(name, size, swept)
+    return Trial(family, name, "equivalence", scene, truth, because, tuple(traits), size, varied, handed)
+
+
+def _varied(name: str, size: int, swept: Mapping[str, Any] | None) -> dict[str, Any]:
+    """What is varied; where that is the size alone, of which member: its name with n for the size."""
+    member, sizes = re.subn(rf"\b{size} by {size}\b|\b{size}\b", "n", name, count=1)
+    return dict(swept) if swept else {"member": member} if sizes else {}
 
 
 def asked(
