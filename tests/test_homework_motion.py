@@ -21,7 +21,21 @@ DISC: dict[str, Any] = {
         "forces": {"phi": "tau"},
     },
 }
-SCENES: dict[str, Any] = {"disc": DISC}
+LINKS: dict[str, Any] = {
+    "parameters": {"m": "positive", "l": "positive", "g": "positive"},
+    "coordinates": ["x1", "y1", "x2", "y2"],
+    "constraints": ["x1^2 + y1^2 = l^2", "(x2 - x1)^2 + (y2 - y1)^2 = l^2"],
+    "energies": {"kinetic": "m (x1dot^2 + y1dot^2 + x2dot^2 + y2dot^2)/2", "potential": "m g (y1 + y2)"},
+}
+STRING: dict[str, Any] = {
+    "parameters": {"m": "positive", "l": "positive", "g": "positive"},
+    "coordinates": ["x", "y"],
+    "constraints": ["x^2 + y^2 = l^2"],
+    "energies": {"kinetic": "m (xdot^2 + ydot^2)/2", "potential": "m g y"},
+}
+SCENES: dict[str, Any] = {"disc": DISC, "links": LINKS, "string": STRING}
+L2 = "m (x1dot^2 + y1dot^2 + x2dot^2 + y2dot^2)/2"
+UPPER = "m x1ddot = lam x1 - mu (x2 - x1); m y1ddot = lam y1 - mu (y2 - y1) - m g"
 
 
 @cache
@@ -37,7 +51,7 @@ def graded(scene: str, ask: str, coordinate: str, answer: str) -> tuple[str, flo
     return item.status, item.score, item.codes
 
 
-RIGHT = "right"
+RIGHT, NOT_ALL = "right", "wrong WRONG_MOTION"
 ROWS = [
     ("simple-pendulum-lagrangian", "lagrangian", "", "m l^2 thetadot^2/2 + m g l cos(theta)", RIGHT),
     ("simple-pendulum-lagrangian", "lagrangian", "", "L = T - V = m l² θ̇²/2 - m g l (1 - cos θ)", RIGHT),
@@ -84,7 +98,20 @@ ROWS = [
     (SPHERE, "lagrangian", "", "m (xdot^2 + ydot^2 + zdot^2)/2 + m g z", "wrong TOTAL_ENERGY"),
     (SPHERE, "momentum", "x", "m xdot", "needs_review"),
     (SPHERE, "motion", "", "m xddot = 2 lambda x; m yddot = 2 lambda y; m zddot = 2 lambda z - m g", RIGHT),
-    (SPHERE, "motion", "", "m xddot = 2 lambda x; m yddot = 2 lambda y; m zddot = 2 lambda z + m g", "wrong or review"),
+    (SPHERE, "motion", "", "m xddot = 2 lambda x; m yddot = 2 lambda y; m zddot = 2 lambda z + m g", NOT_ALL),
+    # what is finite and keeps a multiplier holds at the points where answers are looked at
+    ("links", "lagrangian", "", f"{L2} - m g (y1 + y2)", RIGHT),
+    ("links", "lagrangian", "", f"{L2} - m g (y1 + y2) + x1^2 + y1^2", RIGHT),
+    ("links", "lagrangian", "", f"{L2} + m g (y1 + y2)", "wrong TOTAL_ENERGY"),
+    ("links", "lagrangian", "", f"{L2} - m g (y1 + y2) + x1", "wrong WRONG_LAGRANGIAN"),
+    ("links", "momentum", "x1", "m y1dot", "wrong WRONG_MOMENTUM"),
+    ("links", "force", "y1", "m g", "wrong SIGN"),
+    ("links", "motion", "", f"{UPPER}; m x2ddot = mu (x2 - x1); m y2ddot = mu (y2 - y1) - m g", RIGHT),
+    ("links", "motion", "", f"{UPPER}; m x2ddot = mu (x2 - x1); m y2ddot = mu (y2 - y1) + m g", NOT_ALL),
+    ("string", "motion", "", "x yddot - y xddot + g x = 0", RIGHT),
+    ("string", "motion", "", "m xddot = lam x; m yddot = lam y - m g; x^2 + y^2 = l^2", RIGHT),
+    ("string", "motion", "", "m xddot = lam x; m yddot = lam y + m g", "wrong WRONG_MOTION"),
+    ("disc", "motion", "", "(I3 + m R^2) phiddot = tau; thetaddot = 0; dx = R cos(theta) dphi", RIGHT),
     ("disc", "lagrangian", "", "m (xdot^2 + ydot^2)/2 + I1 thetadot^2/2 + I3 phidot^2/2", RIGHT),
     ("disc", "momentum", "x", "m R cos(theta) phidot", RIGHT),
     ("disc", "momentum", "x", "m R phidot", "wrong WRONG_MOMENTUM"),
@@ -100,7 +127,6 @@ ROWS = [
 
 ALLOWED = {
     "right or unreadable": {"right", "unreadable"},
-    "wrong or review": {"wrong WRONG_MOTION", "partly WRONG_MOTION", "needs_review"},
 }
 
 

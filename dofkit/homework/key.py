@@ -67,6 +67,11 @@ class Key:
         return sought_or_why(self.scene)
 
     @cached_property
+    def whole_motion(self) -> Sought | DofkitError:
+        """The same with nothing eliminated: every constraint keeps its multiplier."""
+        return sought_or_why(self.scene, whole=True)
+
+    @cached_property
     def constraints(self) -> dict[str, ConstraintEntry]:
         """The entries of the report by name."""
         return {entry.name: entry for entry in self.report.constraints}

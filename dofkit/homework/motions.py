@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
 from itertools import permutations
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from flint import nmod_mat
 from flint.utils.flint_exceptions import DomainError
@@ -21,11 +21,14 @@ from dofkit import expr as ex
 from dofkit.errors import DofkitError
 from dofkit.exact.field import NoPointError, field_point
 from dofkit.exact.identity import told_zero
+from dofkit.exact.points import Solver
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring
 from dofkit.exact.trust import independent_generators
 from dofkit.expr import MINUS_ONE, ONE, ZERO, Expr
-from dofkit.lagrange import derived_of
+from dofkit.lagrange import derived_of, read
+from dofkit.lagrange.derivation import derive
+from dofkit.lagrange.elimination import ELIMINATIONS
 from dofkit.lagrange.model import in_velocities
 from dofkit.lagrange.rates import by_time
 from dofkit.normal import Finite, Pfaffian
@@ -44,7 +47,7 @@ class Sought:
     """What is right: in the coordinates that are kept.
 
     ``motions`` replaces what is eliminated, ``rates`` the velocities that constraints give by others. ``rows`` are
-    d/dt of the constraints that keep a multiplier, ``finite`` tells that some of them hold between coordinates.
+    d/dt of the constraints that keep a multiplier, ``relations`` those of them that hold between coordinates.
     """
 
     names: tuple[str, ...]
@@ -57,7 +60,7 @@ class Sought:
     motions: Mapping[Expr, Expr]
     rates: Mapping[Expr, Expr]
     rows: tuple[Expr, ...]
-    finite: bool
+    relations: tuple[Expr, ...]
     unreduced: Mapping[str, tuple[Expr, Expr]]
     positive: frozenset[Expr]
 
@@ -71,23 +74,53 @@ class Sought:
 
     def zero(self, e: Expr) -> bool | None:
         """Is an expression 0 where the constraints hold? None where that was not decided."""
-        return is_zero(self.moved(e), self.positive)
+        moved = self.moved(e)
+        found = is_zero(moved, self.positive)
+        return found if found is not False or not self.relations else self._zero_there(moved)
+
+    def _zero_there(self, e: Expr) -> bool | None:
+        """At points where the finite relations hold."""
+        ring = Ring([e, *self.relations], self.positive)
+        node = ring.node(e)
+        told = [found[node] == 0 for _, found in places(ring, self.relations)]
+        if len(told) < POINTS:
+            return None
+        return all(told) if all(told) or independent_generators(ring) else None
 
 
-def sought(scene: Scene) -> Sought:
-    """What is right of a scene. Raises DofkitError where it has no equations of motion."""
-    derived = derived_of(scene)
+def places(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
+    """Random points over GF(p) where the relations hold, a few: the prime, and the values of the ring's nodes."""
+    solver = Solver(ring, [ring.node(g) for g in relations], seed=3) if relations else None
+    found = 0
+    for seed in range(ATTEMPTS):
+        point = field_point([ring], 500 + seed) if solver is None else solver.draw(500 + seed)
+        if point is None:
+            return
+        try:
+            at = values(ring, point)
+        except (ZeroDivisionError, NoPointError):
+            continue
+        yield point.p, at
+        found += 1
+        if found == POINTS:
+            return
+
+
+def sought(scene: Scene, whole: bool = False) -> Sought:
+    """What is right of a scene; ``whole``: with nothing eliminated. Raises DofkitError without equations of motion."""
+    derived = derive(read(scene).model(ELIMINATIONS[-1])) if whole else derived_of(scene)
     model = derived.model
     rates: dict[Expr, Expr] = {}
     for piece in model.constraints:
-        if isinstance(piece, Pfaffian):
-            _solved(in_velocities(piece), rates, model.positive)
-    whole = model.whole
+        if isinstance(piece, (Pfaffian, Finite)):
+            form = by_time(piece.expr) if isinstance(piece, Finite) else in_velocities(piece)
+            _solved(form, rates, model.positive)
+    given = model.whole
     unreduced = {}
     for c in model.study.system.coordinates:
         v = ex.velocity(c.name)
-        force = ex.diff(whole.lagrangian, ex.coordinate(c.name)) - ex.diff(whole.dissipation, v)
-        pair = (ex.diff(whole.lagrangian, v), force + whole.forces.get(c.name, ZERO))
+        force = ex.diff(given.lagrangian, ex.coordinate(c.name)) - ex.diff(given.dissipation, v)
+        pair = (ex.diff(given.lagrangian, v), force + given.forces.get(c.name, ZERO))
         unreduced[c.name] = (ex.substitute(pair[0], model.motions), ex.substitute(pair[1], model.motions))
     rows = [by_time(by_time(p.expr)) if isinstance(p, Finite) else by_time(in_velocities(p)) for p in model.constraints]
     return Sought(
@@ -101,7 +134,7 @@ def sought(scene: Scene) -> Sought:
         model.motions,
         rates,
         tuple(rows),
-        any(not isinstance(p, Pfaffian) for p in model.constraints),
+        tuple(model.holonomic),
         unreduced,
         model.positive,
     )
@@ -136,12 +169,59 @@ def euler(e: Expr, name: str) -> Expr:
 
 
 def same_lagrangian(answer: Expr, right: Expr, known: Sought) -> bool | None:
-    """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then."""
+    """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then.
+
+    Beside finite relations it is enough that it gives no other force than the relations do, where they hold.
+    """
     gap = answer - right
     if any(s.args[0] == "acceleration" for s in gap.symbols):
         return None
-    told = [is_zero(euler(gap, n), known.positive) for n in known.names]
+    forces = [euler(gap, n) for n in known.names]
+    told = [is_zero(e, known.positive) for e in forces]
+    if False in told and known.relations:
+        return _spanned(forces, known)
     return False if False in told else None if None in told else True
+
+
+def _spanned(forces: Sequence[Expr], known: Sought) -> bool | None:
+    """Are forces sums of those of the constraints, at every state and acceleration that these allow?"""
+    columns = [ex.sym("acceleration", n) for n in known.names]
+    lines = [linear(known.moved(e), columns) for e in forces]
+    held = [linear(known.moved(e), columns) for e in known.rows]
+    if None in lines or None in held:
+        return None
+    ring = Ring([e for row in (*lines, *held) for e in row or ()] + [*known.relations], known.positive)
+    nodes = [[[ring.node(e) for e in row or ()] for row in rows] for rows in (lines, held)]
+    told = []
+    for p, at in places(ring, known.relations):
+        own, rows = ([[int(at[i]) for i in row] for row in part] for part in nodes)
+        moving = _accelerations(rows, p)
+        if moving is None:
+            continue
+        force = [(_dot(row[:-1], moving) + row[-1]) % p for row in own]
+        gradients = [row[:-1] for row in rows]
+        told.append(_rank_of([*gradients, force], p) == _rank_of(gradients, p))
+    if len(told) < POINTS:
+        return None
+    return all(told) if all(told) or independent_generators(ring) else None
+
+
+def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
+    """Some accelerations that satisfy rows whose last entry is the constant term, random where they are free."""
+    n = len(rows[0]) - 1
+    chosen = [pow(3, 7 + i, p) for i in range(n)]
+    reduced, rank = nmod_mat([list(row) for row in rows], p).rref()
+    for i in range(int(rank)):
+        row = [int(reduced[i, j]) for j in range(n + 1)]
+        pivot = next(j for j, v in enumerate(row) if v)
+        if pivot == n:
+            return None
+        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j > pivot)) % p
+    for i in range(int(rank) - 1, -1, -1):
+        row = [int(reduced[i, j]) for j in range(n + 1)]
+        pivot = next(j for j, v in enumerate(row) if v)
+        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j != pivot)) % p
+    return chosen
 
 
 class Motion(Enum):
@@ -171,7 +251,7 @@ class Answered:
         found = []
         unknown = [*self.columns, *self.own]
         for e in self.equations:
-            e = self.known.moved(self.known.inserted(e))
+            e = self.known.moved(self.known.inserted(_in_time(e)))
             row = linear(e, unknown)
             if row is None:
                 return None
@@ -187,9 +267,9 @@ class Answered:
 
     @property
     def decidable(self) -> bool:
-        """Can it be decided at points: is everything linear, and free of finite constraints that must hold there?"""
+        """Can it be decided at points: is everything linear?"""
         whole = len(self.known.names) + len(self.known.multipliers)
-        return self.rows is not None and not self.known.finite and len(self.right) == whole
+        return self.rows is not None and len(self.right) == whole
 
     def follow(self) -> tuple[list[Motion], int] | None:
         """How each equation compares, and how many accelerations those that follow fix; None where it is open.
@@ -200,10 +280,10 @@ class Answered:
         rows = self.rows
         if rows is None or not self.decidable:
             return None
-        ring = Ring([e for row in (*rows, *self.right) for e in row], self.known.positive)
+        ring = Ring([*(e for row in (*rows, *self.right) for e in row), *self.known.relations], self.known.positive)
         given = [[ring.node(e) for e in row] for row in rows]
         right = [[ring.node(e) for e in row] for row in self.right]
-        told = list(_at_points(ring, right, given, len(self.columns), len(self.known.rows)))
+        told = list(_at_points(ring, right, given, len(self.columns), self.known))
         if not told:
             return None
         sound = [all(t.sound[i] for t in told) for i in range(len(rows))]
@@ -252,29 +332,24 @@ class Seen(NamedTuple):
 
 
 def _at_points(
-    ring: Ring, right: Sequence[Sequence[int]], given: Sequence[Sequence[int]], n: int, constraints: int
+    ring: Ring, right: Sequence[Sequence[int]], given: Sequence[Sequence[int]], n: int, known: Sought
 ) -> Iterator[Seen]:
     """At random points: which rows hold with the right accelerations, and the rank of all."""
-    found = 0
-    for seed in range(ATTEMPTS):
-        point = field_point([ring], 500 + seed)
+    constraints = len(known.rows)
+    for p, at in places(ring, known.relations):
+        rows = [[int(at[i]) for i in row] for row in right]
         try:
-            at = values(ring, point)
-            rows = [[int(at[i]) for i in row] for row in right]
-            solution = _solve(rows, point.p)
-        except (ZeroDivisionError, NoPointError):
+            solution = _solve(rows, p)
+        except ZeroDivisionError:
             continue
         own = [[int(at[i]) for i in row] for row in given]
-        known = [[*row[n:-1], (row[-1] + _dot(row[:n], solution[:n])) % point.p] for row in own]
-        sound = _consistent(known, point.p)
+        inserted = [[*row[n:-1], (row[-1] + _dot(row[:n], solution[:n])) % p] for row in own]
+        sound = _consistent(inserted, p)
         held = rows[len(rows) - constraints :] if constraints else []
         width = len(own[0]) - 1 - n if own else 0
         every = [row[:-1] for row in own] + [[*row[:n], *([0] * width)] for row in held]
-        rank = _rank_of(every, point.p) - _rank_of([row[n:-1] for row in own], point.p) if own else 0
-        yield Seen(sound, rank - (_rank_of([row[:n] for row in held], point.p) if held else 0), own, point.p)
-        found += 1
-        if found == POINTS:
-            return
+        rank = _rank_of(every, p) - _rank_of([row[n:-1] for row in own], p) if own else 0
+        yield Seen(sound, rank - (_rank_of([row[:n] for row in held], p) if held else 0), own, p)
 
 
 def _dot(a: Sequence[int], b: Sequence[int]) -> int:
@@ -308,6 +383,12 @@ def _rank_of(rows: Sequence[Sequence[int]], p: int) -> int:
     return int(nmod_mat([list(row) for row in rows], p).rank()) if rows and rows[0] else 0
 
 
+def _in_time(e: Expr) -> Expr:
+    """Differentials read as velocities."""
+    rates = {s: ex.velocity(str(s.args[1])) for s in e.symbols if s.args[0] == "differential"}
+    return ex.substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
+
+
 def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
     """The coefficients of unknowns and what is left without them; None where ``e`` is not linear as written."""
     row = [ex.diff(e, s) for s in unknown]
@@ -329,9 +410,9 @@ def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
     return ex.add(*terms)
 
 
-def sought_or_why(scene: Scene) -> Sought | DofkitError:
+def sought_or_why(scene: Scene, whole: bool = False) -> Sought | DofkitError:
     """What is right of a scene, or why it is not known."""
     try:
-        return sought(scene)
+        return sought(scene, whole)
     except DofkitError as error:
         return error

@@ -86,7 +86,7 @@ class Lagrangian(_Value):
         same = same_lagrangian(given, known.lagrangian, known)
         if same:
             return right(shown)
-        if same is None or known.finite:
+        if same is None:
             return needs_review(shown, "whether it gives the same motion was not decided.")
         if same_lagrangian(given, known.total, known):
             return wrong(shown, "This is the energy T + V; the Lagrangian is T - V.", "TOTAL_ENERGY")
@@ -119,7 +119,7 @@ class _OfCoordinate(_Value):
         same = known.zero(given - wanted)
         if same:
             return right(shown)
-        if same is None or known.finite:
+        if same is None:
             return needs_review(shown, "whether it is the same was not decided.")
         if reduced and known.zero(given - self._unreduced(known)) is not False:
             return needs_review(shown, "it may be meant in the coordinates before the constraints are used.")
@@ -187,8 +187,12 @@ class Motion(_MotionQuestion):
         relations, own = _equations(answer, key)
         if any(c.relation != "=" for c in relations):
             return wrong(shown, "An equation of motion is an equation, not an inequality.", "INEQUALITY")
-        answered = Answered(known, tuple(c.left - c.right for c in relations), own)
+        equations = tuple(c.left - c.right for c in relations)
+        answered = Answered(known, equations, own)
         found = answered.follow()
+        if found is None and self.coordinate is None and isinstance(key.whole_motion, Sought):
+            known = key.whole_motion
+            found = Answered(known, equations, own).follow()
         if found is None:
             return needs_review(shown, "whether these are the equations of motion was not decided.")
         if self.coordinate is not None and self.coordinate in known.names:
