@@ -102,8 +102,8 @@ def _with_fewer(
     small, free = smaller(chart, known)
     spared = chart.coordinates - small.coordinates
     here = point if small is chart else pose_point(small, known, 3)
-    if here is None:
-        return Local(None, "undecided", "the relations have no value there"), spared
+    if here is None or not on_variety(small, here):
+        return Local(None, "undecided", "with fewer coordinates the relations do not hold at the drawing"), 0
     if not small.nodes:
         return Local(free, "proved", EXPLICIT), spared
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]

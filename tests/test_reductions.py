@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import json
+import random
+from collections.abc import Callable, Iterator, Mapping
+from itertools import islice
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 import pytest
 
 import dofkit
 from dofkit.chart.ablation import SCENES, ablated, answered, differences
+from dofkit.chart.families import FAMILIES
+from dofkit.exact.sparse import rank_of_rows
 from dofkit.reductions import ALL, REDUCTIONS, ReductionName
+from dofkit.redundancy import Rows, analyse
 
-#: A third of the catalog's scenes: the whole of it takes a minute.
-CATALOG = sorted((Path(__file__).parent.parent / "catalog").glob("*/*.yaml"))[::3]
+#: A quarter of the catalog's scenes: the whole of it takes a minute.
+CATALOG = sorted((Path(__file__).parent.parent / "catalog").glob("*/*.yaml"))[::4]
 #: What is computed with less, by hand: (field, with the reduction, without it) at a family's quick size n.
 LESS: Mapping[str, tuple[str, Callable[[int], int], Callable[[int], int]]] = {
     "untouched": ("coordinates", lambda n: 4, lambda n: 4 + n),
@@ -70,3 +76,47 @@ def test_the_catalog_is_answered_alike_without_any_reduction(path: Path) -> None
     assert full is not None
     assert without is not None
     assert differences(full.report, without.report) == []
+
+
+def scenes_of_families() -> Iterator[Any]:
+    """A third of the small members of the families, every scene once."""
+    seen = set()
+    for name, family in FAMILIES.items():
+        for trial in family(True) if name != "catalog" else ():
+            key = json.dumps(trial.scene, sort_keys=True, default=str)
+            if key not in seen:
+                seen.add(key)
+                yield pytest.param(trial.scene, id=f"{trial.family}-{trial.name}")
+
+
+@pytest.mark.parametrize("scene", list(islice(scenes_of_families(), 0, None, 3)))
+def test_the_families_are_answered_alike_without_any_reduction(scene: dict[str, Any]) -> None:
+    full, _ = answered(scene, ALL, 1)
+    without, _ = answered(scene, frozenset(), 1)
+    assert full is not None
+    assert without is not None
+    assert differences(full.report, without.report) == []
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_what_can_go_together_leaves_the_rank(seed: int) -> None:
+    """Dropped constraints lower no rank, and one more would: against ranks of the rows that are left."""
+    rng, p = random.Random(seed), 101
+    basis = [{c: rng.randrange(1, p) for c in rng.sample(range(6), 2)} for _ in range(5)]
+    matrix, owners = [], []
+    for owner in range(9):
+        for _ in range(rng.randrange(1, 3)):
+            chosen = [(row, rng.randrange(p)) for row in rng.sample(basis, 2)]
+            columns = {c for row, _ in chosen for c in row}
+            total = {c: sum(factor * row.get(c, 0) for row, factor in chosen) % p for c in columns}
+            matrix.append({c: v for c, v in total.items() if v})
+            owners.append(owner)
+    found = analyse([Rows(matrix, owners, [True] * len(owners), p)])
+
+    def rank_without(gone: set[int]) -> int:
+        return rank_of_rows([row for row, owner in zip(matrix, owners, strict=True) if owner not in gone], p)
+
+    whole = rank_of_rows(matrix, p)
+    dropped = set(found.redundant)
+    assert rank_without(dropped) == whole
+    assert all(rank_without(dropped | {owner}) < whole for owner in set(owners) - dropped)
