@@ -11,17 +11,22 @@ from typing import Any
 
 from flint import ctx
 
+from dofkit import expr as ex
 from dofkit.answers import Setting
 from dofkit.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.dependence import all_needed, redundancies
+from dofkit.drawn_rank import drawn_rank
 from dofkit.exact.balls import precision
 from dofkit.exact.engines import BOTH, Engines
+from dofkit.frameworks import left_out
 from dofkit.homework.comparison import Sameness, compare
 from dofkit.homework.equations import beside, read_equations
 from dofkit.labelling import entries_of, labels_in_system
+from dofkit.linkage import linkage
 from dofkit.lowering import lower
 from dofkit.methods import Question
 from dofkit.preparing import prepared
+from dofkit.redundancy import Rows, analyse
 from dofkit.report import Verdict, weakest
 from dofkit.scene import Scene
 from dofkit.solving import Outcome, Reduced, solve
@@ -77,12 +82,45 @@ def asked(
                     raise ValueError("equivalence is asked of a scene and an answer")
                 return _equivalence(scene, answer, engines)
             system = scene if isinstance(scene, System) else lower(scene)
+            if engines == BOTH and question in ("dof", "redundancy"):
+                found = _by_graph(system, question) or _by_drawing(system, question)
+                if found is not None:
+                    return found
             reduced, setting = prepared(system)
             setting = replace(setting, grows=False, engines=engines)
             outcome = solve(system, reduced, setting)
             return _QUESTIONS[question](system, reduced, setting, outcome)
     except OutOfTimeError:
         return Reply(None, "undecided", OUT_OF_TIME)
+
+
+def _by_graph(system: System, question: Question) -> Reply | None:
+    """Links whose lengths were all left out are in general position: the graph answers. None for any other system."""
+    pairs = left_out(system)
+    if pairs is None:
+        return None
+    told = linkage([pair for _, pair in pairs], system.dimension)
+    sure = told.proof("redundant").verdict
+    if question == "dof":
+        return Reply(len(system.coordinates) - told.rank, sure)
+    names = [system.constraints[pairs[k][0]].name for k in told.redundant_places]
+    return Reply(names, sure) if len({i for i, _ in pairs}) == len(pairs) else None
+
+
+def _by_drawing(system: System, question: Question) -> Reply | None:
+    """Joints and links whose rows at the drawing prove their freedom. None for any other system."""
+    known = drawn_rank(
+        system, frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
+    )
+    if known is None:
+        return None
+    if question == "dof":
+        return Reply(known.freedom, "proved")
+    gone = list(known.copies)
+    sure: Verdict = "proved" if known.independent else "probable"
+    if not known.independent:
+        gone += analyse([Rows(known.rows, known.owners, [True] * len(known.rows), known.p)]).redundant
+    return Reply([system.constraints[i].name for i in sorted(gone)], sure)
 
 
 def _dof(system: System, reduced: list[Reduced], setting: Setting, outcome: Outcome) -> Reply:

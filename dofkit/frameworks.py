@@ -19,6 +19,7 @@ from dofkit.exact.sparse import SparseRow, last_columns
 from dofkit.expr import Expr
 from dofkit.linkage import linkage
 from dofkit.normal import Finite
+from dofkit.system import System
 
 Pair = tuple[str, str]
 METHOD = "graph of rigid links"
@@ -47,6 +48,27 @@ def framework_answer(block: Block, setting: Setting) -> Answer | None:
         dependent=tuple(block.coordinates[c] for c in columns),
         method=METHOD,
     )
+
+
+def left_out(system: System) -> list[tuple[int, Pair]] | None:
+    """The ends of every link, with its constraint, of a system that is nothing but links whose lengths were left out.
+
+    Each then has a length of its own that nothing prescribes. None for any other system.
+    """
+    if system.reference is not None or system.tolerance is not None or not system.constraints:
+        return None
+    particles = frozenset(system.particles)
+    relations = sum(len(c.relations) for c in system.constraints)
+    free = frozenset(ex.parameter(p) for p in system.generic) - system.pose.keys()
+    if relations != len(system.links) or any(a == b or not {a, b} <= particles for _, a, b in system.links):
+        return None
+    lengths = [s for c in system.constraints for r in c.relations if r.sense == "=" for s in r.expr.symbols & free]
+    if not len(lengths) == len(set(lengths)) == relations:
+        return None
+    parameters = {
+        s for c in system.constraints for r in c.relations for s in r.expr.symbols if s.args[0] != "coordinate"
+    }
+    return [(i, (a, b)) for i, a, b in system.links] if parameters == set(lengths) else None
 
 
 def _pairs(block: Block, setting: Setting) -> list[Pair] | None:

@@ -14,7 +14,8 @@ from dofkit.scene import Scene
 def told(scene: Scene, question: Question, answer: Mapping[str, str] | None = None, engines: Engines = BOTH) -> Told:
     """The answer of some engines."""
     found: Reply = asked(scene, question, answer, engines=engines)
-    return Told(found.value, found.reason)
+    value = sorted(found.value) if question == "redundancy" and found.value is not None else found.value
+    return Told(value, found.reason)
 
 
 def dof(scene: Scene, knobs: Knobs) -> Told:

@@ -91,7 +91,7 @@ def redundancy(scene: Scene, knobs: Knobs) -> Told:
     if why is not None:
         return cannot(why)
     names = [c.name for c in system.constraints]
-    return Told([names[i] for i in redundant(system, knobs.seed)])
+    return Told(sorted(names[i] for i in redundant(system, knobs.seed)))
 
 
 def redundant(system: System, seed: int) -> list[int]:

@@ -157,7 +157,7 @@ def droppable(found: Looked, numbers: Numbers) -> list[str]:
         if ranks(({*kept, *fixed} - dropped) - {i}) == whole:
             dropped.add(i)
     names = [c.name for c in rows.written.system.constraints]
-    return [names[i] for i in sorted(dropped)]
+    return sorted(names[i] for i in dropped)
 
 
 def same(question: Posed, numbers: Numbers) -> Told:

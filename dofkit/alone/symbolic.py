@@ -144,7 +144,7 @@ def redundancy(scene: Scene, knobs: Knobs) -> Told:
         if rank(everything - dropped - {i}) == whole:
             dropped.add(i)
     names = [c.name for c in symbols.written.system.constraints]
-    return Told([names[i] for i in sorted(dropped)])
+    return Told(sorted(names[i] for i in dropped))
 
 
 def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
