@@ -147,7 +147,7 @@ def _everywhere(
         return True
     plain = all(reduced[i].constraint.type in ("equation", "on") for i in numbers)
     pieces = [p for i in numbers for n in reduced[i].normals for p in n.pieces]
-    if not plain or not all(isinstance(p, Finite) and algebraic(p.expr, "log") for p in pieces):
+    if not plain or not all(isinstance(p, Finite) and algebraic(p.expr) for p in pieces):
         return True
     kept = [i for i in numbers if i not in dropped]
     return all_of(_follows(reduced, i, kept, setting) for i in dropped)

@@ -28,7 +28,9 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
     ("x*y=0 and x*z=0: neither can go", scene("x*y=0", "x*z=0"), {"dof": 2, "redundant": []}),
     ("one of two branches", scene("y^2=sin(x)^2", "y=sin(x)"), {"dof": 2, "redundant": ["c1"]}),
     ("its other one", scene("y^2=1-cos(x)^2", "y=-sin(x)"), {"dof": 2, "redundant": ["c1"]}),
-    ("logs have one sign only", scene("x*y=1", "log(x)+log(y)=0"), {"dof": 2, "redundant": ["c1"]}),
+    ("powers to numbers have one base", scene("y=2^x", "z=4^x", "z=y^2+1e-9"), {"consistent": False}),
+    ("4^z = 2^(2 z)", scene("dy + (4^z - 2^(2*z)) x dx = 0"), {"holonomic": True, "dof": 2}),
+    ("2^(1/2) is a power of 2", scene("dy + (sqrt(2)^(2*z) - 2^z) x dx = 0"), {"holonomic": True, "dof": 2}),
     ("half a circle is no circle", scene("x^2+y^2=l^2", "y=-sqrt(l^2-x^2)", parameters=["l"]), {"redundant": ["c1"]}),
     ("x = 0 follows over the reals only", scene("x^2+y^2=z", "z+x^2+y^2=0", "x=0"), {"dof": 0, "redundant": ["c3"]}),
     (

@@ -115,9 +115,27 @@ def _log_of_size(ring: Builder, u: Expr) -> int:
 
 def log_of_number(ring: Builder, value: Fraction) -> int:
     """Over the primes of a positive number."""
-    powers = prime_powers(value.numerator) + [(p, -k) for p, k in prime_powers(value.denominator)]
-    logs = [ring.product(ring.number(k), _log_of_prime(ring, p)) for p, k in powers]
+    logs = [ring.product(ring.number(k), _log_of_prime(ring, p)) for p, k in _primes(value)]
     return ring.total(*logs) if logs else ring.number(0)
+
+
+def over_primes(u: Expr) -> Expr:
+    """An exponent with the logarithms of numbers in its terms as sums over primes: 4^w is (e^(w log 2))^2."""
+    if u.op in ("add", "mul"):
+        return (ex.add if u.op == "add" else ex.mul)(*map(over_primes, u.args))
+    if u.op != "fn" or u.args[0] != "log":
+        return u
+    base = u.args[1]
+    if base.op == "pow" and base.args[0].op == base.args[1].op == "num" and base.args[0].args[0] > 0:
+        return ex.mul(base.args[1], over_primes(ex.fn("log", base.args[0])))
+    if base.op == "num" and base.args[0] > 0:
+        return ex.add(*(ex.mul(ex.num(k), Expr("fn", ("log", ex.num(p)))) for p, k in _primes(base.args[0])))
+    return u
+
+
+def _primes(value: Fraction) -> list[tuple[int, int]]:
+    """The primes of a positive number with their powers."""
+    return prime_powers(value.numerator) + [(p, -k) for p, k in prime_powers(value.denominator)]
 
 
 def _log_of_prime(ring: Builder, prime: int) -> int:

@@ -20,7 +20,7 @@ from typing import Any, Protocol
 
 from dofkit import expr as ex
 from dofkit.exact.angles import MAX_MULTIPLE, exact_turn, multiple, of_inverse, rotated, turn_of_twelfths
-from dofkit.exact.inverses import inverse_function, log, split_logs
+from dofkit.exact.inverses import inverse_function, log, over_primes, split_logs
 from dofkit.exact.radicals import root, sign
 from dofkit.exact.terms import linear_terms, sorted_sum
 from dofkit.expr import Expr
@@ -67,7 +67,7 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
             family = _family(node)
             if family:
                 argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
-                for rest, factor in linear_terms(ex.substitute(argument, alias)).items():
+                for rest, factor in linear_terms(over_primes(ex.substitute(argument, alias))).items():
                     factor = exact_turn(factor)[1] if rest == ex.PI and family == "cis" else factor
                     old = denominators.get((family, rest), 1)
                     denominators[family, rest] = old * factor.denominator // gcd(old, factor.denominator)
@@ -243,7 +243,7 @@ class Ring:
 
     def _exp(self, u: Expr) -> int:
         """exp of a sum as the product of powers of the basic exponentials; exp(r log x) = x^r."""
-        u = ex.substitute(u, self.alias)
+        u = over_primes(ex.substitute(u, self.alias))
         parts = []
         for rest, factor in linear_terms(u).items():
             if rest.op == "fn" and rest.args[0] == "log":
