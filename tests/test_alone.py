@@ -110,7 +110,7 @@ ANSWERS: list[tuple[dict[str, Any], str, str, bool, str]] = [
     (FLAT, "c2", "x = 1", True, "auto field balls exact numeric"),
     (FLAT, "c2", "x = 1 + y", False, ""),
     (FLAT, "c2", "x + z^2 = 1", True, "auto field balls exact numeric"),
-    (scene("x = y"), "c1", "(x - y)^2 = 0", False, "exact? numeric balls?"),
+    (scene("x = y"), "c1", "(x - y)^2 = 0", False, "exact? numeric"),
     (scene("zdot = y xdot"), "c1", "2 dz - 2 y dx = 0", True, "auto field balls exact numeric"),
     (scene("zdot = y xdot"), "c1", "dz = x dy", False, ""),
     (scene("x = 0"), "c1", "x + y/10^12 = 0", False, "numeric"),
