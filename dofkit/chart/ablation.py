@@ -21,7 +21,7 @@ from dofkit.report import ConstraintEntry, Report
 Mapped = dict[str, Any]
 
 #: Seconds after which no new part of an answer is begun; times below `BRIEF` are the least of `REPEATS`.
-SECONDS, BRIEF, REPEATS = 20.0, 0.3, 3
+SECONDS, BRIEF, REPEATS = 10.0, 0.3, 3
 #: What tells how an answer was found, and how sure it is, and not what it is; of coordinates, one choice of many.
 TOLD = ("verdict", "method", "modelled", "warnings", "reason", "generalized_coordinates")
 #: What lists no more than was decided.
@@ -70,17 +70,22 @@ def ablation(quick: bool = False) -> Iterator[AblationRow]:
         for size in (made.quick,) if quick else made.whole:
             yield from ablated(f"{family}-{size}", family, size, made.scene(size), (family,))
     for name in catalog_names()[:: 6 if quick else 1]:
-        yield from ablated(name, "catalog", 1, name, tuple(REDUCTIONS))
+        yield from ablated(name, "catalog", 1, name, tuple(REDUCTIONS), 1)
 
 
 def ablated(
-    name: str, family: str, size: int, source: Mapped | str, without: tuple[ReductionName, ...]
+    name: str,
+    family: str,
+    size: int,
+    source: Mapped | str,
+    without: tuple[ReductionName, ...],
+    repeats: int = REPEATS,
 ) -> Iterator[AblationRow]:
     """The scene answered with all reductions, then without each of some."""
-    full, seconds = answered(source, ALL)
+    full, seconds = answered(source, ALL, repeats)
     yield _row(name, family, size, "", full, seconds, [])
     for off in without:
-        study, seconds = answered(source, ALL - {off})
+        study, seconds = answered(source, ALL - {off}, repeats)
         changed = [] if study is None or full is None else differences(full.report, study.report)
         yield _row(name, family, size, off, study, seconds, changed)
 
