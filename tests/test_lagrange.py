@@ -108,6 +108,19 @@ def test_a_bead_on_a_rotating_rod() -> None:
     assert not report.conserved
 
 
+def test_a_bead_on_a_hoop_that_is_turned() -> None:
+    """The hoop does work: h = sum qdot p - L is conserved, T + V is not. The squares of sines add up to one."""
+    hoop = scene(
+        "x = l sin(a1) cos(w t)", "y = l sin(a1) sin(w t)", "z = -l cos(a1)", coordinates="x y z a1",
+        **energies(f"{PLANE} + m zdot^2/2", "m g z"),
+    )  # fmt: skip
+    report = check(hoop, {"a1": "sin(a1) (w^2 cos(a1) - g/l)"})
+    assert report.lagrangian == "l^2*m*a1dot^2/2 + l^2*m*w^2*sin(a1)^2/2 + g*l*m*cos(a1)"
+    (found,) = report.conserved
+    assert found.name == "h"
+    assert "do work" not in found.reason
+
+
 def test_a_string_written_twice() -> None:
     report = check(
         scene(

@@ -17,6 +17,8 @@ def compound(e: Expr) -> Expr:
     >>> cos, sin = (lambda u: ex.fn("cos", u)), (lambda u: ex.fn("sin", u))
     >>> to_text(compound(cos(a) * cos(b) + sin(a) * sin(b)))
     'cos(a - b)'
+    >>> to_text(compound(ex.ONE - cos(a) ** 2))
+    'sin(a)^2'
     """
     memo: dict[Expr, Expr] = {}
     for node in ex.nodes(e):
@@ -26,8 +28,25 @@ def compound(e: Expr) -> Expr:
             if joined is None:
                 break
             made = joined
-        memo[node] = made
+        memo[node] = _squared(made) if made.op == "mul" else made
     return memo[e]
+
+
+def _squared(e: Expr) -> Expr:
+    """A product with (cos u - 1)(cos u + 1) = -sin(u)^2 in it, and the like for sines."""
+    for first in e.args:
+        for second in e.args:
+            if first.op == second.op == "add" and len(first.args) == len(second.args) == 2:
+                one, two = set(first.args), set(second.args)
+                turn = one & two
+                if {ex.ONE, ex.MINUS_ONE} == one ^ two and all(_turning(t) for t in turn):
+                    (u,) = (t.args[1] for t in turn)
+                    other = "sin" if next(iter(turn)).args[0] == "cos" else "cos"
+                    rest = list(e.args)
+                    rest.remove(first)
+                    rest.remove(second)
+                    return ex.mul(ex.MINUS_ONE, *rest, ex.fn(other, u) ** 2)
+    return e
 
 
 def _joined(terms: Sequence[Expr]) -> Expr | None:
@@ -47,6 +66,9 @@ def _pair(first: Expr, second: Expr) -> Expr | None:
     if abs(sign.args[0]) != abs(other_sign.args[0]):
         return None
     own, others = list((one - two).elements()), list((two - one).elements())
+    if not own or not others:
+        plain, squared = (other_sign, sign) if own else (sign, other_sign)
+        return _by_pythagoras(plain, squared, own or others, one & two)
     if len(own) != 2 or len(others) != 2 or not all(_turning(f) for f in (*own, *others)):
         return None
     a, b = own[0].args[1], own[1].args[1]
@@ -63,6 +85,17 @@ def _pair(first: Expr, second: Expr) -> Expr | None:
     if own[0].args[0] == "cos":
         a, b = b, a
     return ex.mul(*rest, ex.fn("sin", a + b if same else a - b))
+
+
+def _by_pythagoras(sign: Expr, other: Expr, square: Sequence[Expr], rest: Counter[Expr]) -> Expr | None:
+    """A - A cos(u)^2 = A sin(u)^2, and the like for sines; ``sign`` is that of A, ``other`` that of the square."""
+    if len(square) != 1 or sign == other or square[0].op != "pow" or square[0].args[1] != ex.TWO:
+        return None
+    base = square[0].args[0]
+    if not _turning(base):
+        return None
+    opposite = ex.fn("sin" if base.args[0] == "cos" else "cos", base.args[1])
+    return ex.mul(sign, *rest.elements(), opposite**2)
 
 
 def _split(term: Expr) -> tuple[Expr, Counter[Expr]]:

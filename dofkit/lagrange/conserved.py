@@ -8,6 +8,7 @@ from dofkit import expr as ex
 from dofkit.deadline import OutOfTimeError, by_processor, check, left
 from dofkit.exact.canon import is_identically_zero
 from dofkit.expr import Expr
+from dofkit.lagrange.angles import compound
 from dofkit.lagrange.derivation import Derived
 from dofkit.lagrange.elimination import Remaining
 from dofkit.lagrange.order import ordered
@@ -41,8 +42,11 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
     timeless = _zero(derived, ex.diff(derived.lagrangian, ex.TIME))
     if model.names and idle and timeless and all(_workless(c, derived) for c in model.constraints):
         function, total = energy_function(derived)
-        reason = "time does not enter the Lagrangian, and neither other forces nor constraints do work"
-        reason += "." if total else "; this is sum qdot p - L, and not T + V."
+        reason = "time does not enter the Lagrangian, and neither other forces nor constraints do work."
+        if not total:
+            reason = (
+                "time does not enter the Lagrangian, and no other forces act; this is sum qdot p - L, and not T + V."
+            )
         yield Conserved(name="energy" if total else "h", quantity=to_text(function), reason=reason)
 
 
@@ -61,6 +65,7 @@ def _shorter(derived: Derived, e: Expr) -> Expr:
     try:
         with by_processor(min(SECONDS, left())):
             found = by_rates(e, derived.model.positive)
+            found = found if found is None else compound(found)
     except OutOfTimeError:
         check()
         found = None

@@ -43,6 +43,8 @@ def linearized(derived: Derived) -> Linearized:
         raise MotionError("time enters the constraints, so that the system does not rest")
     found = list(islice(equilibria(derived), MOST))
     if not found:
+        if any(ex.TIME in e.symbols for e in derived.equations.values()):
+            raise MotionError("time enters the equations, and no place of rest is known")
         hint = "give one as the scene's `configuration`"
         raise MotionError(f"no equilibrium is known, neither the reference configuration nor 0 is one: {hint}")
     bridge = Bridge(derived.model.names, derived.model.positive)

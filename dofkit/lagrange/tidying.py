@@ -59,8 +59,9 @@ class Tidier:
         found = by_rates(plain, self.positive)
         if found is not None:
             yield found
-            if _products(found):
-                yield compound(found)
+            joined = compound(found)
+            if joined != found:
+                yield joined
         if int(e.count_ops()) > EXPANDED or terms(plain) > TERMS:
             return
         import sympy
@@ -72,15 +73,6 @@ class Tidier:
                 yield self.bridge.expr(form)
             except (UntranslatableError, ZeroDivisionError):
                 continue
-
-
-def _products(e: Expr) -> bool:
-    """Is there a product of a sine or cosine of one angle with that of another?"""
-    for node in ex.nodes(e):
-        turns = {p.args[1] for p in ex.children(node) if p.op == "fn" and p.args[0] in ("sin", "cos")}
-        if node.op == "mul" and len(turns) > 1:
-            return True
-    return False
 
 
 def terms(e: Expr) -> int:
