@@ -113,9 +113,10 @@ def finish(data: Data, out: Path) -> None:
     data.lines.sort(key=lambda line: (order[line.family, line.question], line.size, line.trial))
     chart = summary(data)
     storing.write(data, chart, out)
-    drawn = list(draw(chart, out)) if find_spec("matplotlib") else []
+    able = find_spec("matplotlib") is not None
+    drawn = list(draw(chart, out)) if able and data.ran.complete else []
     tell(chart, data, out, drawn)
-    if not drawn and data.lines:
+    if not able:
         Console(stderr=True).print(NO_MATPLOTLIB, highlight=False, markup=False)
 
 

@@ -73,7 +73,8 @@ def _goodness(score: Score) -> tuple[float, float, float]:
 
 def points(lines: Sequence[Line]) -> list[Point]:
     """The cost at each size, where a family has at least three."""
-    families = _grouped([line for line in lines if line.outcome != "cannot"], lambda line: (line.question, line.family))
+    sized = [line for line in lines if line.outcome != "cannot" and line.size > 0]
+    families = _grouped(sized, lambda line: (line.question, line.family))
     found = []
     for (question, family), members in families.items():
         if len({line.size for line in members}) < SIZES:

@@ -43,9 +43,9 @@ _CAPTIONS = {
         "and says the worst of them."
     ),
     "cost": (
-        "Medians over the trials of a size; the size is what grows with the family. A cross: timed out (dotted line), "
-        "larger sizes are not run. The exponents are fitted by least squares on logarithms over the largest decade of "
-        "sizes, ± the standard error."
+        "The families that grow most (all are in chart.json); medians over the trials of a size. A cross: timed out "
+        "(dotted line), larger sizes are not run. The exponents are fitted by least squares on logarithms over the "
+        "largest decade of sizes, ± the standard error."
     ),
     "tolerance": (
         "Share of right answers on coordinates rounded to so many digits. Left: ranks by singular values, where what "

@@ -8,25 +8,26 @@ from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
+from matplotlib.ticker import FuncFormatter, NullLocator
 
-from dofkit.chart.figures.style import Look, looks, settle, sheet, spread
+from dofkit.chart.figures.style import Look, looks, seconds_text, settle, sheet, spread
 from dofkit.chart.record import AUTO, Chart, Fit, Point
 
-ACROSS = 3
+#: So many panels, and so many of them in a row.
+PANELS, ACROSS = 12, 3
 #: Points between the lines of the labels.
 APART = 9.0
 
 
 def draw(chart: Chart) -> Figure | None:
-    """Every family that has at least three sizes."""
-    panels = list(dict.fromkeys((point.family, point.question) for point in chart.points))
+    """The families that grow most."""
+    panels = chosen(chart)
     if not panels:
         return None
     look = looks(dict.fromkeys(score.method for score in chart.scores))
     across = min(ACROSS, len(panels))
     down = math.ceil(len(panels) / across)
-    title = "What size costs: seconds against size, with the exponent of each method"
+    title = "What size costs: processor time against size, with the exponent of each method"
     figure = sheet(4.3 * across + 0.2, 2.9 * down, title, chart.captions["cost"])
     grid = figure.subplots(down, across, squeeze=False).ravel()
     low = min(point.seconds for point in chart.points)
@@ -42,6 +43,17 @@ def draw(chart: Chart) -> Figure | None:
         fits = {fit.method: fit for fit in chart.fits if (fit.family, fit.question) == (family, question)}
         _names(axes, points, fits, look)
     return figure
+
+
+def chosen(chart: Chart) -> list[tuple[str, str]]:
+    """Families and one question of each: those whose largest member is the most times the smallest."""
+    sizes: dict[tuple[str, str], list[int]] = {}
+    for point in chart.points:
+        sizes.setdefault((point.family, point.question), []).append(point.size)
+    growth = {key: (max(row) / min(row), len(set(row))) for key, row in sizes.items()}
+    best = [max((k for k in growth if k[0] == f), key=lambda k: growth[k]) for f in dict.fromkeys(f for f, _ in growth)]
+    most = sorted(best, key=lambda key: growth[key], reverse=True)[:PANELS]
+    return [key for key in best if key in most]
 
 
 def _panel(
@@ -60,7 +72,7 @@ def _panel(
     axes.set_ylim(*y)
     axes.set_title(title)
     axes.set_xlabel("size")
-    axes.set_ylabel("seconds")
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda seconds, _: seconds_text(seconds)))
     ticks = [m * 10**k for k in range(9) for m in (1, 2, 5) if sizes[0] <= m * 10**k <= sizes[-1]]
     ticks = ticks if len(ticks) > 1 else [sizes[0], sizes[-1]]
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])

@@ -9,13 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.path import Path
-from matplotlib.ticker import NullLocator
+from matplotlib.ticker import FuncFormatter, NullLocator
 
-from dofkit.chart.figures.style import OUTCOME_COLOURS, QUESTIONS, label_marks, settle, sheet
+from dofkit.chart.figures.style import OUTCOME_COLOURS, QUESTIONS, label_marks, seconds_text, settle, sheet
 from dofkit.chart.record import ALL, AUTO, OUTCOMES, Chart, Front, Score
 
 #: Points of a mark's radius; that of ``auto`` is larger.
-RADIUS, RADIUS_AUTO = 8.0, 11.0
+RADIUS, RADIUS_AUTO = 6.5, 9.5
 #: Seconds that no clock here tells from 0.
 SHORTEST = 1e-6
 
@@ -50,12 +50,14 @@ def _panel(axes: Axes, question: str, members: list[Score], front: Front | None)
     """Draw it; the labels that are to be placed, and the corners of the front."""
     axes.set_xscale("log")
     times = [_time(score) for score in members]
-    axes.set_xlim(min(times) / 4, max(times) * 4)
+    axes.set_xlim(min(times) / 3, max(times) * 3)
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_ylim(-9, 112)
-    axes.set_yticks(range(0, 101, 20))
+    least = min(100 * score.share_right for score in members)
+    axes.set_ylim(max(-9, least - 14), 114)
+    axes.set_yticks([tick for tick in range(0, 101, 20) if tick >= least - 14])
     axes.set_title(f"{QUESTIONS[question]}   ({max(score.trials for score in members)} trials)")
-    axes.set_xlabel("median processor time of a trial (s)")
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda seconds, _: seconds_text(seconds)))
+    axes.set_xlabel("median processor time of a trial")
     axes.set_ylabel("right answers (% of trials)")
     by_name = {score.method: score for score in members}
     on = [by_name[m] for m in front.never_wrong if m in by_name] if front else []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -124,17 +125,18 @@ def spread(places: Sequence[float], gap: float) -> list[float]:
     return found
 
 
-#: Where a label may stand beside its mark, in points: the best first. (x, y, horizontal and vertical alignment)
-_BESIDE = (
-    (1, 0, "left", "center"),
-    (-1, 0, "right", "center"),
-    (0, 1, "center", "bottom"),
-    (0, -1, "center", "top"),
-    (0.75, 0.75, "left", "bottom"),
-    (-0.75, 0.75, "right", "bottom"),
-    (0.75, -0.75, "left", "top"),
-    (-0.75, -0.75, "right", "top"),
-)
+#: Where a label may stand beside its mark: in which directions, and how many radii away; the best first.
+_TURNS, _AWAY = (0, 8, 4, 12, 2, 6, 14, 10, 1, 7, 15, 9, 3, 5, 13, 11), (1.25, 2.4, 3.8, 5.5)
+
+
+def _beside() -> Iterator[tuple[float, float, str, str]]:
+    """(x, y) in radii, horizontal and vertical alignment."""
+    for away in _AWAY:
+        for turn in _TURNS:
+            x, y = math.cos(math.pi * turn / 8), math.sin(math.pi * turn / 8)
+            h = "left" if x > 0.3 else "right" if x < -0.3 else "center"
+            v = "bottom" if y > 0.3 else "top" if y < -0.3 else "center"
+            yield away * x, away * y, h, v
 
 
 def label_marks(
@@ -152,9 +154,9 @@ def label_marks(
         return
     pixel = figure.dpi / 72
     reach = radius * pixel
-    middles = [axes.transData.transform((x, y)) for x, y, _, _ in marks]
+    middles = [_pixels(axes, (x, y)) for x, y, _, _ in marks]
     taken = [Bbox.from_extents(a - reach, b - reach, a + reach, b + reach) for a, b in middles]
-    corners = [axes.transData.transform(corner) for corner in lines]
+    corners = [_pixels(axes, corner) for corner in lines]
     for (a, b), (c, d) in pairwise(corners):
         taken.append(Bbox.from_extents(min(a, c) - pixel, min(b, d) - pixel, max(a, c) + pixel, max(b, d) + pixel))
     inside = axes.get_window_extent()
@@ -165,17 +167,24 @@ def label_marks(
         note = axes.annotate(text, (x, y), (0, 0), zorder=9, **about)
         note.set_path_effects(halo)
         size = Text.get_window_extent(note)
-        candidates = [
-            (far * reach * dx, far * reach * dy, h, v) for far in (1.25, 2.2, 3.4) for dx, dy, h, v in _BESIDE
-        ]
+        candidates = [(reach * dx, reach * dy, h, v) for dx, dy, h, v in _beside()]
         boxes = [_box(a + dx, b + dy, h, v, size) for dx, dy, h, v in candidates]
-        costs = [_cost(box, taken, inside) + 0.02 * k for k, box in enumerate(boxes)]
+        others = [other for other in middles if other != (a, b)]
+        costs = [
+            _cost(box, taken, inside) + 0.05 * k + 40 * _crossed((a, b), (a + dx, b + dy), others, reach)
+            for k, (box, (dx, dy, _, _)) in enumerate(zip(boxes, candidates, strict=True))
+        ]
         best = costs.index(min(costs))
         dx, dy, h, v = candidates[best]
         note.set(position=(dx / pixel, dy / pixel), ha=h, va=v)
         if note.arrow_patch is not None:
-            note.arrow_patch.set_visible(best >= len(_BESIDE))
+            note.arrow_patch.set_visible(best >= len(_TURNS))
         taken.append(boxes[best])
+
+
+def _pixels(axes: Axes, place: tuple[float, float]) -> tuple[float, float]:
+    x, y = axes.transData.transform(place)
+    return float(x), float(y)
 
 
 def _box(x: float, y: float, h: str, v: str, size: Bbox) -> Bbox:
@@ -183,6 +192,17 @@ def _box(x: float, y: float, h: str, v: str, size: Bbox) -> Bbox:
     left = {"left": x, "right": x - size.width, "center": x - size.width / 2}[h]
     bottom = {"bottom": y, "top": y - size.height, "center": y - size.height / 2}[v]
     return Bbox.from_bounds(left, bottom, size.width, size.height)
+
+
+def _crossed(
+    start: tuple[float, float], end: tuple[float, float], marks: Iterable[tuple[float, float]], reach: float
+) -> int:
+    """How many marks a straight line runs over."""
+    (a, b), (c, d) = start, end
+    length = math.hypot(c - a, d - b)
+    along = [((x - a) * (c - a) + (y - b) * (d - b)) / length for x, y in marks]
+    off = [abs((x - a) * (d - b) - (y - b) * (c - a)) / length for x, y in marks]
+    return sum(0 < s < length + reach and o < reach for s, o in zip(along, off, strict=True))
 
 
 def _cost(box: Bbox, taken: Iterable[Bbox], inside: Bbox) -> float:
