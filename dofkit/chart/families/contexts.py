@@ -55,7 +55,9 @@ def second_form(trap: Trap, t: str, zero: bool) -> Known:
 def second_relation(trap: Trap, t: str, zero: bool) -> Known:
     """z = 0 and z + T x = 0: the second says nothing new where T = 0; else x = 0 too, or a zero of T."""
     n = 3 + len(trap.coordinates)
-    truth = {"dof": n - 1 if zero else n - 2, "consistent": True, "redundant": ["c2"] if zero else []}
+    truth: dict[str, Any] = {"dof": n - 1 if zero else n - 2, "consistent": True}
+    if trap.everywhere:
+        truth["redundant"] = ["c2"] if zero else []
     return _trial(trap, t, ["z = 0", f"z + ({t})*x = 0"], truth, None)
 
 
@@ -63,7 +65,8 @@ def contradiction(trap: Trap, t: str, zero: bool) -> Known | None:
     """z = 0 and z + T = 0 contradict each other where T has no zero."""
     n = 3 + len(trap.coordinates)
     if zero:
-        truth: dict[str, Any] = {"consistent": True, "dof": n - 1, "redundant": ["c2"]}
+        truth: dict[str, Any] = {"consistent": True, "dof": n - 1}
+        truth |= {"redundant": ["c2"]} if trap.everywhere else {}
     elif trap.never:
         truth = {"consistent": False, "dof": None}
     else:

@@ -30,6 +30,11 @@ class Trap:
         return (*self.tiny, *((self.sign,) if self.sign else ()))
 
     @property
+    def everywhere(self) -> bool:
+        """Has it a value wherever the coordinates are? Else a relation with it in says more than that it is zero."""
+        return not self.coordinates or not any(f"{name}(" in self.zero for name in ("log", "asin", "acos"))
+
+    @property
     def coordinates(self) -> list[str]:
         return [name for name in self.names if name in "wv"]
 
@@ -112,6 +117,9 @@ FUNCTIONS = [
     ("exp of a sum", "exp(w+v) - exp(w)*exp(v)", "exp(w+v) + exp(w)*exp(v)", "wv"),
     ("exp of 1 more", "exp(w+1) - E*exp(w)", "exp(w+1) + E*exp(w)", "w"),
     ("exp of log of a sum", "exp(log(1+w^2)) - 1 - w^2", "exp(log(1+w^2)) + 1 + w^2", "w"),
+    ("powers of 12, 4 and 3", "12^w - 4^w*3^w", "12^w + 4^w*3^w", "w"),
+    ("powers of a root and of 8", "sqrt(2)^(6*w) - 8^w", "sqrt(2)^(6*w) + 8^w", "w"),
+    ("powers of a half", "(1/2)^(2*w)*4^w - 1", "(1/2)^(2*w)*4^w + 1", "w"),
     ("log of exp", "log(exp(w)) - w", "log(exp(w)) - w + 1", "w"),
     ("log of a product of coordinates", "log(w*v) - log(w) - log(v)", "log(w*v) - log(w) - log(v) + 1", "wv"),
     ("log of a square", "log(w^2) - 2*log(abs(w))", "log(w^2) - 2*log(abs(w)) + 1", "w"),
