@@ -11,6 +11,7 @@ from known_scenes import SCENES, dealt, report_of, scene_of
 import dofkit
 import dofkit.alone
 from dofkit.alone import Knobs, answered, answering
+from dofkit.chart.failures import TRAITS, WHY, explained
 from dofkit.methods import BY_ENGINES, METHODS, QUESTIONS, MethodName, Question
 from dofkit.report import VERDICTS, Report
 
@@ -263,3 +264,18 @@ def test_what_is_drawn_is_answered_by_its_rows_where_they_prove_it() -> None:
     assert dofkit.ask(dofkit.load(door), "redundancy").value == ["b"]
     apart = {"bodies": ["door"], "constraints": [{**hinge, "name": "a"}, {**hinge, "name": "b", "at": [0, 0, 2]}]}
     assert dofkit.ask(dofkit.load(apart), "dof").value == 1
+
+
+def test_every_failure_is_explained_by_a_sentence() -> None:
+    assert {m for m, _ in WHY} == set(METHODS)
+    assert {t for _, t in WHY} <= TRAITS.keys()
+    for method in METHODS:
+        for question in QUESTIONS:
+            for outcome in ("wrong", "undecided", "cannot", "timed out"):
+                for traits in ((), *((t,) for t in TRAITS)):
+                    told = explained(method, question, traits, outcome, "")
+                    assert told[0].isupper()
+                    assert told.endswith(".")
+    assert explained("count", "dof", ("redundant",), "wrong", "") == WHY["count", "redundant"]
+    assert explained("graph", "dof", ("plain",), "cannot", "no link") == "No link."
+    assert explained("no method", "dof", ("no trait",), "wrong", "")
