@@ -92,6 +92,8 @@ class Solver:
         self.relations = [*relations, *self._root_relations(relations)]
         self.probe = self._probe()
         self.plan = Plan()
+        self._degrees: dict[tuple[int, Unit], int] = {}
+        self._linears: dict[tuple[int, Unit], bool] = {}
         self._make_plan()
 
     def _probe(self) -> FieldPoint | None:
@@ -202,6 +204,11 @@ class Solver:
 
     def degree(self, node: int, unit: Unit) -> int:
         """The degree of a relation's numerator in one unknown at random values of the others; 0: unsolvable."""
+        if (node, unit) not in self._degrees:
+            self._degrees[node, unit] = self._degree(node, unit)
+        return self._degrees[node, unit]
+
+    def _degree(self, node: int, unit: Unit) -> int:
         if self.probe is None:
             return 0
         try:
@@ -377,6 +384,11 @@ class Solver:
 
     def _linear(self, node: int, unit: Unit) -> bool:
         """True where the relation is a polynomial of degree 1 in the unknown, with no denominator in it."""
+        if (node, unit) not in self._linears:
+            self._linears[node, unit] = self._is_linear(node, unit)
+        return self._linears[node, unit]
+
+    def _is_linear(self, node: int, unit: Unit) -> bool:
         if self.probe is None:
             return False
         x, one = nmod_poly([0, 1], self.probe.p), nmod_poly([1], self.probe.p)
