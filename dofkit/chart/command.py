@@ -29,7 +29,7 @@ from dofkit.workers import Job
 from dofkit.workers.pool import cores
 
 #: Seconds of processor time for a trial, and in a quick run.
-LIMIT, LIMIT_QUICK = 3.0, 0.5
+LIMIT, LIMIT_QUICK = 2.0, 0.5
 #: Seconds that measuring one reduction on one scene may take.
 REDUCTION_SECONDS = 120.0
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"

@@ -74,7 +74,7 @@ def _panel(
     axes.set_xlabel("size")
     axes.yaxis.set_major_formatter(FuncFormatter(lambda seconds, _: seconds_text(seconds)))
     ticks = [m * 10**k for k in range(9) for m in (1, 2, 5) if sizes[0] <= m * 10**k <= sizes[-1]]
-    ticks = ticks if len(ticks) > 1 else [sizes[0], sizes[-1]]
+    ticks = ticks if len(ticks) > 2 else sizes
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.xaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_minor_locator(NullLocator())
@@ -85,7 +85,7 @@ def _panel(
         late = [p for p in curve if p.timed_out == p.trials][:1]
         one = look[method]
         above = 6 if method == AUTO else 3
-        shown = done + late
+        shown = sorted(done + late, key=lambda p: p.size)
         axes.plot(
             [p.size for p in shown], [p.seconds for p in shown], color=one.colour, linewidth=one.width, zorder=above
         )
