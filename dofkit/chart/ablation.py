@@ -24,6 +24,8 @@ Mapped = dict[str, Any]
 SECONDS, BRIEF, REPEATS = 10.0, 0.3, 3
 #: What tells how an answer was found, and how sure it is, and not what it is; of coordinates, one choice of many.
 TOLD = ("verdict", "method", "modelled", "warnings", "reason", "generalized_coordinates")
+#: What explains numbers: another sentence where one of them is open.
+SENTENCES = ("differs", "errs")
 #: What lists no more than was decided.
 LISTS = ("redundant", "redundancies", "special_cases", "conflicting")
 
@@ -151,7 +153,9 @@ def _of_entry(full: ConstraintEntry, other: ConstraintEntry) -> list[str]:
 def _differ(a: Any, b: Any) -> bool:
     """Do two values differ, parts that the second leaves open or that say how sure it is apart?"""
     if hasattr(a, "model_dump") and hasattr(b, "model_dump"):
-        return any(_differ(getattr(a, k), getattr(b, k)) for k in type(a).model_fields if k not in TOLD)
+        pairs = {k: (getattr(a, k), getattr(b, k)) for k in type(a).model_fields if k not in TOLD}
+        left_open = any(x is not None and y is None for x, y in pairs.values())
+        return any(_differ(x, y) for k, (x, y) in pairs.items() if not (left_open and k in SENTENCES))
     return b is not None and a != b
 
 
