@@ -6,7 +6,7 @@ import json
 import math
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from typer.testing import CliRunner
 
 from dofkit.alone.told import Knobs
 from dofkit.chart import command, runner, statistics, storing, table, tasks
+from dofkit.chart.ablation import AblationRow
 from dofkit.chart.judging import judged
 from dofkit.chart.record import AUTO, Data, Line, Outcome, Ran, Reduction, Score
 from dofkit.chart.selecting import Selection
@@ -301,6 +302,10 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         storing.read(tmp_path)
     with pytest.raises(storing.ChartError, match="there is no run in"):
         storing.read(tmp_path / "none")
+
+
+def test_reductions_are_kept_as_they_are_measured() -> None:
+    assert {field.name for field in fields(AblationRow)} == set(Reduction.model_fields)
 
 
 @pytest.mark.skipif(find_spec("matplotlib") is None, reason="needs matplotlib")

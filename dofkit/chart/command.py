@@ -6,12 +6,13 @@ import os
 import platform
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -149,9 +150,13 @@ def _gather(options: Options, work: Sequence[tasks.Task], swept: Sequence[tasks.
                 bar.update(shown, advance=1)
         if reduced is not None:
             shown = bar.add_task("reductions", total=None)
-            found.reductions += [Reduction.model_validate(row) for row in reduced.result().value or ()]
+            found.reductions += [_reduction(row) for row in reduced.result().value or ()]
             bar.update(shown, total=1, completed=1)
     found.complete = True
+
+
+def _reduction(row: Mapping[str, Any]) -> Reduction:
+    return Reduction.model_validate({name: value for name, value in row.items() if name in Reduction.model_fields})
 
 
 def _reduces(selection: Selection) -> bool:

@@ -169,6 +169,7 @@ class Reduction(_Row):
     unchanged: bool
     undecided: bool
     differs: list[str] = Field(default_factory=list)
+    followed: int = 0
 
 
 class Chart(_Row):
