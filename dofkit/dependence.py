@@ -10,19 +10,24 @@ from itertools import combinations
 
 import networkx as nx
 
+from dofkit import expr as ex
 from dofkit.analysis import answer
 from dofkit.answers import Answer, Setting
 from dofkit.blocks import Block, Row, coordinates_of, split
 from dofkit.branches import algebraic, all_of, through_reference
 from dofkit.deadline import check, limited, unless_late
+from dofkit.exact.ideals import complex_dimension
+from dofkit.exact.ring import Ring
 from dofkit.exact.sparse import SparseRow
-from dofkit.implication import follows
+from dofkit.implication import SLACK, follows
 from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Still
 from dofkit.redundancy import Redundancies, Rows, analyse, left_open
 from dofkit.solving import Outcome, Reduced
 
 #: Constraints of one set that are tried one by one, and seconds spent on leaving constraints out.
 MAX_CHOICES, LEAVING_SECONDS = 40, 5.0
+#: Functions of which a relation may say one branch only.
+BRANCHES = ("abs", "exp", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh")
 
 
 def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
@@ -147,10 +152,30 @@ def _everywhere(
         return True
     plain = all(reduced[i].constraint.type in ("equation", "on") for i in numbers)
     pieces = [p for i in numbers for n in reduced[i].normals for p in n.pieces]
-    if not plain or not all(isinstance(p, Finite) and algebraic(p.expr) for p in pieces):
+    if not plain or not all(isinstance(p, Finite) and algebraic(p.expr, *BRANCHES) for p in pieces):
         return True
     kept = [i for i in numbers if i not in dropped]
-    return all_of(_follows(reduced, i, kept, setting) for i in dropped)
+    told = all_of(_follows(reduced, i, kept, setting) for i in dropped)
+    return None if told and any(_fails_on_a_part(reduced, i, kept, setting) for i in dropped) else told
+
+
+def _fails_on_a_part(reduced: Sequence[Reduced], i: int, kept: Sequence[int], setting: Setting) -> bool:
+    """Is there a complex point of the others where some relation is not 0? Drawn points may all lie on another part.
+
+    There is one where s g = 1 has a solution (Rabinowitsch 1929). Two minors of a matrix imply the third, but not where
+    the column that they share is 0.
+    """
+    known = [p.expr for j in kept for n in reduced[j].normals for p in n.pieces if isinstance(p, Finite)]
+    for g in (p.expr for n in reduced[i].normals for p in n.pieces if isinstance(p, Finite)):
+        relations = [*known, ex.coordinate(SLACK) * g - ex.ONE]
+        ring = Ring(relations, setting.positive)
+        nodes = [ring.node(e) for e in relations]
+        symbols = {s for e in relations for s in e.symbols if s.args[0] != "parameter"}
+        moving = [k for s in symbols if (k := ring.var_index(s)) is not None]
+        whole = complex_dimension(ring, nodes, moving)
+        if whole is not None and whole >= 0:
+            return True
+    return False
 
 
 def _analysed(group: list[Rows]) -> Redundancies:

@@ -34,6 +34,9 @@ TRIES = 3
 STARTS = 6
 #: Functions that repeat are looked at far out as well, from this state on.
 FAR_FROM, FAR = 4, 16.0
+#: Functions that are one branch of several; what a relation may be solved for.
+BRANCHED = ("sign", "asin", "atan2")
+SOLVED = ("symbol", "call", "cos", "sin")
 
 
 class States:
@@ -86,8 +89,11 @@ class States:
 
     @property
     def chosen(self) -> bool:
-        """Are there signs that a point over GF(p) chooses at random? What holds for one need not for the other."""
-        return any(v.kind == "sign" and self.ring.var_expr[v.index].symbols for v in self.ring.vars)
+        """Are there signs that a point over GF(p) chooses at random, or functions that are one branch of an inverse?
+
+        What holds for one sign need not for the other: atan2(y, x) = pi/4 is y = x on one half of it.
+        """
+        return any(v.kind in BRANCHED and self.ring.var_expr[v.index].symbols for v in self.ring.vars)
 
     @property
     def kinked(self) -> bool:
@@ -99,11 +105,14 @@ class States:
     def rational(self) -> bool:
         """Are the states rational functions of numbers chosen freely? Then the real ones are as generic as any.
 
-        Else the set may have parts over GF(p) that no real state lies on: where r^2 = -l^2 of r^4 = l^4.
+        Else the set may have parts over GF(p) that no real state lies on: where r^2 = -l^2 of r^4 = l^4, or where
+        exp(u) = 1 and u is not 0.
         """
         if any(v.kind == "root" and self.ring.var_expr[v.index].symbols for v in self.ring.vars):
             return False
         solvers = [self._standing, self._moving]
+        if any(self.ring.vars[unit[1]].kind not in SOLVED for s in solvers for _, unit in s.plan.steps):
+            return False
         return all(not s.plan.stuck and all(s.degree(*step) == 1 for step in s.plan.steps) for s in solvers)
 
     def draw(self, seed: int) -> FieldPoint | None:

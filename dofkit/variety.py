@@ -8,7 +8,7 @@ agree the rank stands. A real point makes sure that there is a real configuratio
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from flint.utils.flint_exceptions import DomainError
@@ -18,6 +18,7 @@ from dofkit.deadline import check
 from dofkit.emptiness import no_solution
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.ideals import complex_dimension
 from dofkit.exact.identity import excludes_zero
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, value_of, values
@@ -41,6 +42,7 @@ SAMPLES, MORE_SAMPLES = 2, 6
 #: More relations than this are not searched for a proof that they have no real solution.
 MAX_RELATIONS = 40
 EMPTY = "no real configuration satisfies the relations together: all of space is excluded by certified bounds"
+LARGER = "over the complex numbers the set has a part of larger dimension, and it was not decided what of it is real"
 
 
 @dataclass
@@ -134,7 +136,21 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     looked = {"field", "balls"} <= chart.engines and found.consistent is not True and found.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
         return Variety(False, None, "proved", reasons=[EMPTY])
-    return found
+    return _unless_larger(chart, found)
+
+
+def _unless_larger(chart: Chart, found: Variety) -> Variety:
+    """Left open where the complex points have a part of a larger dimension: its real points may have it too."""
+    if found.dimension is None or not found.consistent or not found.samples or not chart.nodes:
+        return found
+    point, timed = found.samples[0], len(chart.columns) - chart.coordinates
+    if found.dimension != chart.coordinates - rank_of_rows(field_jacobian(chart, point), point.p):
+        return found
+    whole = complex_dimension(chart.ring, chart.nodes, [c for c in chart.columns if c >= 0])
+    unused = sum(1 for c in chart.columns if c < 0)
+    if whole is None or whole + unused - timed <= found.dimension:
+        return found
+    return replace(found, dimension=None, verdict="undecided", reasons=[*found.reasons, LARGER])
 
 
 def _found(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
@@ -178,7 +194,7 @@ def _refuted(chart: Chart, solver: Solver) -> Variety | None:
     if solver.plan.special:
         why = "the relations hold only for special values of the parameters"
         return Variety(False, None, "probable", reasons=[why])
-    if not solver.plan.contradictory:
+    if not solver.plan.contradictory or _signed(chart.ring, solver.plan.witness):
         return None
     if "balls" in chart.engines:
         certain = excludes_zero(chart.ring, solver.plan.witness, chart.positive)
@@ -189,6 +205,12 @@ def _refuted(chart: Chart, solver: Solver) -> Variety | None:
         return Variety(None, None, "undecided", reasons=[why])
     why = "eliminating the unknowns leaves a number that should be 0 and is not"
     return Variety(False, None, "probable", reasons=[why])
+
+
+def _signed(ring: Ring, node: int) -> bool:
+    """Is there a sign that varies? Another one may make 0 of what is not."""
+    inside = (ring.code[i] for i in reachable(ring, [node], through_generators=False))
+    return any(op == VAR and ring.vars[k].kind == "sign" and ring.var_expr[k].symbols for op, k in inside)
 
 
 def _pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[FieldPoint]:

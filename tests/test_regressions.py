@@ -31,6 +31,18 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
     ("powers to numbers have one base", scene("y=2^x", "z=4^x", "z=y^2+1e-9"), {"consistent": False}),
     ("4^z = 2^(2 z)", scene("dy + (4^z - 2^(2*z)) x dx = 0"), {"holonomic": True, "dof": 2}),
     ("2^(1/2) is a power of 2", scene("dy + (sqrt(2)^(2*z) - 2^z) x dx = 0"), {"holonomic": True, "dof": 2}),
+    (
+        "x = y = 0 is the larger part",
+        scene("x = y^2", "x^2 = y^2 z", "x w = y^2 u", coordinates=["x", "y", "z", "w", "u"]),
+        {"dof": None},
+    ),
+    (
+        "two minors say less than three where a = d = 0",
+        scene("a e = b d", "a f = c d", "b f = c e", coordinates=list("abcdef")),
+        {"dof": 4, "redundant": []},
+    ),
+    ("half a line is no line", scene("y=x", "atan2(y,x)=-3*pi/4"), {"dof": 2, "redundant": ["c1"]}),
+    ("so it is wherever x < 0", scene("atan(x) + atan(1/x) = -pi/2"), {"consistent": True, "dof": 3}),
     ("half a circle is no circle", scene("x^2+y^2=l^2", "y=-sqrt(l^2-x^2)", parameters=["l"]), {"redundant": ["c1"]}),
     ("x = 0 follows over the reals only", scene("x^2+y^2=z", "z+x^2+y^2=0", "x=0"), {"dof": 0, "redundant": ["c3"]}),
     (
