@@ -91,9 +91,9 @@ def all_of(answers: Iterable[bool | None]) -> bool | None:
     return found
 
 
-def algebraic(e: Expr) -> bool:
-    """No functions beyond sines and cosines: then what is not 0 over GF(p) is not 0."""
-    return all(n.op != "fn" or n.args[0] in ("sin", "cos", "tan") for n in ex.nodes(e))
+def algebraic(e: Expr, *more: str) -> bool:
+    """No functions beyond sines and cosines (and ``more``): then what is not 0 over GF(p) is not 0."""
+    return all(n.op != "fn" or n.args[0] in ("sin", "cos", "tan", *more) for n in ex.nodes(e))
 
 
 def conditional(normal: Normal) -> bool:
