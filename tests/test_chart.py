@@ -270,6 +270,7 @@ def test_scores_points_and_auto_against_the_fastest() -> None:
     (against,) = chart.against
     assert against.fastest == "graph"
     assert against.ratio == pytest.approx(4)
+    assert (against.lucky, against.sound, against.sound_ratio) == (False, "graph", pytest.approx(4))
     assert [(s.group, s.value, s.right, s.wrong, s.undecided) for s in chart.steps][:3] == [
         ("3", 1e-9, 0, 1, 0),
         ("3", 1e-3, 1, 0, 0),
@@ -277,8 +278,9 @@ def test_scores_points_and_auto_against_the_fastest() -> None:
     ]
     assert table.sentences(chart)[0] == "auto: 4 trials, 0 wrong, 0 left open"
     assert table.sentences(chart)[1:] == [
-        "auto: within twice the time of the fastest method that is right on 0 of 1 families",
+        "auto: at most twice the time of the fastest method that is right on a family and never wrong: 0 of 1 families",
         "  dof, boxes: 4.0 times graph",
+        "auto: the same, with methods that are wrong elsewhere: 0 of 1 families",
     ]
     assert all(text.endswith("Made by: dofkit chart --quick") for text in chart.captions.values())
 

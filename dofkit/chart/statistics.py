@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from statistics import fmean, median
 from typing import TypeVar
 
@@ -140,22 +140,42 @@ def steps(lines: Sequence[Line]) -> list[Step]:
 
 
 def against(lines: Sequence[Line]) -> list[Against]:
-    """`auto` against the fastest method that is right on all trials of a family, trial by trial."""
+    """`auto` against the fastest method that is right on all trials of a family, trial by trial.
+
+    A method that is wrong on another family is right on this one by luck: to know that it is, is the work.
+    """
     found = []
+    erring = {(line.question, line.method) for line in lines if line.outcome == "wrong"}
     for (question, family), members in _grouped(lines, lambda line: (line.question, line.family)).items():
         methods = _grouped(members, lambda line: line.method)
         if AUTO not in methods:
             continue
         auto = {line.trial: line.seconds for line in methods.pop(AUTO)}
-        sound = {m: row for m, row in methods.items() if all(line.outcome == "right" for line in row)}
-        if not sound:
+        right = {m: row for m, row in methods.items() if all(line.outcome == "right" for line in row)}
+        if not right:
             continue
-        fastest = min(sound, key=lambda m: median(line.seconds for line in sound[m]))
-        seconds = {line.trial: line.seconds for line in sound[fastest]}
-        ratio = median(auto[trial] / max(s, 1e-9) for trial, s in seconds.items() if trial in auto)
-        times = {"fastest_seconds": median(seconds.values()), "auto_seconds": median(auto.values())}
-        found.append(Against(question=question, family=family, fastest=fastest, ratio=ratio, **times))
+        ratios = {m: _ratio(auto, row) for m, row in right.items()}
+        ranked = sorted(right, key=lambda m: median(line.seconds for line in right[m]))
+        sound = next((m for m in ranked if (question, m) not in erring), None)
+        found.append(
+            Against(
+                question=question,
+                family=family,
+                fastest=ranked[0],
+                fastest_seconds=median(line.seconds for line in right[ranked[0]]),
+                auto_seconds=median(auto.values()),
+                ratio=ratios[ranked[0]],
+                lucky=(question, ranked[0]) in erring,
+                sound=sound,
+                sound_ratio=None if sound is None else ratios[sound],
+            )
+        )
     return found
+
+
+def _ratio(auto: Mapping[str, float], row: Sequence[Line]) -> float:
+    """The median over trials of the time of `auto` by that of another method."""
+    return float(median(auto[line.trial] / max(line.seconds, 1e-9) for line in row if line.trial in auto))
 
 
 def _grouped(members: Iterable[T], key: Callable[[T], K]) -> dict[K, list[T]]:

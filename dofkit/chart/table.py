@@ -51,6 +51,10 @@ def _cells(score: Score) -> tuple[str, ...]:
     return (score.method, *(str(count) if count else "-" for count in counts), median)
 
 
+#: `auto` should take no more than so many times the fastest method that is right.
+TWICE = 2
+
+
 def sentences(chart: Chart) -> list[str]:
     """How ``auto`` did: how many of its answers are wrong, and where it is slower than the fastest that is right."""
     auto = [score for score in chart.scores if score.method == AUTO and score.family == ALL]
@@ -59,10 +63,18 @@ def sentences(chart: Chart) -> list[str]:
     trials, wrong = sum(score.trials for score in auto), sum(score.wrong for score in auto)
     open_ = sum(score.undecided + score.timed_out + score.cannot for score in auto)
     found = [f"auto: {trials} trials, {wrong} wrong, {open_} left open"]
-    slow = [row for row in chart.against if row.ratio > 2]
-    if chart.against:
-        within = f"{len(chart.against) - len(slow)} of {len(chart.against)} families"
-        found.append(f"auto: within twice the time of the fastest method that is right on {within}")
-    for row in sorted(slow, key=lambda row: -row.ratio)[:5]:
-        found.append(f"  {row.question}, {row.family}: {row.ratio:.1f} times {row.fastest}")
+    if not chart.against:
+        return found
+    sound = [row for row in chart.against if row.sound_ratio is not None]
+    slow = [row for row in sound if row.sound_ratio is not None and row.sound_ratio > TWICE]
+    found.append(
+        f"auto: at most twice the time of the fastest method that is right on a family and never wrong: "
+        f"{len(sound) - len(slow)} of {len(sound)} families"
+    )
+    for row in sorted(slow, key=lambda row: -(row.sound_ratio or 0))[:5]:
+        found.append(f"  {row.question}, {row.family}: {row.sound_ratio:.1f} times {row.sound}")
+    within = sum(row.ratio <= TWICE for row in chart.against)
+    found.append(
+        f"auto: the same, counting methods that are wrong elsewhere: {within} of {len(chart.against)} families"
+    )
     return found
