@@ -75,6 +75,6 @@ def sentences(chart: Chart) -> list[str]:
         found.append(f"  {row.question}, {row.family}: {row.sound_ratio:.1f} times {row.sound}")
     within = sum(row.ratio <= TWICE for row in chart.against)
     found.append(
-        f"auto: the same, counting methods that are wrong elsewhere: {within} of {len(chart.against)} families"
+        f"auto: the same, with methods that are wrong elsewhere: {within} of {len(chart.against)} families"
     )
     return found
