@@ -13,6 +13,7 @@ from flint import ctx
 
 from dofkit import expr as ex
 from dofkit.answers import Setting
+from dofkit.conditions import Condition
 from dofkit.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.dependence import all_needed, redundancies
 from dofkit.drawn_rank import drawn_rank
@@ -25,6 +26,7 @@ from dofkit.labelling import entries_of, labels_in_system
 from dofkit.linkage import linkage
 from dofkit.lowering import lower
 from dofkit.methods import Question
+from dofkit.normal import Finite
 from dofkit.preparing import prepared
 from dofkit.redundancy import Rows, analyse
 from dofkit.report import Verdict, weakest
@@ -87,11 +89,19 @@ def asked(
                 if found is not None:
                     return found
             reduced, setting = prepared(system)
+            if question == "integrability" and all(map(_is_finite, reduced)):
+                return Reply({r.constraint.name: True for r in reduced}, "proved")
             setting = replace(setting, grows=False, engines=engines)
             outcome = solve(system, reduced, setting)
             return _QUESTIONS[question](system, reduced, setting, outcome)
     except OutOfTimeError:
         return Reply(None, "undecided", OUT_OF_TIME)
+
+
+def _is_finite(r: Reduced) -> bool:
+    """Does a constraint consist of relations between coordinates and time? Then it is holonomic (d of dg is 0)."""
+    pieces = [p for n in r.normals for b in n.branches for p in b]
+    return bool(pieces) and not r.inequalities and all(isinstance(p, Finite | Condition) for p in pieces)
 
 
 def _by_graph(system: System, question: Question) -> Reply | None:

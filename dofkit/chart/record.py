@@ -151,9 +151,9 @@ class Against(_Row):
     fastest_seconds: float
     auto_seconds: float
     ratio: float = Field(description="the median over trials of the ratio of their seconds")
-    lucky: bool = Field(description="is that method wrong on another family of the question?")
-    sound: str | None = Field(description="the fastest of them that is never wrong on the question")
-    sound_ratio: float | None = Field(description="the same ratio for that one")
+    lucky: bool = Field(False, description="is that method wrong on another family of the question?")
+    sound: str | None = Field(None, description="the fastest of them that is never wrong on the question")
+    sound_ratio: float | None = Field(None, description="the same ratio for that one")
 
 
 class Reduction(_Row):

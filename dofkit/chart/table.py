@@ -74,7 +74,5 @@ def sentences(chart: Chart) -> list[str]:
     for row in sorted(slow, key=lambda row: -(row.sound_ratio or 0))[:5]:
         found.append(f"  {row.question}, {row.family}: {row.sound_ratio:.1f} times {row.sound}")
     within = sum(row.ratio <= TWICE for row in chart.against)
-    found.append(
-        f"auto: the same, with methods that are wrong elsewhere: {within} of {len(chart.against)} families"
-    )
+    found.append(f"auto: the same, with methods that are wrong elsewhere: {within} of {len(chart.against)} families")
     return found
