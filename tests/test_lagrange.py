@@ -373,6 +373,13 @@ def test_what_cannot_be_derived_is_told(made: dict[str, Any], said: str) -> None
         dofkit.lagrange(dofkit.load(made))
 
 
+def test_of_several_branches_none_is_taken() -> None:
+    """On x = 0 a weight falls, on y = 0 it slides: one set of equations would be wrong on the other branch."""
+    moves = {"kinetic": "(xdot^2 + ydot^2)/2", "potential": "y"}
+    with pytest.raises(MotionError, match="c1 holds on several branches"):
+        dofkit.lagrange(dofkit.load({"coordinates": ["x", "y"], "constraints": ["x y = 0"], "energies": moves}))
+
+
 def test_accelerations_are_no_constraints_of_lagranges() -> None:
     with pytest.raises(MotionError, match="constants of integration"):
         dofkit.lagrange(scene("xddot = yddot", coordinates="x y", **energies(PLANE)))

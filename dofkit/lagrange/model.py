@@ -29,6 +29,7 @@ from dofkit.lagrange.rates import motions
 from dofkit.lagrange.roots import without_roots
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.rank import without_time
+from dofkit.report import BRANCH_WARNING
 from dofkit.solving import in_time
 from dofkit.text import Names, UnknownNameError, parse_relations
 
@@ -128,6 +129,11 @@ def _possible(study: Study) -> None:
     if report.consistent is False:
         names = ", ".join(report.conflicting) or "its constraints"
         raise SceneError((Fault(f"the scene is inconsistent: no motion satisfies all of {names}", ("constraints",)),))
+    several = [c.name for c in report.constraints if BRANCH_WARNING.format(name=c.name) in report.warnings]
+    if several:
+        raise MotionError(
+            f"{', '.join(several)} holds on several branches, and each has its own motions: write the one that is meant"
+        )
     if report.consistent is None or report.dof is None or report.velocity_dof is None:
         why = "; ".join(dict.fromkeys(r for a in study.outcome.answers for r in a.reasons)) or "it was not decided"
         raise MotionError(f"it is undecided how the system can move, so no equations of motion are given: {why}")
