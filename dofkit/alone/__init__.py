@@ -55,5 +55,7 @@ def answered(
     turned = Knobs() if knobs is None else knobs
     try:
         return work(given, turned, answer) if question == "equivalence" else work(given, turned)
+    except OverflowError as error:
+        return Told(None, f"a number that occurs is too large or too small to compute with ({error})")
     except FAILURES as error:
         return Told(None, str(error) or type(error).__name__)
