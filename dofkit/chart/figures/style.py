@@ -211,7 +211,7 @@ def _cost(box: Bbox, taken: Iterable[Bbox], inside: Bbox) -> float:
     common = [Bbox.intersection(box, other) for other in taken]
     covered = sum(one.width * one.height for one in common if one is not None)
     kept = Bbox.intersection(box, inside)
-    return 100 * (covered + area - (0 if kept is None else kept.width * kept.height)) / area
+    return float(100 * (covered + area - (0 if kept is None else kept.width * kept.height)) / area)
 
 
 def seconds_text(seconds: float) -> str:
