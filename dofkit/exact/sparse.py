@@ -83,6 +83,8 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
     reduction = _Reduction(p, Counter(c for row in rows for c in row))
     found = []
     for i, row in enumerate(rows):
+        if i % LOOK == 0:
+            check()
         if i in alone:
             continue
         rest, used = reduction.reduced(row)
