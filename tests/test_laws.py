@@ -99,12 +99,11 @@ def has_equation(path: Path) -> bool:
     return any(EQUATION.fullmatch(getattr(c, "text", None) or "=x=") for c in scene_of(path).constraints)
 
 
-#: Two factors a scene.
+#: One factor a scene.
 MULTIPLIED = [
-    pytest.param(path, FACTORS[k], id=f"{path.stem}-{FACTORS[k]}")
-    for i, hand in enumerate(dealt("factors", SCENES, len(FACTORS)))
+    pytest.param(path, factor, id=f"{path.stem}-{factor}")
+    for factor, hand in zip(FACTORS, dealt("factors", SCENES, len(FACTORS)), strict=True)
     for path in hand
-    for k in (i, (i + 3) % len(FACTORS))
 ]
 
 
@@ -447,4 +446,4 @@ def test_every_way_of_writing_is_tried_on_many_scenes() -> None:
     assert min(map(len, (RENAMED, COPIED, BACKWARDS, TURNED, FIRST, LAST))) > 150
     tried = Counter(parameters.values[1] for parameters in MULTIPLIED)
     assert tried.keys() == set(FACTORS)
-    assert min(tried.values()) > 100
+    assert min(tried.values()) > 60
