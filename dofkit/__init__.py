@@ -12,6 +12,7 @@ from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from dofkit.base.version import __version__
 from dofkit.errors import DofkitError, SceneError, TextError
 
 if TYPE_CHECKING:
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
     from dofkit.sampling import configurations
     from dofkit.scene import Scene
 
-__version__ = "0.1.0"
-
 __all__ = [
     "DofkitError",
     "Linkage",
@@ -36,6 +35,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "TextError",
+    "__version__",
     "ask",
     "catalog_names",
     "catalog_text",

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dofkit.answers import Answer, Setting, Size
+from dofkit.answers import Answer, Size
+from dofkit.base.verdicts import weakest
 from dofkit.bending import bend
 from dofkit.blocks import Block, Row, split
 from dofkit.differential import (
@@ -27,7 +28,7 @@ from dofkit.finite import finite_answer
 from dofkit.forms import pairing
 from dofkit.frameworks import framework_answer
 from dofkit.held import held, numeric
-from dofkit.report import weakest
+from dofkit.relations.setting import Setting
 from dofkit.unmet import lengths_unmet
 from dofkit.variety import Variety, find
 

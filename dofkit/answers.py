@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.exact.engines import BOTH, Engines
+from dofkit.base.verdicts import Verdict
 from dofkit.exact.sparse import SparseRow, Supports
 from dofkit.exact.trust import Doubt
 from dofkit.expr import Expr
-from dofkit.reductions import ALL, Reductions
-from dofkit.report import Verdict
-from dofkit.separate import Looked
-from dofkit.system import Coordinate, Distance
 
 
 @dataclass(frozen=True)
@@ -36,6 +30,19 @@ class Size(NamedTuple):
     coordinates: int = 0
     relations: int = 0
     forms: int = 0
+
+
+class Looked(NamedTuple):
+    """What was looked at: relations ``left_out``, classes that are ``rigid``, and those that were ``followed``.
+
+    The latter in so many ``coordinates``, where there would have been ``spared`` more.
+    """
+
+    left_out: int = 0
+    rigid: int = 0
+    followed: int = 0
+    coordinates: int = 0
+    spared: int = 0
 
 
 @dataclass
@@ -72,30 +79,3 @@ class Answer:
     conflict: tuple[int, ...] = ()
     looked: Looked = field(default_factory=Looked)
     size: Size = field(default_factory=Size)
-
-
-@dataclass(frozen=True)
-class Setting:
-    """What the engines may assume of the symbols, which of them may be asked, and what is asked beyond the labels.
-
-    ``grows``: the growth vector; ``flag``: the derived flag.
-    ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
-    that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the
-    constraints that weld.
-    """
-
-    positive: frozenset[Expr]
-    generic: tuple[Expr, ...] = ()
-    pose: Mapping[Expr, Expr] = field(default_factory=dict)
-    reference: Mapping[Expr, Expr] | None = None
-    roles: tuple[Coordinate, ...] = ()
-    tolerance: Fraction | None = None
-    size: float = 1.0
-    grows: bool = True
-    engines: Engines = BOTH
-    flag: bool = False
-    dimension: int = 3
-    distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
-    links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)
-    reductions: Reductions = ALL
-    welds: frozenset[int] = frozenset()

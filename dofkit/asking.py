@@ -12,7 +12,7 @@ from typing import Any
 from flint import ctx
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
+from dofkit.base.verdicts import Verdict, weakest
 from dofkit.conditions import Condition
 from dofkit.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.dependence import all_needed, redundancies
@@ -21,7 +21,7 @@ from dofkit.exact.balls import precision
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.frameworks import left_out
 from dofkit.homework.comparison import Sameness, compare
-from dofkit.homework.equations import beside, read_equations
+from dofkit.homework.equations import read_equations, with_equations
 from dofkit.labelling import entries_of, labels_in_system
 from dofkit.linkage import linkage
 from dofkit.lowering import lower
@@ -29,14 +29,17 @@ from dofkit.methods import Question
 from dofkit.normal import Finite
 from dofkit.preparing import prepared
 from dofkit.redundancy import Rows, analyse
-from dofkit.report import Verdict, weakest
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
 from dofkit.scene import Scene
-from dofkit.solving import Outcome, Reduced, solve
+from dofkit.solving import Outcome, solve
 from dofkit.survey import survey
 from dofkit.system import System
 from dofkit.together import Companionship
 
 CONTRADICTORY = -1
+#: What the equations of an answer are called in the scene that holds them.
+ANSWER = "the answer"
 
 
 @dataclass(frozen=True)
@@ -179,7 +182,9 @@ def _redundancy(system: System, reduced: list[Reduced], setting: Setting, outcom
 
 def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:
     read = read_equations(answer["text"], survey(scene).world.names, constants=False)
-    found = compare(beside(scene, read), (answer["constraint"],), read.constants, engines).sameness
+    system = lower(with_equations(scene, read, ANSWER))
+    asked, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
+    found = compare(system, asked, own, read.constants, engines).sameness
     if found is Sameness.UNDECIDED:
         return Reply(None, "undecided", "it was not decided whether one follows from the other")
     return Reply(found is Sameness.SAME, "probable", "" if found is Sameness.SAME else found.value)

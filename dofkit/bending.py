@@ -9,14 +9,15 @@ from __future__ import annotations
 
 from flint import arb
 
-from dofkit.answers import Answer, Label, Setting
+from dofkit.answers import Answer, Label
+from dofkit.base.verdicts import weakest
 from dofkit.blocks import Block
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint
 from dofkit.exact.field import FieldPoint
 from dofkit.exact.ranks import ball_part
 from dofkit.forms import Frame, certified_rank, kernel
 from dofkit.manifold import Manifold
-from dofkit.report import weakest
+from dofkit.relations.setting import Setting
 from dofkit.states import States
 
 #: Derivatives of curves are taken up to this order.

@@ -8,7 +8,6 @@ from typing import TypeVar
 
 from flint.utils.flint_exceptions import DomainError
 
-from dofkit.answers import Setting
 from dofkit.deadline import part, unless_late
 from dofkit.exact.field import NoPointError
 from dofkit.exact.sparse import echelon
@@ -17,8 +16,10 @@ from dofkit.mobility import mobility
 from dofkit.nearly import MOST, nearly_dependent
 from dofkit.normal import Finite
 from dofkit.placed import Placement, drawn, measured
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
 from dofkit.report import Generic, Mobility, Report
-from dofkit.solving import Outcome, Reduced
+from dofkit.solving import Outcome
 from dofkit.special_position import special
 from dofkit.system import System
 from dofkit.twists import KINDS
@@ -46,7 +47,7 @@ class Beside:
         """The count in general position; None without a drawing."""
         if not has_geometry(self.system):
             return None
-        look = partial(in_general_position, self.system, self.outcome, self.setting)
+        look = partial(in_general_position, self.system, self.outcome.written_rows, self.setting)
         found = unless_late(look, _LATE)
         if found.rank is None:
             return Generic(dof=None, redundant_equations=None, differs=found.why, verdict="undecided")

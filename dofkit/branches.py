@@ -8,7 +8,6 @@ from dataclasses import replace
 from itertools import product as cartesian
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.blocks import Block, Row, coordinates_of
 from dofkit.charting import make_chart
 from dofkit.conditions import Condition, holds_at
@@ -16,6 +15,7 @@ from dofkit.exact.identity import is_zero
 from dofkit.expr import Expr
 from dofkit.local import ball_matrix, ball_point
 from dofkit.normal import Finite, Normal, Piece
+from dofkit.relations.setting import Setting
 from dofkit.signs import arguments_of, by_signs
 from dofkit.variety import on_variety, pose_point
 from dofkit.zeros import zero_set

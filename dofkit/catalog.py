@@ -8,6 +8,7 @@ from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
+from dofkit.base.spelling import nearest_title
 from dofkit.errors import Fault, SceneError
 
 _TITLE = re.compile(r"^title:[ \t]*(?:\"(?P<double>[^\"\\\n]*)\"|'(?P<single>[^'\n]*)'|(?P<plain>[^\"'\n#]+))", re.M)
@@ -33,25 +34,8 @@ def catalog_titles() -> dict[str, str]:
 
 def nearest_hint(name: str) -> str:
     """The catalog's name that looks most like ``name``, as a hint."""
-    near = nearest_name(name, catalog_names())
+    near = nearest_title(name, catalog_names())
     return f"did you mean '{near}'?" if near else "'dofkit catalog' lists the names"
-
-
-def nearest_name(name: str, known: list[str]) -> str | None:
-    """The known name that looks most like ``name``."""
-    import difflib
-
-    close = difflib.get_close_matches(name, known, 1, 0.6)
-    if close:
-        return close[0]
-    words = set(_words(name))
-    shared = [(len(words & set(_words(other))) / len(words | set(_words(other))), other) for other in known]
-    best = max(shared, key=lambda pair: pair[0], default=(0.0, ""))
-    return best[1] if best[0] >= 0.4 else None
-
-
-def _words(name: str) -> list[str]:
-    return re.split(r"[\W_]+", name.lower())
 
 
 @cache

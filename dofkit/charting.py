@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.blocks import Block, Row, expressions, uses_time
 from dofkit.deadline import check
 from dofkit.exact.ring import Ring
@@ -14,6 +13,7 @@ from dofkit.expr import Expr
 from dofkit.local_chart import Chart
 from dofkit.normal import Finite
 from dofkit.reductions import ReductionName
+from dofkit.relations.setting import Setting
 
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:

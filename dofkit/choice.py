@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
 from dofkit.blocks import Block
 from dofkit.charting import make_chart
 from dofkit.deadline import expired
@@ -21,6 +21,7 @@ from dofkit.local import ball_point
 from dofkit.local_chart import Chart
 from dofkit.nearby import damped
 from dofkit.normal import Finite
+from dofkit.relations.setting import Setting
 from dofkit.rigid import displacements_real
 from dofkit.system import Rotation
 from dofkit.variety import pose_point

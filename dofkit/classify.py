@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 from flint import ctx
 
 from dofkit.alone.reporting import report_alone
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
+from dofkit.base.verdicts import weakest
 from dofkit.beside import with_counts
 from dofkit.blocks import Block, uses_time
 from dofkit.bounded import checked, in_worker
@@ -31,10 +32,12 @@ from dofkit.normal import Finite
 from dofkit.preparing import prepared
 from dofkit.reductions import ALL, Reductions
 from dofkit.redundancy import left_open
-from dofkit.report import BRANCH_WARNING, ConstraintEntry, ForceEntry, Redundancy, Report, weakest
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.report import BRANCH_WARNING, ConstraintEntry, ForceEntry, Redundancy, Report
 from dofkit.scene import Scene
 from dofkit.sketch import blank, sketch
-from dofkit.solving import Outcome, Reduced, solve
+from dofkit.solving import Outcome, solve
 from dofkit.special import special_cases
 from dofkit.system import System
 from dofkit.together import Companionship

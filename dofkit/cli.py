@@ -13,7 +13,7 @@ from typing import Annotated, Any, cast
 
 import typer
 
-from dofkit import __version__
+from dofkit.base.version import __version__
 from dofkit.errors import DofkitError, Fault, SceneError
 from dofkit.methods import METHODS, MethodName
 

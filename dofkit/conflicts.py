@@ -7,11 +7,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.expr import Expr
 from dofkit.linear import linear, presolve
 from dofkit.normal import Finite
-from dofkit.solving import Outcome, Reduced, solve
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.solving import Outcome, solve
 from dofkit.system import System
 
 #: Seconds spent on leaving constraints out.

@@ -12,7 +12,7 @@ import networkx as nx
 
 from dofkit import expr as ex
 from dofkit.analysis import answer
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
 from dofkit.blocks import Block, Row, coordinates_of, split
 from dofkit.branches import algebraic, all_of, through_reference
 from dofkit.deadline import check, limited, unless_late
@@ -22,7 +22,9 @@ from dofkit.exact.sparse import SparseRow
 from dofkit.implication import SLACK, follows
 from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Still
 from dofkit.redundancy import Redundancies, Rows, analyse, left_open
-from dofkit.solving import Outcome, Reduced
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.solving import Outcome
 
 #: Constraints of one set that are tried one by one, and seconds spent on leaving constraints out.
 MAX_CHOICES, LEAVING_SECONDS = 40, 5.0

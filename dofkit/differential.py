@@ -12,7 +12,8 @@ from typing import Any
 from flint import arb, nmod_mat
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Label, Setting
+from dofkit.answers import Answer, Label
+from dofkit.base.verdicts import Verdict, weakest
 from dofkit.blocks import Block, uses_time
 from dofkit.charting import make_chart
 from dofkit.exact.balls import (
@@ -21,6 +22,7 @@ from dofkit.exact.balls import (
     RealPoint,
 )
 from dofkit.exact.field import FieldPoint, NoPointError
+from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.program import values
 from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.ring import Scalar
@@ -36,8 +38,7 @@ from dofkit.local import CLEAR, ball_matrix, ball_point
 from dofkit.local_chart import Chart
 from dofkit.normal import Finite, Nonlinear, Pfaffian, Still, with_constants
 from dofkit.proofs import proof
-from dofkit.rank import rank_of
-from dofkit.report import Verdict, weakest
+from dofkit.relations.setting import Setting
 from dofkit.variety import Variety, on_variety, pose_point
 from dofkit.zeros import never_vanishes, zero_set
 

@@ -8,8 +8,8 @@ from math import dist
 
 from dofkit.constants import approximate
 from dofkit.expr import ZERO, Expr, coordinate
-from dofkit.geometry import Vec
-from dofkit.parts import GROUND
+from dofkit.expressions.vectors import Vec
+from dofkit.system import GROUND
 from dofkit.world import World
 
 #: Up to this many points every pair is measured.

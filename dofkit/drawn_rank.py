@@ -14,9 +14,8 @@ from dofkit.exact.ring import Ring
 from dofkit.exact.sparse import SparseRow, rank_of_rows
 from dofkit.exact.trust import doubt
 from dofkit.expr import Expr, coordinate
-from dofkit.parts import GROUND
 from dofkit.placed import Placement, drawn
-from dofkit.system import System
+from dofkit.system import GROUND, System
 from dofkit.twists import rows_of
 
 #: Types whose rows hold numbers of the drawing only (a screw's advance is transcendental), none of them driven.

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Label, Setting
+from dofkit.answers import Answer, Label
+from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.blocks import Block, Row
 from dofkit.exact.engines import BOTH
 from dofkit.expr import Expr
@@ -14,7 +15,8 @@ from dofkit.labels import Traits
 from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Still, with_constants
 from dofkit.proofs import Integrability, integrability
 from dofkit.reasons import Labels, Others, joined, reason_of
-from dofkit.report import FORMS, VERDICTS, ConstraintEntry, Form, Verdict, weakest
+from dofkit.relations.setting import Setting
+from dofkit.report import FORMS, ConstraintEntry, Form
 from dofkit.system import Constraint
 
 

@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
 from dofkit.blocks import Block
 from dofkit.charting import make_chart
 from dofkit.exact.balls import RealPoint
+from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.sparse import SparseRow, rank_of_rows, sparse
 from dofkit.exact.trust import doubt
@@ -18,7 +19,7 @@ from dofkit.forms import sparse_frame
 from dofkit.local import AtReference, at_reference
 from dofkit.local_chart import Chart
 from dofkit.measured import measure
-from dofkit.rank import without_time
+from dofkit.relations.setting import Setting
 from dofkit.variety import Variety, field_jacobian, find
 
 OFF_REFERENCE = (

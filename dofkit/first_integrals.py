@@ -24,13 +24,14 @@ from dofkit.deadline import check
 from dofkit.differential import Codistribution
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.field import FieldPoint, NoPointError
+from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.minors import determinant, polynomials
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, values
 from dofkit.expr import Expr
 from dofkit.forms import field_frame, kernel
 from dofkit.integrals.shapes import arranged, upright
-from dofkit.rank import free_point, rank_of
+from dofkit.rank import free_point
 
 #: Products of up to so many functions, and so many products at most.
 MAX_DEGREE, MAX_PRODUCTS = 3, 170

@@ -12,13 +12,14 @@ import random
 from collections.abc import Iterable, Sequence
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
 from dofkit.blocks import Block, Row
 from dofkit.exact.field import prime_for
 from dofkit.exact.sparse import SparseRow, last_columns
 from dofkit.expr import Expr
 from dofkit.linkage import linkage
 from dofkit.normal import Finite
+from dofkit.relations.setting import Setting
 from dofkit.system import System
 
 Pair = tuple[str, str]

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
+from dofkit.base.verdicts import Verdict
 from dofkit.blocks import Row
 from dofkit.deadline import check
 from dofkit.exact.field import FieldPoint, NoPointError, field_point, prime_for
@@ -22,8 +22,7 @@ from dofkit.expr import Expr
 from dofkit.linkage import redundant_links
 from dofkit.normal import Finite
 from dofkit.placed import Placement, general
-from dofkit.report import Verdict
-from dofkit.solving import Outcome
+from dofkit.relations.setting import Setting
 from dofkit.system import System
 from dofkit.twists import KINDS, rows_of
 
@@ -48,15 +47,15 @@ def has_geometry(system: System) -> bool:
     return system.reference is not None and any(c.members for c in system.connections)
 
 
-def in_general_position(system: System, outcome: Outcome, setting: Setting) -> General:
-    """The rank of the finite relations with all given geometry random."""
-    if any(not isinstance(row.piece, Finite) for row in outcome.rows):
+def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -> General:
+    """The rank of the finite relations ``rows`` with all given geometry random."""
+    if any(not isinstance(row.piece, Finite) for row in rows):
         return General(None, why=DIFFERENTIAL)
     particles = set(system.particles)
     by_graph = "cheapest" in setting.reductions
     if by_graph and all(c.type in ("link", "rigid") and particles.issuperset(c.members) for c in system.connections):
         return _of_links(system)
-    return _of_rows(system, outcome, setting)
+    return _of_rows(system, rows, setting)
 
 
 def _of_links(system: System) -> General:
@@ -69,8 +68,8 @@ def _of_links(system: System) -> General:
     return General(len(pairs) - len(redundant_links(pairs, system.dimension)), verdict)
 
 
-def _of_rows(system: System, outcome: Outcome, setting: Setting) -> General:
-    written = _as_texts(system, outcome)
+def _of_rows(system: System, given: Sequence[Row], setting: Setting) -> General:
+    written = _as_texts(system, given)
     if written and any(r.chart == "euler" for r in system.rotations):
         return General(None, why=ANGLES)
     for seed in range(DRAWS):
@@ -87,12 +86,10 @@ def _of_rows(system: System, outcome: Outcome, setting: Setting) -> General:
     return General(None, why=NOWHERE)
 
 
-def _as_texts(system: System, outcome: Outcome) -> list[Row]:
+def _as_texts(system: System, rows: Sequence[Row]) -> list[Row]:
     """The rows that are no connection's: equations, surfaces, strings."""
     geometric = {c.constraint for c in system.connections if c.type in KINDS}
-    rows: list[Row] = [row for row in outcome.rows if row.constraint not in geometric]
-    originals = [i for copy, i in outcome.copies.items() if copy not in geometric]
-    return rows + [row for i in originals for row in outcome.rows if row.constraint == i]
+    return [row for row in rows if row.constraint not in geometric]
 
 
 def _drawn_at_random(

@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dofkit.answers import Answer
+from dofkit.base.verdicts import weakest
 from dofkit.exact.sparse import echelon
-from dofkit.report import weakest
 
 DIFFER = "functions or numbers that occur are related in a way that exact arithmetic modulo primes does not show"
 OPEN = "functions or numbers that occur may be related in a way that exact arithmetic modulo primes does not show"

@@ -15,7 +15,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
 from dofkit.analysis import answer
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
 from dofkit.blocks import Block
 from dofkit.charting import make_chart
 from dofkit.conditions import Condition, holds_at
@@ -26,6 +26,7 @@ from dofkit.exact.program import values
 from dofkit.finite import OFF_REFERENCE
 from dofkit.local_chart import Chart
 from dofkit.normal import Finite
+from dofkit.relations.setting import Setting
 from dofkit.text import to_text
 from dofkit.variety import find
 

@@ -12,7 +12,6 @@ from dataclasses import replace
 from itertools import product as cartesian
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.blocks import Row, coordinates_of, split
 from dofkit.branches import all_of, conditional, through_reference
 from dofkit.conditions import Condition, conditions_of
@@ -22,6 +21,7 @@ from dofkit.exact.balls import BallPoint
 from dofkit.exact.field import FieldPoint, NoPointError
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Inequality, Nonlinear, Normal, Pfaffian
+from dofkit.relations.setting import Setting
 from dofkit.solving import in_time
 from dofkit.states import States, value_at, vanishes
 from dofkit.velocities import MAX_WAYS, Way, form_rate, reduced

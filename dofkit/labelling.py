@@ -7,7 +7,8 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import partial
 
 from dofkit.analysis import alone
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
+from dofkit.base.verdicts import Verdict
 from dofkit.blocks import Row, coordinates_of
 from dofkit.constancy import fixed_constants
 from dofkit.deadline import OutOfTimeError, check
@@ -20,8 +21,10 @@ from dofkit.modulo import label
 from dofkit.normal import Inequality, Nonlinear, Pfaffian, Piece, Still
 from dofkit.reasons import Others
 from dofkit.redundancy import Redundancies
-from dofkit.report import ConstraintEntry, Verdict
-from dofkit.solving import Outcome, Reduced
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.report import ConstraintEntry
+from dofkit.solving import Outcome
 from dofkit.together import Companionship
 from dofkit.twins import nameless
 

@@ -8,6 +8,7 @@ from itertools import combinations
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
+from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.balls import RealSearch
 from dofkit.exact.canon import Canon, TooLargeError
 from dofkit.exact.engines import BOTH, Engines
@@ -19,7 +20,6 @@ from dofkit.exact.ring import Ring
 from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Inequality, Pfaffian, Piece, velocities_of
-from dofkit.report import VERDICTS, Verdict, weakest
 from dofkit.zeros import never_vanishes
 
 Told = tuple[bool | None, Verdict]

@@ -10,8 +10,11 @@ from typing import Any
 from flint import arb, ctx
 
 from dofkit import expr as ex
+from dofkit.answers import Looked
+from dofkit.base.verdicts import weakest
 from dofkit.exact.balls import BallPoint, OutsideDomainError, jacobian, precision
 from dofkit.exact.field import FieldPoint
+from dofkit.exact.matrices.modular import rank_of, without_time
 from dofkit.exact.program import values
 from dofkit.exact.ranks import ball_part, dependencies
 from dofkit.exact.ring import Ring
@@ -21,10 +24,8 @@ from dofkit.forms import Frame
 from dofkit.local_chart import Chart
 from dofkit.manifold import Local, Manifold
 from dofkit.motion import INDEPENDENT, WHOLE, numeric_dimension
-from dofkit.rank import rank_of, without_time
-from dofkit.report import weakest
 from dofkit.rigid import rigid_fields, rigid_motions_real
-from dofkit.separate import Looked, chart_of, dependent_parts
+from dofkit.separate import chart_of, dependent_parts
 from dofkit.smaller import smaller
 from dofkit.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
 

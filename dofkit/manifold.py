@@ -9,13 +9,13 @@ from typing import Any
 
 from flint import arb, arb_mat, nmod, nmod_mat
 
+from dofkit.base.verdicts import Verdict
 from dofkit.deadline import check
 from dofkit.exact.program import gradient, values
 from dofkit.exact.ring import Ring, Scalar
 from dofkit.exact.series import Series, SeriesPoint, monomial, series_values, zero_poly
 from dofkit.exact.sparse import Solved
 from dofkit.forms import Frame, solve
-from dofkit.report import Verdict
 
 Form = list[list[Scalar]]
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 from dofkit.exact.engines import BALLS, BOTH, FIELD, Engines
 
 if TYPE_CHECKING:
-    from dofkit.report import Verdict
+    from dofkit.base.verdicts import Verdict
 
 MethodName = Literal["auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic"]
 #: What the methods are held against each other in.

@@ -14,10 +14,9 @@ from itertools import pairwise
 import networkx as nx
 
 from dofkit.exact.sparse import SparseRow, rank_of_rows
-from dofkit.parts import GROUND
 from dofkit.placed import Placement
 from dofkit.report import Mobility
-from dofkit.system import System
+from dofkit.system import GROUND, System
 from dofkit.twists import KINDS, TURNS, Located, Member, rows_of
 
 #: More loops than this are not looked at one by one, and more than these are not told.

@@ -15,7 +15,8 @@ from dataclasses import replace
 from flint import arb
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Label, Setting
+from dofkit.answers import Answer, Label
+from dofkit.base.verdicts import weakest
 from dofkit.blocks import Block, coordinates_of
 from dofkit.deadline import OutOfTimeError
 from dofkit.differential import Codistribution, ball_span, codistribution, span_at
@@ -28,7 +29,7 @@ from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.flow import Span
 from dofkit.normal import Finite, Nonlinear, Pfaffian
-from dofkit.report import weakest
+from dofkit.relations.setting import Setting
 from dofkit.states import States, moves, value_at, vanishes
 from dofkit.variety import Variety, find
 from dofkit.velocities import Slot

@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple, Protocol
 
+from dofkit.base.spelling import nearest
 from dofkit.expr import Expr, parameter
-from dofkit.parts import BODY_ROLES, GROUND, PARTICLE_ROLES, Body, Particle
-from dofkit.system import Coordinate, Sign
+from dofkit.parts import Body, Particle
+from dofkit.system import BODY_ROLES, GROUND, PARTICLE_ROLES, Coordinate, Sign
 from dofkit.text import Names, spelled, valid_name
 from dofkit.texts import Ledger, Texts
-from dofkit.values import nearest
 
 SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
 RESERVED = frozenset({"t", GROUND})

@@ -9,17 +9,6 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag, WrapValidator
 
 from dofkit.values import Model, Text, Value, Vector, as_written, named, untagged
 
-#: The fixed world, always there.
-GROUND = "ground"
-
-#: The coordinates of a particle or a body by dimension, before the owner's name.
-PARTICLE_ROLES: dict[int, tuple[str, ...]] = {1: ("x",), 2: ("x", "y"), 3: ("x", "y", "z")}
-BODY_ROLES: dict[int, tuple[str, ...]] = {
-    1: ("x",),
-    2: ("x", "y", "theta"),
-    3: ("x", "y", "z", "phi", "theta", "psi"),
-}
-
 
 class BodyPoint(Model):
     """The material point of a body that stands at a world position in the reference configuration."""

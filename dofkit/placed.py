@@ -14,8 +14,7 @@ from dofkit.exact.field import NoPointError, field_point
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
-from dofkit.parts import GROUND
-from dofkit.system import Connection, DrawnPoint, System
+from dofkit.system import GROUND, Connection, DrawnPoint, System
 from dofkit.twists import Located, Member
 
 #: Random numbers are below this where there is no prime.

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import chain, count
+
 from dofkit import expr as ex
-from dofkit.answers import Setting
+from dofkit.accelerations import second_order
+from dofkit.deadline import check
+from dofkit.differentials import accelerations_of
+from dofkit.errors import Fault, SceneError, TextError
+from dofkit.expr import Expr
+from dofkit.normal import Inequality, Normal, normalise, without_instants
 from dofkit.reductions import ALL, Reductions
-from dofkit.solving import Reduced, reduce_all
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
 from dofkit.system import System
 
 
@@ -37,3 +46,37 @@ def _links(system: System) -> dict[int, list[tuple[str, str]]]:
     for i, a, b in system.links:
         found.setdefault(i, []).append((a, b))
     return found
+
+
+def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
+    """Every relation of every constraint as what it says; all that cannot be one are faults together."""
+    found, faults = [], []
+    fresh = _fresh(system)
+    for i, constraint in enumerate(system.constraints):
+        normals, inequalities = [], []
+        written = constraint.type in ("equation", "on")
+        for relation in constraint.relations:
+            check()
+            if relation.sense != "=":
+                inequalities.append(Inequality(relation.expr, relation.sense == ">"))
+                continue
+            try:
+                normals.append(_normal(relation.expr, positive, written, fresh))
+            except TextError as error:
+                faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
+        found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
+    if faults:
+        raise SceneError(tuple(faults), system.name)
+    return found
+
+
+def _normal(e: Expr, positive: frozenset[Expr], written: bool, fresh: Iterator[str]) -> Normal:
+    if accelerations_of(e):
+        return second_order(e, positive, fresh)
+    return without_instants(normalise(e, positive, written))
+
+
+def _fresh(system: System) -> Iterator[str]:
+    """Names for constants of integration: C, C1, C2, ... without those of the scene."""
+    taken = {c.name for c in system.coordinates} | {*system.parameters, *system.generic, *system.functions}
+    return (name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
-from dofkit.catalog import catalog_names, catalog_text, nearest_hint, nearest_name
+from dofkit.base.spelling import nearest_title
+from dofkit.catalog import catalog_names, catalog_text, nearest_hint
 from dofkit.documents import Document, read_document
 from dofkit.documents.document import MOST_BYTES
 from dofkit.documents.flow import DEEPEST
@@ -137,7 +138,7 @@ def _missing(shown: str, path: Path) -> Fault:
         return Fault(message, hint="read a text with dofkit.loads(text)")
     in_folder = path.parent != Path(".") or path.suffix in (".yaml", ".yml", ".json")
     beside = _beside(path)
-    near = nearest_name(path.name, beside)
+    near = nearest_title(path.name, beside)
     message = f"there is no file '{_brief(shown)}'"
     if not in_folder:
         message += ", and no scene of that name in the catalog"

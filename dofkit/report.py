@@ -6,25 +6,15 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict
 
-Verdict = Literal["proved", "probable", "numeric", "undecided"]
+from dofkit.base.verdicts import Verdict
+
 Form = Literal["finite", "pfaffian", "nonlinear", "inequality"]
 
-#: From the strongest to the weakest.
-VERDICTS: tuple[Verdict, ...] = ("proved", "probable", "numeric", "undecided")
 #: Of several equations, the last of these that occurs names the constraint's form.
 FORMS: tuple[Form, ...] = ("finite", "pfaffian", "nonlinear", "inequality")
 
 #: Said of a constraint that is a product.
 BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
-
-
-def weakest(*verdicts: Verdict) -> Verdict:
-    """The weakest of some verdicts; of none, ``proved``.
-
-    >>> weakest("proved", "numeric", "probable")
-    'numeric'
-    """
-    return max(verdicts, key=VERDICTS.index, default="proved")
 
 
 class Model(BaseModel):

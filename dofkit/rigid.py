@@ -10,9 +10,10 @@ import numpy as np
 from dofkit import expr as ex
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.field import FieldPoint
+from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.program import gradient, values
 from dofkit.local_chart import Chart, Displacement, displacement_fields
-from dofkit.rank import free_point, rank_of
+from dofkit.rank import free_point
 
 #: Random real points that are tried.
 TRIES = 8

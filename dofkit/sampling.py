@@ -9,7 +9,6 @@ import numpy as np
 from flint import ctx
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.conditions import Condition
 from dofkit.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.errors import DofkitError
@@ -20,8 +19,10 @@ from dofkit.lowering import lower
 from dofkit.normal import Finite, Nonlinear, Pfaffian
 from dofkit.poses import Pose, Relations, number
 from dofkit.preparing import prepared
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
 from dofkit.scene import Scene
-from dofkit.solving import Outcome, Reduced, solve
+from dofkit.solving import Outcome, solve
 from dofkit.system import Coordinate, System
 
 #: Random configurations from which one is looked for where there is no reference.

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import networkx as nx
 
@@ -30,19 +29,6 @@ class Part:
 
     rows: tuple[int, ...]
     rank: int
-
-
-class Looked(NamedTuple):
-    """What was looked at: relations ``left_out``, classes that are ``rigid``, and those that were ``followed``.
-
-    The latter in so many ``coordinates``, where there would have been ``spared`` more.
-    """
-
-    left_out: int = 0
-    rigid: int = 0
-    followed: int = 0
-    coordinates: int = 0
-    spared: int = 0
 
 
 def dependent_parts(chart: Chart, found: Echelon) -> list[Part]:

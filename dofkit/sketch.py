@@ -7,11 +7,10 @@ from fractions import Fraction
 
 from dofkit.count import Facts, count
 from dofkit.expr import Expr
-from dofkit.parts import BODY_ROLES
 from dofkit.report import FORMS, ConstraintEntry, Count, ForceEntry, Form, Report
 from dofkit.scene import Scene
 from dofkit.survey import names_by_position
-from dofkit.system import Constraint, Relation, System
+from dofkit.system import BODY_ROLES, Constraint, Relation, System
 
 
 def sketch(system: System, why: str) -> Report:

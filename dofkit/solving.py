@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import chain, count
 from itertools import product as cartesian
 
 from dofkit import expr as ex
-from dofkit.accelerations import second_order
 from dofkit.analysis import answer
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
 from dofkit.blocks import Block, Row, parted, split
 from dofkit.branches import through_reference
 from dofkit.constancy import names_in, with_rows
 from dofkit.deadline import OUT_OF_TIME, OutOfTimeError, check
-from dofkit.differentials import accelerations_of
-from dofkit.errors import Fault, SceneError, TextError
 from dofkit.exact.field import NoPointError
-from dofkit.expr import Expr
 from dofkit.holding import within
 from dofkit.modulo import verified
-from dofkit.normal import Finite, Inequality, Normal, Still, normalise, without_instants
-from dofkit.system import Constraint, System
+from dofkit.normal import Finite, Inequality, Normal, Still
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.system import System
 from dofkit.twins import alike, retold
 from dofkit.velocities import MAX_WAYS, Slot
 from dofkit.velocities import reduced as reduced_velocities
@@ -31,24 +28,6 @@ from dofkit.zeros import never_holds
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16
 _LEFT_OUT = f"of more than {MAX_CHOICES} choices of branches not all were looked at, so the largest is not known"
-
-
-@dataclass(frozen=True)
-class Reduced:
-    """A constraint with every relation reduced; ``inequalities`` apart."""
-
-    constraint: Constraint
-    normals: tuple[Normal, ...]
-    inequalities: tuple[Inequality, ...]
-
-    @property
-    def equations(self) -> int:
-        return len(self.normals)
-
-    @property
-    def constants(self) -> tuple[str, ...]:
-        """What stands for constants of an integration by time."""
-        return tuple(c for normal in self.normals for c in normal.constants)
 
 
 @dataclass
@@ -73,6 +52,12 @@ class Outcome:
         if self.impossible or any(a.consistent is False for a in self.answers):
             return False
         return None if any(a.consistent is None for a in self.answers) else True
+
+    @property
+    def written_rows(self) -> list[Row]:
+        """The rows with those of copies, which were answered as their originals."""
+        again = [Row(copy, row.piece) for copy, i in self.copies.items() for row in self.rows if row.constraint == i]
+        return [*self.rows, *again]
 
     @property
     def dof(self) -> int | None:
@@ -105,40 +90,6 @@ def _most(block: Block, a: Answer) -> int:
     if a.consistent and a.dof is not None:
         return a.dof
     return len(block.coordinates) - (a.doubt is None and bool(block.finite))
-
-
-def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
-    """Every relation of every constraint as what it says; all that cannot be one are faults together."""
-    found, faults = [], []
-    fresh = _fresh(system)
-    for i, constraint in enumerate(system.constraints):
-        normals, inequalities = [], []
-        written = constraint.type in ("equation", "on")
-        for relation in constraint.relations:
-            check()
-            if relation.sense != "=":
-                inequalities.append(Inequality(relation.expr, relation.sense == ">"))
-                continue
-            try:
-                normals.append(_normal(relation.expr, positive, written, fresh))
-            except TextError as error:
-                faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
-        found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
-    if faults:
-        raise SceneError(tuple(faults), system.name)
-    return found
-
-
-def _normal(e: Expr, positive: frozenset[Expr], written: bool, fresh: Iterator[str]) -> Normal:
-    if accelerations_of(e):
-        return second_order(e, positive, fresh)
-    return without_instants(normalise(e, positive, written))
-
-
-def _fresh(system: System) -> Iterator[str]:
-    """Names for constants of integration: C, C1, C2, ... without those of the scene."""
-    taken = {c.name for c in system.coordinates} | {*system.parameters, *system.generic, *system.functions}
-    return (name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
 
 
 def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:

@@ -12,9 +12,8 @@ from itertools import combinations
 from typing import Any
 
 from dofkit.exact.sparse import rank_of_rows
-from dofkit.parts import GROUND
 from dofkit.placed import Placement
-from dofkit.system import Connection, System
+from dofkit.system import GROUND, Connection, System
 from dofkit.text import to_text
 from dofkit.twists import cross, spanning
 

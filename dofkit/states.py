@@ -13,11 +13,11 @@ from typing import Any
 from flint import arb
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.blocks import Block, Row
 from dofkit.charting import aliases
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch, jacobian
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points import Solver, Unit, unit_of
 from dofkit.exact.program import values
 from dofkit.exact.ranks import ball_part
@@ -25,7 +25,7 @@ from dofkit.exact.ring import Ring, Scalar
 from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Nonlinear, Pfaffian
-from dofkit.rank import rank_of
+from dofkit.relations.setting import Setting
 from dofkit.velocities import form_rate, rate
 
 #: Draws of one state from which the one that is taken has to come.

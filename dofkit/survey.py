@@ -16,9 +16,9 @@ from dofkit.drawing import size_of
 from dofkit.errors import Fault
 from dofkit.expr import Expr
 from dofkit.naming import Declared, Owners, check_names, within_member
-from dofkit.parts import GROUND, Energies, Force, texts_of
+from dofkit.parts import Energies, Force, texts_of
 from dofkit.report import Report
-from dofkit.system import Connection, Constraint
+from dofkit.system import GROUND, Connection, Constraint
 from dofkit.texts import MOVING
 from dofkit.values import suggestion
 from dofkit.world import Asked, World

@@ -144,8 +144,7 @@ class System:
     joints close by construction, generic parameters included; equal to ``reference`` where that is given.
     ``particles`` and ``bodies`` list names; ``links`` the rigid links between particles as
     (constraint index, particle, particle), ``distances`` those between points of any kind that constraints
-    hold, by constraint index. ``size``: the largest distance between given points.
-    (constraint index, particle, particle); ``connections`` what each constraint of given or generic geometry
+    hold, by constraint index; ``connections`` what each constraint of given or generic geometry
     connects, ``starts`` where the bodies' origins stand. ``size``: the largest distance between given points.
     """
 
@@ -169,3 +168,22 @@ class System:
     tolerance: Fraction | None = None
     size: float = 1.0
     warnings: tuple[str, ...] = ()
+
+    def numbers_of(self, *names: str) -> tuple[int, ...]:
+        """The numbers of the constraints of these names, in the order of the names."""
+        return tuple(i for name in names for i, c in enumerate(self.constraints) if c.name == name)
+
+
+#: The fixed world, always there.
+GROUND = "ground"
+
+
+#: The coordinates of a particle or a body by dimension, before the owner's name.
+PARTICLE_ROLES: dict[int, tuple[str, ...]] = {1: ("x",), 2: ("x", "y"), 3: ("x", "y", "z")}
+
+
+BODY_ROLES: dict[int, tuple[str, ...]] = {
+    1: ("x",),
+    2: ("x", "y", "theta"),
+    3: ("x", "y", "z", "phi", "theta", "psi"),
+}

@@ -7,13 +7,14 @@ from dataclasses import dataclass, field, replace
 from itertools import chain, count, islice
 
 from dofkit.analysis import answer
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
 from dofkit.blocks import Block, Row, split
 from dofkit.deadline import OutOfTimeError, check
 from dofkit.differential import codistribution
 from dofkit.exact.field import NoPointError
 from dofkit.first_integrals import FirstIntegral, assigned, first_integrals
 from dofkit.normal import Pfaffian
+from dofkit.relations.setting import Setting
 from dofkit.text import to_text
 
 #: Blocks up to this many constraints and coordinates are searched for companions and integrals.

@@ -6,10 +6,11 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Setting, Size
+from dofkit.answers import Answer, Size
 from dofkit.blocks import Block, coordinates_of, expressions
 from dofkit.expr import Expr
 from dofkit.normal import Pfaffian, Piece
+from dofkit.relations.setting import Setting
 
 
 def alike(block: Block, setting: Setting, roles: Mapping[str, tuple[str | None, str]]) -> Hashable:

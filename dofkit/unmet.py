@@ -19,12 +19,13 @@ import networkx as nx
 from flint import arb, arb_mat, ctx
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
 from dofkit.blocks import Block
 from dofkit.constants import interval
 from dofkit.deadline import check
 from dofkit.expr import Expr
-from dofkit.geometry import square_between
+from dofkit.expressions.vectors import square_between
+from dofkit.relations.setting import Setting
 from dofkit.system import Distance, Place
 from dofkit.zeros import never_holds
 

@@ -7,10 +7,9 @@ there is something to suggest, and its ``loc`` is the path of keys and positions
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral
@@ -30,6 +29,7 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from dofkit.base.spelling import nearest
 from dofkit.errors import Fault
 
 #: A number is refused beyond this power of ten, up or down.
@@ -39,20 +39,6 @@ LONGEST_LITERAL = 400
 
 _LITERAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,6})?)(?:\s*/\s*(\d+))?", re.ASCII)
 _OURS = "dofkit"
-
-
-def nearest(word: object, known: Iterable[str]) -> str | None:
-    """The known name that looks most like ``word``, or None.
-
-    >>> nearest("lenght", ["between", "length"])
-    'length'
-    """
-    word = str(word)
-    near = [name for name in known if abs(len(name) - len(word)) <= 1 + len(word) // 2]
-    found = difflib.get_close_matches(word, near[:2000], 1, 0.6)
-    if found:
-        return found[0]
-    return next((name for name in near if name.lower() == word.lower()), None)
 
 
 def suggestion(word: object, known: Sequence[str], what: str) -> str:

@@ -14,12 +14,14 @@ from typing import Any
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
+from dofkit.base.verdicts import Verdict, weakest
 from dofkit.deadline import check
 from dofkit.emptiness import no_solution
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
 from dofkit.exact.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.ideals import complex_dimension
 from dofkit.exact.identity import excludes_zero
+from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points import Solver
 from dofkit.exact.program import gradient, value_of, values
 from dofkit.exact.ring import VAR, Ring, reachable
@@ -31,8 +33,7 @@ from dofkit.linear import presolve
 from dofkit.local_chart import Chart
 from dofkit.manifold import Local, Manifold
 from dofkit.motion import local_dimension
-from dofkit.rank import free_point, rank_of
-from dofkit.report import Verdict, weakest
+from dofkit.rank import free_point
 from dofkit.singular import numeric_local
 
 #: Blocks with more columns than this are not certified with balls.

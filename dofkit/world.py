@@ -15,10 +15,11 @@ from typing import NamedTuple
 
 from dofkit.constants import approximate, differs_from_zero
 from dofkit.expr import ONE, TIME, ZERO, Expr, coordinate, parameter, substitute
-from dofkit.geometry import Chart, Frame, Placed, Vec, across
+from dofkit.expressions.vectors import Vec, across
+from dofkit.geometry import Chart, Frame, Placed
 from dofkit.naming import Declared, coordinate_table, declared_names, read_parameters
-from dofkit.parts import GROUND, BodyPoint, Particle, show_point
-from dofkit.system import Distance, DrawnPoint, Place
+from dofkit.parts import BodyPoint, Particle, show_point
+from dofkit.system import GROUND, Distance, DrawnPoint, Place
 from dofkit.texts import Texts
 from dofkit.values import Vector
 

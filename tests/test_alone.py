@@ -11,9 +11,10 @@ from known_scenes import SCENES, dealt, report_of, scene_of
 import dofkit
 import dofkit.alone
 from dofkit.alone import Knobs, answered, answering
+from dofkit.base.verdicts import VERDICTS
 from dofkit.chart.failures import TRAITS, WHY, explained
 from dofkit.methods import BY_ENGINES, METHODS, QUESTIONS, MethodName, Question
-from dofkit.report import VERDICTS, Report
+from dofkit.report import Report
 
 HOME = Path(dofkit.alone.__file__).parent
 #: Modules of the package that are no method.

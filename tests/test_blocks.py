@@ -8,8 +8,9 @@ import pytest
 
 import dofkit
 from dofkit import solving
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
 from dofkit.blocks import Block
+from dofkit.relations.setting import Setting
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import dofkit
-from dofkit.homework.equations import beside, read_equations
+from dofkit.homework.equations import read_equations, with_equations
 from dofkit.homework.key import Key
 from dofkit.homework.multiples import same_up_to_numbers
 from dofkit.lowering import lower
@@ -19,7 +19,9 @@ def seen(answer: str, *asked: str) -> bool:
     """Is the answer a multiple of the constraints asked for, the first of which is called c1?"""
     made = {"parameters": {"R": "positive"}, "coordinates": ["x", "y", "z", "theta", "phi"], "constraints": [*asked]}
     key = Key(dofkit.load(made))
-    reduced, setting = prepared(lower(beside(key.scene, read_equations(answer, key.names, constants=False))))
+    reduced, setting = prepared(
+        lower(with_equations(key.scene, read_equations(answer, key.names, constants=False), "answer"))
+    )
     wanted, given = reduced[: len(asked)], reduced[len(asked) :]
     return same_up_to_numbers(given, wanted, setting.positive)
 

@@ -17,9 +17,10 @@ import pytest
 from known_scenes import SCENES, dealt, report_of, scene_of, stem
 
 import dofkit
+from dofkit.base.verdicts import weakest
 from dofkit.lowering import lower
 from dofkit.naming import Owners
-from dofkit.report import ConstraintEntry, Report, weakest
+from dofkit.report import ConstraintEntry, Report
 from dofkit.scene import Scene
 
 Document = dict[str, Any]

@@ -12,10 +12,11 @@ from known_scenes import SCENES, report_of, scene_of, stem
 from typer.testing import CliRunner
 
 import dofkit
+from dofkit.base.verdicts import VERDICTS
 from dofkit.cli import app
 from dofkit.exact.engines import BOTH
 from dofkit.methods import BY_ENGINES, METHODS, MethodName
-from dofkit.report import VERDICTS, Report
+from dofkit.report import Report
 
 ALONE = tuple(name for name in BY_ENGINES if name != "auto")
 WHOLE = ("consistent", "dof", "velocity_dof", "instantaneous_dof", "singular", "holonomic", "scleronomic")

@@ -6,7 +6,7 @@ from typing import Any
 
 from dofkit.alone.pointwise import Looked, Numbers, freedom, regular
 from dofkit.alone.reporting import Found, Label, many
-from dofkit.report import Verdict
+from dofkit.base.verdicts import Verdict
 
 FAILS = "At a regular point the form fails Frobenius' test (its differential does not vanish on what the others allow)."
 PASSES = "At the point that was looked at the form passes Frobenius' test; elsewhere it need not."

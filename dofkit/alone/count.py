@@ -7,11 +7,10 @@ from collections.abc import Mapping
 from dofkit.alone.reporting import Found, Label, many
 from dofkit.alone.told import Knobs, Told
 from dofkit.alone.written import Written, as_written, labelled
+from dofkit.base.verdicts import weakest
 from dofkit.labels import exact
-from dofkit.parts import GROUND
-from dofkit.report import weakest
 from dofkit.scene import Scene
-from dofkit.system import System
+from dofkit.system import GROUND, System
 
 CLOSED = "It is closed as written (all mixed partial derivatives agree), so it integrates to a finite relation."
 NOT_CLOSED = (

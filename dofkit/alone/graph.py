@@ -5,6 +5,7 @@ from __future__ import annotations
 from dofkit.alone.reporting import Found, many
 from dofkit.alone.told import Knobs, Told, cannot
 from dofkit.answers import Answer
+from dofkit.base.verdicts import weakest
 from dofkit.blocks import Row, split
 from dofkit.exact.field import prime_for
 from dofkit.exact.sparse import SparseRow, rank_of_rows
@@ -15,7 +16,7 @@ from dofkit.normal import Finite
 from dofkit.placed import general
 from dofkit.preparing import prepared
 from dofkit.redundancy import Rows, analyse
-from dofkit.report import Generic, weakest
+from dofkit.report import Generic
 from dofkit.scene import Scene
 from dofkit.system import System
 from dofkit.twists import KINDS, rows_of

@@ -11,10 +11,11 @@ from typing import Any
 
 from dofkit import expr as ex
 from dofkit.alone import FAILURES, module_of
+from dofkit.base.verdicts import Verdict, weakest
 from dofkit.deadline import OutOfTimeError
 from dofkit.expr import Expr
 from dofkit.methods import METHODS, MethodName
-from dofkit.report import ConstraintEntry, Report, Verdict, weakest
+from dofkit.report import ConstraintEntry, Report
 from dofkit.sketch import sketch
 from dofkit.system import Constraint, System
 

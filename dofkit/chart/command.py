@@ -17,7 +17,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-import dofkit
+from dofkit.base.version import __version__
 from dofkit.chart import asking, runner, storing, tasks
 from dofkit.chart.failures import explained
 from dofkit.chart.families import FAMILIES
@@ -88,7 +88,7 @@ def run(options: Options) -> bool:
     if not found.complete and not found.lines:
         return False
     ran = Ran(
-        version=dofkit.__version__,
+        version=__version__,
         command=options.command(),
         date=date,
         machine=machine(),

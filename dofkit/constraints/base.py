@@ -10,7 +10,8 @@ from pydantic import Field
 
 from dofkit.constants import approximate
 from dofkit.expr import Expr
-from dofkit.geometry import Placed, Vec, minus, square
+from dofkit.expressions.vectors import Vec, minus, square
+from dofkit.geometry import Placed
 from dofkit.system import Relation
 from dofkit.values import Model
 from dofkit.world import World

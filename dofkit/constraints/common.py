@@ -18,7 +18,8 @@ from dofkit.constraints.joints import (
     together,
     turned_by,
 )
-from dofkit.geometry import Frame, difference
+from dofkit.expressions.vectors import difference
+from dofkit.geometry import Frame
 from dofkit.system import Relation
 from dofkit.world import World
 

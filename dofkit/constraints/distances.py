@@ -11,7 +11,8 @@ from pydantic import Field
 from dofkit.constants import approximate
 from dofkit.constraints.base import ConstraintBase, root
 from dofkit.expr import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt, substitute
-from dofkit.geometry import Placed, Vec, between, difference, square, square_between
+from dofkit.expressions.vectors import Vec, difference, square, square_between
+from dofkit.geometry import Placed, between
 from dofkit.parts import Ends, Point, show_point
 from dofkit.system import Relation
 from dofkit.values import Value, as_written

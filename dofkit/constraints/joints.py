@@ -16,7 +16,8 @@ from pydantic import Field
 from dofkit.constraints.base import ConstraintBase, labelled
 from dofkit.constraints.places import along
 from dofkit.expr import HALF, MINUS_ONE, Expr, fn, mul
-from dofkit.geometry import Frame, Vec, between, cross, difference, dot, is_zero, length, minus, relative, scaled, unit
+from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
+from dofkit.geometry import Frame, between, relative
 from dofkit.parts import show_vector
 from dofkit.system import Relation
 from dofkit.texts import LAW

@@ -10,9 +10,10 @@ from pydantic import Field
 from dofkit.constants import approximate
 from dofkit.constraints.base import ConstraintBase, figures, labelled, meet
 from dofkit.expr import ZERO, Expr, coordinate, mul
-from dofkit.geometry import Frame, Placed, Vec, between, difference, dot, minus, scaled
-from dofkit.parts import GROUND, BodyPoint, Ends, Point, show_point, show_vector
-from dofkit.system import Relation
+from dofkit.expressions.vectors import Vec, difference, dot, minus, scaled
+from dofkit.geometry import Frame, Placed, between
+from dofkit.parts import BodyPoint, Ends, Point, show_point, show_vector
+from dofkit.system import GROUND, Relation
 from dofkit.values import Vector
 from dofkit.world import Direction, World
 

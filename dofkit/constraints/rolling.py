@@ -11,9 +11,9 @@ from dofkit.constants import approximate
 from dofkit.constraints.base import ConstraintBase
 from dofkit.constraints.joints import Joint
 from dofkit.expr import Expr, add, mul, velocity
-from dofkit.geometry import Frame, difference
-from dofkit.parts import GROUND
-from dofkit.system import Relation
+from dofkit.expressions.vectors import difference
+from dofkit.geometry import Frame
+from dofkit.system import GROUND, Relation
 from dofkit.values import Value, as_written
 from dofkit.world import World
 

@@ -21,7 +21,8 @@ from dofkit.constraints.joints import (
     turned_by,
 )
 from dofkit.expr import PI, add, fn, mul
-from dofkit.geometry import Frame, Vec, cross, difference, dot, length, plus, relative, scaled
+from dofkit.expressions.vectors import Vec, cross, difference, dot, length, plus, scaled
+from dofkit.geometry import Frame, relative
 from dofkit.parts import show_vector
 from dofkit.system import Relation
 from dofkit.values import Value, Vector, as_written

@@ -8,6 +8,7 @@ from flint import ctx
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
+from dofkit.base.verdicts import Verdict
 from dofkit.exact.algebraic import proved_zero
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch, fixed_bits
 from dofkit.exact.canon import Canon, TooLargeError
@@ -17,7 +18,6 @@ from dofkit.exact.program import values
 from dofkit.exact.ring import Ring
 from dofkit.exact.trust import independent_generators
 from dofkit.expr import Expr
-from dofkit.report import Verdict
 
 #: Bits of the balls that must hold 0 before anything is taken for 0.
 PRECISIONS = (256, 1024)

@@ -15,7 +15,6 @@ from itertools import chain
 from itertools import product as cartesian
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.blocks import Row, split
 from dofkit.charting import make_chart
 from dofkit.deadline import part, unless_late
@@ -26,11 +25,11 @@ from dofkit.expr import Expr
 from dofkit.homework.multiples import power_of, same_up_to_numbers
 from dofkit.homework.sides import same_side
 from dofkit.implication import follows
-from dofkit.lowering import lower
 from dofkit.normal import Finite, Normal, Pfaffian, Piece
 from dofkit.preparing import prepared
-from dofkit.scene import Scene
-from dofkit.solving import Outcome, Reduced, solve
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.solving import Outcome, solve
 from dofkit.system import System
 from dofkit.variety import field_jacobian, find
 from dofkit.zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
@@ -39,9 +38,6 @@ from dofkit.zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
 POSSIBLE = 0.3
 #: Choices of branches on which gradients are looked at.
 MAX_BRANCHES = 16
-#: Constraints of a scene with the answer in the place of those that were asked for are named so.
-ANSWER = "the answer"
-
 
 #: Their equations also allow assemblies turned by half a turn, which nobody means: the drawn one is as good.
 JOINTS = frozenset({"revolute", "prismatic", "weld", "cylindrical", "screw", "universal", "spherical", "planar"})
@@ -72,28 +68,33 @@ class Compared:
 
 
 def compare(
-    scene: Scene, asked: Sequence[str], constants: frozenset[str] = frozenset(), engines: Engines = BOTH
+    system: System,
+    asked: Sequence[int],
+    answer: Sequence[int],
+    constants: frozenset[str] = frozenset(),
+    engines: Engines = BOTH,
 ) -> Compared:
-    """Compare the constraints of ``scene`` called `ANSWER` with those called ``asked``.
+    """Compare the constraints of ``system`` numbered ``answer`` with those numbered ``asked``.
 
     ``constants``: parameters that the answer brought with it, as constants of integration; ``engines`` decide.
     """
-    return _comparison(scene, asked, constants, engines).result()
+    return _comparison(system, asked, answer, constants, engines).result()
 
 
-def is_integral(scene: Scene, asked: str) -> bool | None:
-    """Is the constraint called `ANSWER` a finite relation to which the one called ``asked`` integrates?
+def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
+    """Are the constraints numbered ``answer`` finite relations to which those numbered ``asked`` integrate?
 
-    Are the differential of the answer and the form the same in the presence of the others? None where it is undecided.
+    Are the differentials of the answer and the forms the same in the presence of the others? None where it is undecided.
     """
-    return _comparison(scene, (asked,), frozenset()).integrates()
+    return _comparison(system, asked, answer, frozenset()).integrates()
 
 
-def _comparison(scene: Scene, asked: Sequence[str], constants: frozenset[str], engines: Engines = BOTH) -> Comparison:
-    system = lower(scene)
+def _comparison(
+    system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str], engines: Engines = BOTH
+) -> Comparison:
     reduced, setting = prepared(system)
     setting = replace(setting, engines=engines)
-    return Comparison(system, tuple(reduced), setting, tuple(asked), constants)
+    return Comparison(system, tuple(reduced), setting, tuple(asked), tuple(answer), constants)
 
 
 @dataclass(frozen=True)
@@ -103,7 +104,8 @@ class Comparison:
     system: System
     reduced: tuple[Reduced, ...]
     setting: Setting
-    asked: tuple[str, ...]
+    asked: tuple[int, ...]
+    answer: tuple[int, ...]
     constants: frozenset[str]
 
     def result(self) -> Compared:
@@ -142,11 +144,11 @@ class Comparison:
 
     @cached_property
     def _given(self) -> list[Reduced]:
-        return [r for r in self.reduced if r.constraint.name.startswith(ANSWER)]
+        return [self.reduced[i] for i in self.answer]
 
     @cached_property
     def _wanted(self) -> list[Reduced]:
-        return [r for name in self.asked for r in self.reduced if r.constraint.name == name]
+        return [self.reduced[i] for i in self.asked]
 
     @cached_property
     def _answer(self) -> list[Normal]:

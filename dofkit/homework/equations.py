@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from dofkit.constraints.equations import Equation
 from dofkit.errors import TextError
 from dofkit.expr import parameter
-from dofkit.homework.comparison import ANSWER
 from dofkit.scene import Scene
 from dofkit.text import Comparison, Names, UnknownNameError, parse_relations, to_text
 
@@ -96,9 +95,9 @@ def as_text(c: Comparison) -> str:
     return f"{to_text(c.left)} {c.relation} {to_text(c.right)}"
 
 
-def beside(scene: Scene, read: Read) -> Scene:
-    """The scene with the answer's equations after its constraints."""
-    more = tuple(Equation(type="equation", name=f"{ANSWER} {i + 1}", text=text) for i, text in enumerate(read.texts))
+def with_equations(scene: Scene, read: Read, called: str) -> Scene:
+    """The scene with the equations after its constraints; their names are ``called`` and a number from 1 on."""
+    more = tuple(Equation(type="equation", name=f"{called} {i + 1}", text=text) for i, text in enumerate(read.texts))
     parameters = {**scene.parameters, **dict.fromkeys(read.constants, "real")}
     changes = {"constraints": (*scene.constraints, *more), "parameters": parameters, "expect": {}}
     return scene.model_copy(update=changes)

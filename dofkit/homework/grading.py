@@ -9,6 +9,7 @@ from typing import Any, cast
 
 from flint import ctx
 
+from dofkit.base.spelling import nearest
 from dofkit.deadline import OutOfTimeError, by_processor
 from dofkit.errors import TextError
 from dofkit.exact.balls import PRECISION
@@ -18,7 +19,6 @@ from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sources import read_submission
 from dofkit.homework.submission import Submission
-from dofkit.values import nearest
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0

@@ -16,7 +16,7 @@ from itertools import chain
 from pathlib import Path
 from typing import BinaryIO
 
-import dofkit
+from dofkit.base.version import __version__
 from dofkit.errors import DofkitError
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.batch import Line
@@ -29,7 +29,7 @@ if sys.platform != "win32":
 
 def fingerprint(prepared: Prepared, check_only: bool) -> str:
     """What tells a run from others: the assignment with its scenes, and who grades it how."""
-    parts = [dofkit.__version__, str(check_only), prepared.assignment.model_dump_json()]
+    parts = [__version__, str(check_only), prepared.assignment.model_dump_json()]
     parts += [f"{name} {key.convention} {key.scene.model_dump_json()}" for name, key in prepared.keys.items()]
     return hashlib.blake2b("\0".join(parts).encode("utf-8", "replace"), digest_size=16).hexdigest()
 

@@ -16,7 +16,7 @@ from dofkit.exact.canon import Canon, Poly, TooLargeError
 from dofkit.exact.ring import POW, Ring
 from dofkit.expr import ZERO, Expr
 from dofkit.normal import Finite, Normal, Pfaffian
-from dofkit.solving import Reduced
+from dofkit.relations.reduced import Reduced
 
 #: Generators of a ring that have a value everywhere.
 _ENTIRE = frozenset({"symbol", "cos", "sin", "exp", "pi"})

@@ -8,7 +8,7 @@ from dataclasses import replace
 from dofkit.branches import all_of
 from dofkit.classify import classify
 from dofkit.constraints.equations import Equation
-from dofkit.homework.equations import beside, read_equations
+from dofkit.homework.equations import read_equations, with_equations
 from dofkit.implication import follows
 from dofkit.lowering import lower
 from dofkit.normal import Finite, Normal
@@ -31,7 +31,7 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
     named = [c.model_copy(update={"name": e.name}) for c, e in zip(scene.constraints, report.constraints, strict=True)]
     whole = _with(scene, [*named, *held])
     if basis:
-        whole = beside(whole, read_equations(basis, survey(scene).world.names, constants=True))
+        whole = with_equations(whole, read_equations(basis, survey(scene).world.names, constants=True), "integral")
     system = lower(whole)
     reduced, setting = prepared(system)
     own = {e.name for e in report.constraints}

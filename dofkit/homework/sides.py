@@ -8,13 +8,13 @@ from collections.abc import Iterator, Sequence
 from flint import arb
 from flint.utils.flint_exceptions import DomainError
 
-from dofkit.answers import Setting
 from dofkit.exact.balls import BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.program import values
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
 from dofkit.implication import follows
 from dofkit.normal import Finite, Inequality, Normal
+from dofkit.relations.setting import Setting
 
 #: Random points at which signs are compared, and how far out they lie.
 POINTS, SCALES = 24, (1, 1, 10, 1000)

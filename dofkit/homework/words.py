@@ -9,9 +9,10 @@ from fractions import Fraction
 
 from pydantic_core import PydanticCustomError
 
+from dofkit.base.spelling import nearest
 from dofkit.errors import TextError
 from dofkit.text import Names, parse_relations, spelled
-from dofkit.values import as_written, exact, nearest
+from dofkit.values import as_written, exact
 
 #: No answer is read beyond this.
 MOST_CHARACTERS = 2000

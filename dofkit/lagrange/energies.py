@@ -13,10 +13,12 @@ from fractions import Fraction
 from dofkit import expr as ex
 from dofkit.errors import Fault
 from dofkit.expr import HALF, ZERO, Expr
-from dofkit.geometry import Frame, Placed, Vec, dot, length, minus, scaled, square
+from dofkit.expressions.vectors import Vec, dot, length, minus, scaled, square
+from dofkit.geometry import Frame, Placed
 from dofkit.lagrange.rates import by_time
-from dofkit.parts import GROUND, Force
+from dofkit.parts import Force
 from dofkit.scene import Scene
+from dofkit.system import GROUND
 from dofkit.texts import MOVING
 from dofkit.world import World
 

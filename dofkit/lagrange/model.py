@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.blocks import Row, coordinates_of, split
 from dofkit.classify import Study
 from dofkit.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.sparse import echelon
 from dofkit.expr import ZERO, Expr
 from dofkit.lagrange.elimination import (
@@ -28,7 +28,7 @@ from dofkit.lagrange.energies import Energy
 from dofkit.lagrange.rates import motions
 from dofkit.lagrange.roots import without_roots
 from dofkit.normal import Finite, Nonlinear, Pfaffian
-from dofkit.rank import without_time
+from dofkit.relations.setting import Setting
 from dofkit.report import BRANCH_WARNING
 from dofkit.solving import in_time
 from dofkit.text import Names, UnknownNameError, parse_relations

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field, PrivateAttr
 
-from dofkit.report import Model, Verdict
+from dofkit.base.verdicts import Verdict
+from dofkit.report import Model
 
 if TYPE_CHECKING:
     from dofkit.lagrange.derivation import Derived

@@ -12,7 +12,7 @@ from dofkit.linkage.reading import Graph, Joint, Link, LinkageError
 from dofkit.linkage.solved import Proof, Question, Solved
 
 if TYPE_CHECKING:
-    from dofkit.report import Verdict
+    from dofkit.base.verdicts import Verdict
 
 
 class Group(NamedTuple):

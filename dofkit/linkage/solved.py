@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 if TYPE_CHECKING:
-    from dofkit.report import Verdict
+    from dofkit.base.verdicts import Verdict
 
 Question = Literal["rank", "redundant", "circuits", "redundancies", "clusters"]
 

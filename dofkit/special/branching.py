@@ -6,13 +6,14 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.exact.canon import Canon
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Normal
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
 from dofkit.report import SpecialCase
-from dofkit.solving import Outcome, Reduced
+from dofkit.solving import Outcome
 from dofkit.special.places import meeting
 from dofkit.special.reals import Reals, common_zeros
 from dofkit.special.wording import order_of, where

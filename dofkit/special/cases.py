@@ -10,7 +10,8 @@ from typing import Any
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
+from dofkit.base.verdicts import Verdict, weakest
 from dofkit.blocks import Block, expressions
 from dofkit.deadline import OutOfTimeError, expired, limited
 from dofkit.errors import DofkitError
@@ -18,8 +19,10 @@ from dofkit.exact.canon import Canon, Poly, TooLargeError
 from dofkit.exact.field import NoPointError
 from dofkit.expr import Expr
 from dofkit.normal import Inequality
-from dofkit.report import Report, SpecialCase, Verdict, weakest
-from dofkit.solving import Outcome, Reduced
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.report import Report, SpecialCase
+from dofkit.solving import Outcome
 from dofkit.special.branching import meetings
 from dofkit.special.candidates import Candidates, candidates
 from dofkit.special.integrals import undefined_integrals

@@ -9,11 +9,13 @@ from typing import Any
 from flint import arb, ctx, nmod, nmod_mat
 
 from dofkit import expr as ex
-from dofkit.answers import Answer, Setting
+from dofkit.answers import Answer
+from dofkit.base.verdicts import Verdict
 from dofkit.blocks import Block, Row, uses_time
 from dofkit.charting import make_chart
 from dofkit.exact.balls import PRECISION, BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.field import FieldPoint, NoPointError
+from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points import Solver
 from dofkit.exact.program import values
 from dofkit.expr import Expr
@@ -21,8 +23,7 @@ from dofkit.flow import Flow, columns_of
 from dofkit.forms import Frame, Rows, certified_rank, field_frame, rank_over
 from dofkit.local_chart import Chart
 from dofkit.normal import Finite, Pfaffian
-from dofkit.rank import rank_of
-from dofkit.report import Verdict
+from dofkit.relations.setting import Setting
 from dofkit.variety import on_variety
 
 #: Starts and steps of the search for a real point of a locus; where it is regular a few are enough.

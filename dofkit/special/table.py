@@ -13,7 +13,6 @@ from itertools import combinations
 from math import comb
 
 from dofkit import expr as ex
-from dofkit.answers import Setting
 from dofkit.blocks import Block
 from dofkit.deadline import check
 from dofkit.exact.canon import Canon, Poly, Quotient, TooLargeError
@@ -21,6 +20,7 @@ from dofkit.exact.minors import cleared, determinant
 from dofkit.exact.ring import Ring
 from dofkit.expr import Expr
 from dofkit.normal import Finite, Pfaffian
+from dofkit.relations.setting import Setting
 from dofkit.special.derivation import Derivation
 from dofkit.special.reals import Reals
 

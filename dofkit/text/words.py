@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from functools import cache
 from typing import NamedTuple
 
+from dofkit.base.spelling import closest
 from dofkit.errors import TextError
 from dofkit.expr import PI, E
 from dofkit.text.characters import spelled
@@ -102,7 +102,7 @@ def _several(word: str, ways: list[tuple[Piece, ...]], column: int) -> TextError
 def _unknown(word: str, lookup: Lookup, column: int, called: bool) -> UnknownNameError:
     if word in _FOREIGN:
         return UnknownNameError(f"`{word}` has no meaning here", column, _FOREIGN[word])
-    near = nearest(word, lookup, called)
+    near = _nearest(word, lookup, called)
     what = f"there is no function `{word}`" if called else f"`{word}` is not declared"
     if word == "e":
         return UnknownNameError(what, column, "write `E` for Euler's number, or `exp(x)` for its powers")
@@ -119,7 +119,7 @@ def _unknown(word: str, lookup: Lookup, column: int, called: bool) -> UnknownNam
     return UnknownNameError(what, column, f"declared are: {listed}" if known else "no names are declared")
 
 
-def nearest(word: str, lookup: Lookup, called: bool = False) -> str | None:
+def _nearest(word: str, lookup: Lookup, called: bool = False) -> str | None:
     """The known name that looks most like ``word``."""
     target = spelled(word)
     declared = lookup.declared
@@ -134,9 +134,7 @@ def nearest(word: str, lookup: Lookup, called: bool = False) -> str | None:
         pool += [name + "dot" for name in coordinates]
     if len(pool) > _NEAR:  # keep the comparison short in a scene of thousands of names
         pool = [name for name in pool if abs(len(name) - len(target)) < 2 and _alike(name, target)][:_NEAR]
-    found = get_close_matches(target, pool, 1, 0.5)
-    found = found or get_close_matches(target, [*declared[:_NEAR], *ELEMENTARY], 1, 0.7)
-    return found[0] if found else None
+    return closest(target, pool, 0.5) or closest(target, [*declared[:_NEAR], *ELEMENTARY], 0.7)
 
 
 def _alike(name: str, target: str) -> bool:

@@ -12,7 +12,7 @@ from importlib import metadata, resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
-import dofkit
+from dofkit.base.version import __version__
 from dofkit.catalog import catalog_folder
 
 #: What wheels for Linux on a usual processor are called.
@@ -22,7 +22,7 @@ PIP_SECONDS = 600.0
 
 def own_wheel(folder: Path) -> Path:
     """The wheel of this dofkit, made from what is installed, in a folder."""
-    name = f"dofkit-{dofkit.__version__}"
+    name = f"dofkit-{__version__}"
     info = f"{name}.dist-info"
     files = dict(_files())
     files[f"{info}/METADATA"] = "".join(f"{line}\n" for line in _metadata()).encode()
@@ -62,7 +62,7 @@ def download(folder: Path, python: str, needed: Sequence[str]) -> str | None:
 
 
 def _metadata() -> Iterator[str]:
-    yield from ("Metadata-Version: 2.1", "Name: dofkit", f"Version: {dofkit.__version__}")
+    yield from ("Metadata-Version: 2.1", "Name: dofkit", f"Version: {__version__}")
     yield "Requires-Python: >=3.11"
     yield from (f"Requires-Dist: {requirement}" for requirement in requirements())
 

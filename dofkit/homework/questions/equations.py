@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Annotated, Literal, TypeVar
+from typing import Annotated, Literal, NamedTuple, TypeVar
 
 from pydantic import BeforeValidator, Field
 
 from dofkit.errors import Fault, SceneError, TextError
 from dofkit.homework.comparison import Sameness, compare, is_integral
-from dofkit.homework.equations import Read, beside, read_equations
+from dofkit.homework.equations import Read, read_equations, with_equations
 from dofkit.homework.judgement import HALF, NOTHING, Given, Judgement, needs_review, partly, right, wrong
 from dofkit.homework.key import Key
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.words import is_none, one_text, split_words
-from dofkit.scene import Scene
+from dofkit.lowering import lower
+from dofkit.system import System
 from dofkit.values import Listed, suggestion
 
 _FEEDBACK = {
@@ -33,7 +34,16 @@ _FEEDBACK = {
 #: What an answer that is not quite the constraint is worth.
 _HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATED, Sameness.WITHOUT_CONSTANT})
 _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
+#: What the equations of an answer are called in the scene that holds them.
+ANSWER = "the answer"
 Found = TypeVar("Found")
+
+
+class Posed(NamedTuple):
+    """A scene's mathematics with an answer in it, and the numbers of the answer's constraints."""
+
+    system: System
+    own: range
 
 
 def _names(value: object) -> object:
@@ -66,7 +76,11 @@ class EquationQuestion(QuestionBase):
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         read = self._read(answer, key)
-        found = _beside(key, read, lambda scene: compare(scene, self.constraint, read.constants))
+        found = _beside(
+            key,
+            read,
+            lambda posed: compare(posed.system, posed.system.numbers_of(*self.constraint), posed.own, read.constants),
+        )
         if found.sameness is Sameness.UNDECIDED:
             return needs_review(read.shown, "whether it is the same constraint was not decided in the time there is.")
         told, code = _FEEDBACK[found.sameness], found.sameness.value
@@ -118,7 +132,9 @@ class IntegralQuestion(QuestionBase):
         read = self._read(answer, key)
         if entry.holonomic is False:
             return wrong(read.shown, "The constraint does not integrate to a finite relation.", "NOT_INTEGRABLE")
-        found = _beside(key, read, lambda scene: is_integral(scene, self.constraint))
+        found = _beside(
+            key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(self.constraint), posed.own)
+        )
         if found is None:
             return needs_review(read.shown, "whether it is an integral was not decided in the time there is.")
         if found:
@@ -144,10 +160,11 @@ def _none(answer: Given) -> bool:
     return is_none(split_words(answer)) if isinstance(answer, str) else False
 
 
-def _beside(key: Key, read: Read, question: Callable[[Scene], Found]) -> Found:
+def _beside(key: Key, read: Read, question: Callable[[Posed], Found]) -> Found:
     """What is found of the scene with the answer. Raises TextError where the scene cannot hold it."""
     try:
-        return question(beside(key.scene, read))
+        system = lower(with_equations(key.scene, read, ANSWER))
+        return question(Posed(system, range(len(key.scene.constraints), len(system.constraints))))
     except SceneError as error:
         fault = error.faults[0]
         raise TextError(fault.message, fault.column or 1, fault.hint) from None

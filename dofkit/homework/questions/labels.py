@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from difflib import get_close_matches
 from fractions import Fraction
 from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
+from dofkit.base.spelling import closest
 from dofkit.errors import Fault, TextError
 from dofkit.homework.judgement import Given, Judgement, needs_review, partly
 from dofkit.homework.key import Key
@@ -149,10 +149,10 @@ def _label(text: str) -> tuple[str, bool] | None:
         return _WORDS[plain]
     negated = next((n for n in ("non", "not", "nicht") if plain.startswith(n)), "")
     rest = plain[len(negated) :]
-    near = get_close_matches(rest, [w for w in _WORDS if not w.startswith("n")], 1, ALIKE)
-    if not near:
+    near = closest(rest, [w for w in _WORDS if not w.startswith("n")], ALIKE)
+    if near is None:
         return None
-    part, holds = _WORDS[near[0]]
+    part, holds = _WORDS[near]
     return part, holds != bool(negated)
 
 

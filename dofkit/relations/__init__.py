@@ -1,0 +1,1 @@
+"""What each relation says over the reals, in blocks that share no coordinate, ready for the engines."""

@@ -1,0 +1,39 @@
+"""What the engines may assume of the symbols of a system, which of them may be asked, and what is asked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from dofkit.exact.engines import BOTH, Engines
+from dofkit.expr import Expr
+from dofkit.reductions import ALL, Reductions
+from dofkit.system import Coordinate, Distance
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What the engines may assume of the symbols, which of them may be asked, and what is asked beyond the labels.
+
+    ``grows``: the growth vector; ``flag``: the derived flag.
+    ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
+    that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the
+    constraints that weld.
+    """
+
+    positive: frozenset[Expr]
+    generic: tuple[Expr, ...] = ()
+    pose: Mapping[Expr, Expr] = field(default_factory=dict)
+    reference: Mapping[Expr, Expr] | None = None
+    roles: tuple[Coordinate, ...] = ()
+    tolerance: Fraction | None = None
+    size: float = 1.0
+    grows: bool = True
+    engines: Engines = BOTH
+    flag: bool = False
+    dimension: int = 3
+    distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
+    links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)
+    reductions: Reductions = ALL
+    welds: frozenset[int] = frozenset()
