@@ -84,7 +84,7 @@ def compare(
 def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
     """Are the constraints numbered ``answer`` finite relations to which those numbered ``asked`` integrate?
 
-    Are the differentials of the answer and the forms the same in the presence of the others? None where it is undecided.
+    Are the differentials of the answer and the forms the same in the presence of the others? None: undecided.
     """
     return _comparison(system, asked, answer, frozenset()).integrates()
 
