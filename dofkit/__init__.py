@@ -12,21 +12,21 @@ from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from dofkit.base.errors import DofkitError, SceneError, TextError
 from dofkit.base.version import __version__
-from dofkit.errors import DofkitError, SceneError, TextError
 
 if TYPE_CHECKING:
-    from dofkit.asking import ask
-    from dofkit.catalog import catalog_names, catalog_text
-    from dofkit.classify import classify, derived_flag
+    from dofkit.classification.passes import classify, derived_flag
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.grading import grade
-    from dofkit.lagrange import lagrange
-    from dofkit.linkage import Linkage, linkage, redundant_links
-    from dofkit.reading import load, loads
+    from dofkit.methods.ask import ask
+    from dofkit.mobility.graph.answers import Linkage, linkage, redundant_links
+    from dofkit.motion.lagrange.equations import lagrange
+    from dofkit.motion.sampled.configurations import configurations
     from dofkit.report import Report
-    from dofkit.sampling import configurations
-    from dofkit.scene import Scene
+    from dofkit.scene.catalog import catalog_names, catalog_text
+    from dofkit.scene.reading import load, loads
+    from dofkit.scene.scene import Scene
 
 __all__ = [
     "DofkitError",
@@ -53,22 +53,22 @@ __all__ = [
 
 #: Where the other names live: what they need is imported when they are first asked for.
 _HOMES = {
-    "Linkage": "dofkit.linkage",
+    "Linkage": "dofkit.mobility.graph.answers",
     "Report": "dofkit.report",
-    "Scene": "dofkit.scene",
-    "ask": "dofkit.asking",
-    "catalog_names": "dofkit.catalog",
-    "catalog_text": "dofkit.catalog",
-    "classify": "dofkit.classify",
-    "configurations": "dofkit.sampling",
-    "derived_flag": "dofkit.classify",
+    "Scene": "dofkit.scene.scene",
+    "ask": "dofkit.methods.ask",
+    "catalog_names": "dofkit.scene.catalog",
+    "catalog_text": "dofkit.scene.catalog",
+    "classify": "dofkit.classification.passes",
+    "configurations": "dofkit.motion.sampled.configurations",
+    "derived_flag": "dofkit.classification.passes",
     "grade": "dofkit.homework.grading",
-    "lagrange": "dofkit.lagrange",
-    "linkage": "dofkit.linkage",
-    "load": "dofkit.reading",
+    "lagrange": "dofkit.motion.lagrange.equations",
+    "linkage": "dofkit.mobility.graph.answers",
+    "load": "dofkit.scene.reading",
     "load_assignment": "dofkit.homework.assignment",
-    "loads": "dofkit.reading",
-    "redundant_links": "dofkit.linkage",
+    "loads": "dofkit.scene.reading",
+    "redundant_links": "dofkit.mobility.graph.answers",
 }
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal, NamedTuple
 
-from dofkit.expr import Expr
+from dofkit.expressions.tree import Expr
 
 Sense = Literal["=", ">=", ">"]
 Sign = Literal["real", "positive", "nonzero"]

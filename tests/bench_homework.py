@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 import dofkit
+from dofkit.homework.answers.submission import of_value
 from dofkit.homework.grading import Grader
-from dofkit.homework.submission import of_value
 
 STUDENTS = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
 SCENES: dict[str, dict[str, Any]] = {

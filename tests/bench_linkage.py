@@ -23,7 +23,7 @@ from unittest.mock import patch
 import numpy as np
 
 import dofkit
-from dofkit.linkage import compiled
+from dofkit.mobility.graph import compiled
 
 Links = list[tuple[int, int]]
 #: Seconds that one row may take, with what it needs.

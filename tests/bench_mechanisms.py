@@ -20,9 +20,9 @@ from typing import Any
 import numpy as np
 
 import dofkit
-from dofkit.lowering import lower
-from dofkit.placed import measured
-from dofkit.twists import rows_of
+from dofkit.mobility.placement import measured
+from dofkit.mobility.twists import rows_of
+from dofkit.scene.lowering import lower
 
 Scene = Mapping[str, Any]
 

@@ -15,10 +15,10 @@ from typing import Any
 from trials import Outcome, outcome
 
 import dofkit
-from dofkit.chart.families.drawn import Framework
-from dofkit.chart.families.randoms import graph
-from dofkit.chart.families.sweeps import SWEEPS, Case, drawn_case
-from dofkit.methods import MethodName
+from dofkit.benchmark.trials.frameworks import Framework
+from dofkit.benchmark.trials.random_systems import graph
+from dofkit.benchmark.trials.sweeps import SWEEPS, Case, drawn_case
+from dofkit.methods.table import MethodName
 
 #: Primes of 3, 6, 14 and 61 bits.
 PRIMES = (7, 61, 16381, 2**61 - 1)

@@ -7,8 +7,8 @@ import os
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from dofkit.alone.told import Knobs, Told
-from dofkit.chart.trial import Trial
+from dofkit.benchmark.trials.trial import Trial
+from dofkit.methods.shared.reply import Knobs, Told
 
 
 def answered(

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from dofkit.chart.families.contexts import identities, near_misses
-from dofkit.chart.families.making import Known
-from dofkit.chart.families.otherwise import other_coordinates
-from dofkit.chart.families.steps import tiny_steps
+from dofkit.benchmark.trials.contexts import identities, near_misses
+from dofkit.benchmark.trials.making import Known
+from dofkit.benchmark.trials.rewritten import other_coordinates
+from dofkit.benchmark.trials.steps import tiny_steps
 
 
 @dataclass(frozen=True)

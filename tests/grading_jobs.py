@@ -9,13 +9,13 @@ from typing import Literal
 
 from pydantic import Field
 
+from dofkit.base.workers import MEMORY
 from dofkit.homework.assignment import Assignment, Prepared, Problem
-from dofkit.homework.batch import Orders
 from dofkit.homework.judgement import Given, Judgement, right
-from dofkit.homework.key import Key
+from dofkit.homework.key.key import Key
 from dofkit.homework.questions import Earlier, QuestionBase
-from dofkit.reading import load
-from dofkit.workers import MEMORY
+from dofkit.homework.runs.batch import Orders
+from dofkit.scene.reading import load
 
 
 class Hostile(QuestionBase):

@@ -12,7 +12,7 @@ from zlib import crc32
 
 import dofkit
 from dofkit.report import Report
-from dofkit.scene import Scene
+from dofkit.scene.scene import Scene
 
 ROOT = Path(__file__).parent.parent
 CATALOG = sorted((ROOT / "catalog").glob("*/*.yaml"))

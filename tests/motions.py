@@ -8,14 +8,14 @@ from typing import Any
 from flint import nmod_mat
 
 import dofkit
-from dofkit.exact.field import NoPointError, field_point
-from dofkit.exact.program import values
-from dofkit.exact.ring import Ring
-from dofkit.expr import ZERO, Expr, coordinate, diff, parameter, substitute, sym, velocity
-from dofkit.lagrange import MotionReport
-from dofkit.scene import Scene
-from dofkit.survey import survey
-from dofkit.text import Names, parse_expression, parse_relations
+from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions.text import Names, parse_expression, parse_relations
+from dofkit.expressions.tree import ZERO, Expr, coordinate, diff, parameter, substitute, sym, velocity
+from dofkit.motion.lagrange.equations import MotionReport
+from dofkit.scene.scene import Scene
+from dofkit.scene.survey import survey
 
 POINTS = 3
 POSITIVE = ("m", "M", "m1", "m2", "l", "l1", "l2", "g", "k", "R", "J", "I1", "I3", "a", "b", "c", "w", "h")

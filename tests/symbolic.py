@@ -19,9 +19,9 @@ import networkx as nx
 import sympy
 from sympy.polys.fields import field as make_field
 
-from dofkit.expr import Expr
-from dofkit.lowering import lower
-from dofkit.scene import Scene
+from dofkit.expressions.tree import Expr
+from dofkit.scene.lowering import lower
+from dofkit.scene.scene import Scene
 
 #: Coordinates of a part, and derivatives of an unknown function that are kept ready.
 MOST, ORDERS = 8, 6

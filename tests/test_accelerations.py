@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit import expr as ex
-from dofkit.accelerations import integrated_once
-from dofkit.errors import TextError
-from dofkit.exact.identity import told_zero
-from dofkit.text import Names, parse_expression
-from dofkit.text.derivatives import by_time
+from dofkit.base.errors import TextError
+from dofkit.exact.zero.identity import told_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.text import Names, parse_expression
+from dofkit.expressions.text.derivatives import by_time
+from dofkit.integrability.accelerations import integrated_once
 
 NAMES = Names(
     coordinates=frozenset("xyz"),

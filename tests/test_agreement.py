@@ -7,9 +7,9 @@ import random
 import pytest
 
 import dofkit
-from dofkit.chart.families.drawn import Framework
-from dofkit.chart.families.randoms import Bodies, coarse, dependent, graph, loop, tree
-from dofkit.methods import BY_ENGINES, MethodName
+from dofkit.benchmark.trials.frameworks import Framework
+from dofkit.benchmark.trials.random_systems import Bodies, coarse, dependent, graph, loop, tree
+from dofkit.methods.table import BY_ENGINES, MethodName
 from dofkit.report import Report
 
 DIMENSIONS = (1, 2, 3)

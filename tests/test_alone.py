@@ -9,14 +9,14 @@ import pytest
 from known_scenes import SCENES, dealt, report_of, scene_of
 
 import dofkit
-import dofkit.alone
-from dofkit.alone import Knobs, answered, answering
+import dofkit.methods.dispatch
 from dofkit.base.verdicts import VERDICTS
-from dofkit.chart.failures import TRAITS, WHY, explained
-from dofkit.methods import BY_ENGINES, METHODS, QUESTIONS, MethodName, Question
+from dofkit.benchmark.failures import TRAITS, WHY, explained
+from dofkit.methods.dispatch import Knobs, answered, answering
+from dofkit.methods.table import BY_ENGINES, METHODS, QUESTIONS, MethodName, Question
 from dofkit.report import Report
 
-HOME = Path(dofkit.alone.__file__).parent
+HOME = Path(dofkit.methods.__file__).parent
 #: Modules of the package that are no method.
 SHARED = frozenset({"__init__", "told", "written", "pointwise", "reporting", "atdrawing"})
 RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if m not in BY_ENGINES)
@@ -142,7 +142,7 @@ def test_a_method_answers_what_its_row_says(method: MethodName) -> None:
     for question in QUESTIONS:
         work = answering(method, question)
         assert (work is not None) == (question in METHODS[method].uses)
-        assert work is None or work.__module__ == f"dofkit.alone.{method}"
+        assert work is None or work.__module__ == f"dofkit.methods.{method}"
     assert all(use.sound and use.costs for use in METHODS[method].uses.values())
 
 

@@ -22,7 +22,6 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from dofkit.cli import app
 from dofkit.homework import notebooks, otter
 from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.autograder import SITES, grade_at, main, undecided
@@ -33,6 +32,7 @@ from dofkit.homework.judgement import needs_review
 from dofkit.homework.nbgrader import points
 from dofkit.homework.notebooks import QuestionError
 from dofkit.homework.questions import QuestionBase
+from dofkit.interface.cli import app
 
 MEMORY = 2 << 30
 ASSIGNMENT = """\
@@ -303,7 +303,7 @@ def test_our_wheel(tmp_path: Path) -> None:
         record = packed.read("dofkit-0.1.0.dist-info/RECORD").decode()
         listed = dict(line.split(",", 1) for line in record.splitlines())
         assert set(listed) == names
-        for name in ("dofkit/cli.py", "dofkit/homework/formats/html/templates/base.html"):
+        for name in ("dofkit/interface/cli.py", "dofkit/homework/formats/html/templates/base.html"):
             data = packed.read(name)
             digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
             assert listed[name] == f"sha256={digest},{len(data)}"

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit import solving
-from dofkit.answers import Answer
-from dofkit.blocks import Block
+from dofkit.classification.freedom import branches as solving
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block
 from dofkit.relations.setting import Setting
 
 

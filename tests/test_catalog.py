@@ -13,18 +13,18 @@ import pytest
 from known_scenes import CATALOG, ROOT, SCENES, report_of, scene_of, stem
 
 import dofkit
-import dofkit.documents
-import dofkit.lowering
-from dofkit import cli
-from dofkit.constraints import TYPES
-from dofkit.errors import SceneError
-from dofkit.exact.field import FieldPoint, NoPointError, field_point
-from dofkit.exact.program import gradient, values
-from dofkit.exact.ring import Ring
-from dofkit.expr import Expr, parameter
+import dofkit.base.documents
+import dofkit.scene.lowering
+from dofkit.base.errors import SceneError
+from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions.text import Names, parse_expression
+from dofkit.expressions.tree import Expr, parameter
+from dofkit.interface import cli
 from dofkit.report import ConstraintEntry, Report
-from dofkit.scene import Scene
-from dofkit.text import Names, parse_expression
+from dofkit.scene.constraints import TYPES
+from dofkit.scene.scene import Scene
 
 BAD = ROOT / "tests/scenes/bad"
 #: Keys of `expect` whose lists are sets of names.

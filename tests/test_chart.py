@@ -15,17 +15,17 @@ import chart_methods
 import pytest
 from typer.testing import CliRunner
 
-from dofkit.alone.told import Knobs
-from dofkit.chart import command, runner, statistics, storing, table, tasks
-from dofkit.chart.ablation import AblationRow
-from dofkit.chart.judging import judged
-from dofkit.chart.record import AUTO, Data, Line, Outcome, Ran, Reduction, Score
-from dofkit.chart.selecting import Selection
-from dofkit.chart.summary import summary
-from dofkit.chart.trial import Trial
-from dofkit.cli import app
-from dofkit.workers import Pool
-from dofkit.workers.crews import Threads
+from dofkit.base.workers import Pool
+from dofkit.base.workers.crews import Threads
+from dofkit.benchmark import command, runner, statistics, storing, table, tasks
+from dofkit.benchmark.ablation import AblationRow
+from dofkit.benchmark.judging import judged
+from dofkit.benchmark.record import AUTO, Data, Line, Outcome, Ran, Reduction, Score
+from dofkit.benchmark.selecting import Selection
+from dofkit.benchmark.summary import summary
+from dofkit.benchmark.trials.trial import Trial
+from dofkit.interface.cli import app
+from dofkit.methods.shared.reply import Knobs
 
 RAN = Ran(
     version="0",
@@ -53,7 +53,7 @@ def said(method: str, question: str, traits: tuple[str, ...], outcome: str, reas
 
 def ran(methods: Sequence[str], limit: float = 0.3) -> list[Line]:
     """The trials of the family by these methods, in two workers."""
-    with Pool(2, modules=("dofkit.chart.asking", "chart_methods")) as pool, Threads(2, pool.close) as threads:
+    with Pool(2, modules=("dofkit.benchmark.trial_job", "chart_methods")) as pool, Threads(2, pool.close) as threads:
         bench = runner.Bench(threads, pool.run, limit, said, "chart_methods:answered")
         return list(runner.run(tasks.crossed(chart_methods.family(False), methods), bench))
 
@@ -312,7 +312,7 @@ def test_reductions_are_kept_as_they_are_measured() -> None:
 
 @pytest.mark.skipif(find_spec("matplotlib") is None, reason="needs matplotlib")
 def test_every_figure_is_drawn(tmp_path: Path) -> None:
-    from dofkit.chart import figures
+    from dofkit.benchmark import figures
 
     chart = summary(DATA)
     bits = replace(SWEEPS[0], knob="bits", method="balls", value=16.0, group="1/9")

@@ -11,13 +11,13 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.alone import answered
-from dofkit.chart.failures import TRAITS
-from dofkit.chart.families import FAMILIES
-from dofkit.chart.families.drawn import Framework
-from dofkit.chart.families.making import kind
-from dofkit.chart.families.randoms import dependent
-from dofkit.chart.trial import Trial
+from dofkit.benchmark.failures import TRAITS
+from dofkit.benchmark.trials import FAMILIES
+from dofkit.benchmark.trials.frameworks import Framework
+from dofkit.benchmark.trials.making import kind
+from dofkit.benchmark.trials.random_systems import dependent
+from dofkit.benchmark.trials.trial import Trial
+from dofkit.methods.dispatch import answered
 
 #: Families meant for cost against size.
 LADDERS = (

@@ -6,11 +6,11 @@ import re
 from functools import cache
 from pathlib import Path
 
-from dofkit.chart import storing
-from dofkit.chart.families import FAMILIES
-from dofkit.chart.record import AUTO, Chart, Data
-from dofkit.chart.statistics import against
-from dofkit.methods import METHODS
+from dofkit.benchmark import storing
+from dofkit.benchmark.record import AUTO, Chart, Data
+from dofkit.benchmark.statistics import against
+from dofkit.benchmark.trials import FAMILIES
+from dofkit.methods.table import METHODS
 
 ROOT = Path(__file__).parent.parent
 CHARTS = ROOT / "tests" / "charts"

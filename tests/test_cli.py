@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit import cli
+from dofkit.interface import cli
 
 GOOD = "coordinates: [x, y]\nconstraints:\n- x dy + y dx = 0\n"
 BAD = "coordinates: [theta]\nconstraints:\n- theta = 1\n- thta = 1\n- 2 thtta = 1\n"
@@ -110,7 +110,7 @@ def test_standard_input_is_a_file() -> None:
 
 
 FAILING = """
-import sys, dofkit.telling as telling, dofkit.cli
+import sys, dofkit.interface.classify_file as telling, dofkit.interface.cli
 real = telling.stages
 def failing(scene, *others):
     if scene.name == "good":
@@ -118,7 +118,7 @@ def failing(scene, *others):
     return real(scene, *others)
 telling.stages = failing
 sys.argv = ["dofkit", "classify", "--json", *sys.argv[1:]]
-dofkit.cli.main()
+dofkit.interface.cli.main()
 """
 
 
@@ -155,7 +155,7 @@ def test_catalog_lists_and_shows(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_titles_are_those_of_the_scenes() -> None:
-    from dofkit.catalog import catalog_titles
+    from dofkit.scene.catalog import catalog_titles
 
     for name, title in catalog_titles().items():
         assert dofkit.load(name).title == title
@@ -185,7 +185,7 @@ def test_little_is_imported_before_it_is_needed(arguments: Sequence[str]) -> Non
 
 def test_the_public_names_are_there() -> None:
     assert set(dofkit.__all__) <= set(dir(dofkit))
-    code = "import dofkit.classify, dofkit; assert not isinstance(dofkit.classify, type(dofkit))"
+    code = "import dofkit.methods, dofkit; assert not isinstance(dofkit.classify, type(dofkit))"
     subprocess.run([sys.executable, "-c", code], check=True)
     with pytest.raises(AttributeError, match="no attribute 'clasify'"):
         _ = dofkit.clasify

@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.expr import num
+from dofkit.configuration.distance_geometry import unmet
+from dofkit.expressions.tree import num
 from dofkit.system import Distance, Place
-from dofkit.unmet import unmet
 
 
 def classified(coordinates: list[str], constraints: list[Any]) -> dofkit.Report:

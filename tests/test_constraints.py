@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from dofkit.constraints import TYPES
-from dofkit.expr import TIME, Expr, coordinate, diff, parameter, velocity
-from dofkit.lowering import lower
-from dofkit.scene import Scene
+from dofkit.expressions.text import to_text
+from dofkit.expressions.tree import TIME, Expr, coordinate, diff, parameter, velocity
+from dofkit.scene.constraints import TYPES
+from dofkit.scene.lowering import lower
+from dofkit.scene.scene import Scene
 from dofkit.system import System
-from dofkit.text import to_text
 
 GROUND = "ground"
 AXIS = [2, -1, 2]

@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit import deadline
-from dofkit.deadline import OutOfTimeError, affordable, check, expired, left, limited, part, unless_late
+from dofkit.base import deadline
+from dofkit.base.deadline import OutOfTimeError, affordable, check, expired, left, limited, part, unless_late
 from dofkit.report import Report
 
 CLASSIFY = sys.modules[dofkit.classify.__module__]
@@ -123,7 +123,7 @@ def test_what_is_finished_keeps_its_answer() -> None:
 def test_a_branch_that_was_not_finished_is_not_passed_over(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of x y = 0 and x z = 0 the branch x = 0 leaves two freedoms; y = z = 0 leaves one, and is not the answer."""
     made = {"coordinates": ["x", "y", "z"], "constraints": ["x y = 0", "x z = 0"]}
-    solving = sys.modules["dofkit.solving"]
+    solving = sys.modules["dofkit.classification.freedom.branches"]
     real = solving.answer
 
     def late(block: Any, setting: Any) -> Any:
@@ -143,7 +143,7 @@ def test_redundancy_that_there_was_no_time_for_is_not_denied(monkeypatch: pytest
 
     made = {"coordinates": ["x", "y", "z"], "constraints": ["x = y", "y = z", "x = z"]}
     assert within(60, **made)[0].redundant == ["c3"]
-    monkeypatch.setattr(sys.modules["dofkit.dependence"], "analyse", late)
+    monkeypatch.setattr(sys.modules["dofkit.classification.dependence.redundancy"], "analyse", late)
     report, _ = within(60, **made)
     assert (report.dof, report.redundant_equations, report.redundant) == (1, 1, [])
     assert report.verdict == "undecided"

@@ -10,12 +10,12 @@ import mpmath
 import pytest
 
 import dofkit
-from dofkit import expr as ex
-from dofkit.constants import interval
-from dofkit.emptiness import no_solution
-from dofkit.exact import intervals as iv
-from dofkit.expr import Expr
-from dofkit.text import Names, parse_relations
+from dofkit.exact.boxes import intervals as iv
+from dofkit.expressions import tree as ex
+from dofkit.expressions.enclosures import interval
+from dofkit.expressions.text import Names, parse_relations
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.no_solution import no_solution
 
 R = ex.parameter("R")
 NAMES = Names(

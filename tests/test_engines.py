@@ -14,29 +14,29 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import dofkit
-from dofkit import expr as ex
-from dofkit.errors import TextError
-from dofkit.exact.balls import BallPoint, RealSearch
-from dofkit.exact.canon import Canon, is_identically_zero
-from dofkit.exact.field import field_point
-from dofkit.exact.floats import independent_part
-from dofkit.exact.identity import is_zero
-from dofkit.exact.points import Solver
-from dofkit.exact.program import gradient, values
-from dofkit.exact.ring import Ring
-from dofkit.exact.series import Series, SeriesPoint, series_values
-from dofkit.exact.sparse import sparse
-from dofkit.exact.terms import expand, linear_terms
-from dofkit.expr import Expr
-from dofkit.flag import growth
-from dofkit.flow import lie_span
-from dofkit.forms import Frame, Rows, certified_rank, field_frame, field_rank
-from dofkit.normal import Finite, Nonlinear, Normal, Pfaffian, normalise
-from dofkit.redundancy import Rows as Equations
-from dofkit.redundancy import analyse
+from dofkit.base.errors import TextError
+from dofkit.classification.dependence.circuits import Rows as Equations
+from dofkit.classification.dependence.circuits import analyse
+from dofkit.exact.matrices.singular_values import independent_part
+from dofkit.exact.matrices.sparse import sparse
+from dofkit.exact.points.balls import BallPoint, RealSearch
+from dofkit.exact.points.field import field_point
+from dofkit.exact.points.frames import Frame, Rows, certified_rank, field_frame, field_rank
+from dofkit.exact.points.series import Series, SeriesPoint, series_values
+from dofkit.exact.ring.canonical import Canon, is_identically_zero
+from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.solving.triangular import Solver
+from dofkit.exact.zero.identity import is_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.terms import expand, linear_terms
+from dofkit.expressions.text import Names, parse_expression, parse_relations, to_text
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.growth_vector import growth
+from dofkit.integrability.lie_algebra import lie_span
+from dofkit.relations.normal.normal_form import Finite, Nonlinear, Normal, Pfaffian, normalise
+from dofkit.relations.normal.zero_set import never_holds, never_vanishes, zero_set
 from dofkit.report import Report
-from dofkit.text import Names, parse_expression, parse_relations, to_text
-from dofkit.zeros import never_holds, never_vanishes, zero_set
 
 X, Y, Z = map(ex.coordinate, "xyz")
 NAMES = Names(

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.frameworks import METHOD
+from dofkit.mobility.frameworks import METHOD
 
 Pair = tuple[str, str]
 

@@ -11,15 +11,15 @@ from known_scenes import OURS, scene_of, stem
 from rich.console import Console
 
 import dofkit
-from dofkit import local
-from dofkit.constraints import TYPES
-from dofkit.exact.sparse import rank_of_rows
-from dofkit.lowering import lower
-from dofkit.placed import drawn
+from dofkit.configuration.drawing import at_reference as local
+from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.interface.show.terminal import as_text
+from dofkit.mobility.placement import drawn
+from dofkit.mobility.twists import KINDS, rows_of
 from dofkit.report import Report
-from dofkit.show.terminal import as_text
+from dofkit.scene.constraints import TYPES
+from dofkit.scene.lowering import lower
 from dofkit.system import System
-from dofkit.twists import KINDS, rows_of
 
 SCENES = Path(__file__).parent / "scenes"
 

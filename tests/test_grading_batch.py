@@ -19,14 +19,14 @@ from grading_jobs import orders
 from test_homework import FILES, document
 
 import dofkit
-from dofkit import cli
-from dofkit.homework.batch import Orders
+from dofkit.homework.answers.sources import Handed, handed
+from dofkit.homework.answers.submission import Place, of_value
 from dofkit.homework.grading import Grader
-from dofkit.homework.journal import BusyError, Journal
-from dofkit.homework.keeper import Keeper
-from dofkit.homework.running import Local, Seen, in_order
-from dofkit.homework.sources import Handed, handed
-from dofkit.homework.submission import Place, of_value
+from dofkit.homework.runs.batch import Orders
+from dofkit.homework.runs.in_order import Local, Seen, in_order
+from dofkit.homework.runs.journal import BusyError, Journal
+from dofkit.homework.runs.keeper import Keeper
+from dofkit.interface import cli
 
 POINT = {"coordinates": ["x", "y"], "constraints": [{"name": "circle", "type": "equation", "text": "x^2 + y^2 = 1"}]}
 QUESTIONS = [

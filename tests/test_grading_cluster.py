@@ -11,13 +11,13 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit import cli
-from dofkit.homework.batch import Orders
-from dofkit.homework.cluster import Cluster
-from dofkit.homework.keeper import Keeper
-from dofkit.homework.running import Local, in_order
-from dofkit.homework.sources import Handed
-from dofkit.homework.submission import Place
+from dofkit.homework.answers.sources import Handed
+from dofkit.homework.answers.submission import Place
+from dofkit.homework.runs.batch import Orders
+from dofkit.homework.runs.cluster import Cluster
+from dofkit.homework.runs.in_order import Local, in_order
+from dofkit.homework.runs.keeper import Keeper
+from dofkit.interface import cli
 
 distributed: Any = pytest.importorskip("distributed")
 

@@ -10,11 +10,11 @@ from typing import Any
 import pytest
 from ruamel.yaml import YAML
 
+from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.grading import Grader
-from dofkit.homework.misconceptions import ERRORS
+from dofkit.homework.key.misconceptions import ERRORS
 from dofkit.homework.questions import KINDS
-from dofkit.homework.submission import of_value
 
 HERE = Path(__file__).parent / "homework"
 FILES = sorted(path.stem for path in HERE.glob("*.yaml"))

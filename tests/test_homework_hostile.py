@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
+from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.grading import Grader
-from dofkit.homework.submission import of_value
 
 #: Seconds for one answer that is refused, and for one that is an equation after all, on a machine that is not quiet.
 QUICK, GRADED = 0.05, 0.2

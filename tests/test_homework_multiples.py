@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 
 import dofkit
-from dofkit.homework.equations import read_equations, with_equations
-from dofkit.homework.key import Key
-from dofkit.homework.multiples import same_up_to_numbers
-from dofkit.lowering import lower
-from dofkit.preparing import prepared
+from dofkit.classification.dependence.multiples import same_up_to_numbers
+from dofkit.classification.freedom.preparation import prepared
+from dofkit.homework.key.key import Key
+from dofkit.scene.added_equations import read_equations, with_equations
+from dofkit.scene.lowering import lower
 
 FINITE = ("x^2 + y^2 = 1", "z = x y")
 FORMS = ("dx = R cos(theta) dphi", "dy = R sin(theta) dphi")

@@ -17,11 +17,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dofkit import expr as ex
-from dofkit.expr import Expr
-from dofkit.integrals import Found, integrate
-from dofkit.normal import Pfaffian, cleared, in_velocities, linear_form
-from dofkit.text import Names, parse_expression, parse_relations
+from dofkit.expressions import tree as ex
+from dofkit.expressions.text import Names, parse_expression, parse_relations
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.integrals.search import Found, integrate
+from dofkit.relations.normal.normal_form import Pfaffian, cleared, in_velocities, linear_form
 
 COORDINATES = ("x", "y", "z", "s", "r", "phi", "theta")
 PARAMETERS = ("R", "a", "b", "k", "v", "l", "C")

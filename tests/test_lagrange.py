@@ -9,10 +9,10 @@ import pytest
 from motions import PLANE, acceleration, check, energies, names_of, scene, vanishes, zero
 
 import dofkit
-from dofkit.errors import SceneError
-from dofkit.expr import ZERO, Expr, parameter, substitute, velocity
-from dofkit.lagrange import MotionError
-from dofkit.text import Names, parse_expression
+from dofkit.base.errors import SceneError
+from dofkit.expressions.text import Names, parse_expression
+from dofkit.expressions.tree import ZERO, Expr, parameter, substitute, velocity
+from dofkit.motion.lagrange.equations import MotionError
 
 # The lectures' systems: accelerations by Newton's law, or known solutions.
 

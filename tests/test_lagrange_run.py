@@ -12,11 +12,11 @@ import sympy
 from motions import PLANE, energies, names_of, scene, vanishes, zero
 
 import dofkit
-from dofkit import cli
-from dofkit.lagrange import MotionReport
-from dofkit.lagrange.bridge import Bridge
-from dofkit.scene import Scene
-from dofkit.text import parse_expression
+from dofkit.expressions.sympy_bridge import Bridge
+from dofkit.expressions.text import parse_expression
+from dofkit.interface import cli
+from dofkit.motion.lagrange.equations import MotionReport
+from dofkit.scene.scene import Scene
 
 # Energy along a run, and what is handed over
 

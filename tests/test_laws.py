@@ -18,10 +18,10 @@ from known_scenes import SCENES, dealt, report_of, scene_of, stem
 
 import dofkit
 from dofkit.base.verdicts import weakest
-from dofkit.lowering import lower
-from dofkit.naming import Owners
 from dofkit.report import ConstraintEntry, Report
-from dofkit.scene import Scene
+from dofkit.scene.lowering import lower
+from dofkit.scene.names import Owners
+from dofkit.scene.scene import Scene
 
 Document = dict[str, Any]
 

@@ -17,7 +17,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import dofkit
-from dofkit.linkage import LinkageError, compiled, large, pebbles, plane, space
+from dofkit.mobility.graph import compiled, pebbles, plane, space
+from dofkit.mobility.graph import sparse_core as large
+from dofkit.mobility.graph.answers import LinkageError
 
 Link = tuple[Any, Any]
 Pairs = Sequence[tuple[int, int]]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from known_scenes import SCENES, scene_of, stem
 
-from dofkit.lowering import lower
+from dofkit.scene.lowering import lower
 
 MECHANISMS = [path for path in SCENES if path.parent.name == "mechanisms"]
 #: Drawn nowhere: lengths in general position, or only constraints.

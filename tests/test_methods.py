@@ -13,9 +13,9 @@ from typer.testing import CliRunner
 
 import dofkit
 from dofkit.base.verdicts import VERDICTS
-from dofkit.cli import app
 from dofkit.exact.engines import BOTH
-from dofkit.methods import BY_ENGINES, METHODS, MethodName
+from dofkit.interface.cli import app
+from dofkit.methods.table import BY_ENGINES, METHODS, MethodName
 from dofkit.report import Report
 
 ALONE = tuple(name for name in BY_ENGINES if name != "auto")

@@ -12,17 +12,17 @@ import pytest
 from flint import arb, ctx, nmod
 
 import dofkit
-from dofkit import expr as ex
-from dofkit.cone import bound, definite_combination, signature_of
-from dofkit.exact.balls import PRECISION, BallPoint
-from dofkit.exact.field import field_point
-from dofkit.exact.program import gradient, values
-from dofkit.exact.ring import Ring
-from dofkit.expr import Expr
-from dofkit.forms import field_frame
-from dofkit.manifold import Local, Manifold
-from dofkit.motion import local_dimension, numeric_dimension
-from dofkit.text import Names, parse_expression
+from dofkit.configuration.local.dimension import local_dimension, numeric_dimension
+from dofkit.configuration.local.manifold import Local, Manifold
+from dofkit.configuration.local.quadratic_cone import bound, definite_combination, signature_of
+from dofkit.exact.points.balls import PRECISION, BallPoint
+from dofkit.exact.points.field import field_point
+from dofkit.exact.points.frames import field_frame
+from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.text import Names, parse_expression
+from dofkit.expressions.tree import Expr
 
 LETTERS = "xyzuw"
 SYMBOLS = [ex.coordinate(c) for c in LETTERS]

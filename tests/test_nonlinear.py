@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit import dependence
+from dofkit.classification.dependence import redundancy as dependence
 
 ROLLING = ("dx = a cos(theta) dphi", "dy = a sin(theta) dphi")
 SIZES = {"a": "positive", "b": "positive", "w": "positive"}

@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.errors import SceneError
-from dofkit.exact.sparse import rank_of_rows
-from dofkit.lowering import lower
-from dofkit.placed import drawn
-from dofkit.twists import rows_of
+from dofkit.base.errors import SceneError
+from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.mobility.placement import drawn
+from dofkit.mobility.twists import rows_of
+from dofkit.scene.lowering import lower
 
 #: By dimension: the types, and which have a place and an axis.
 TYPES = {

@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 
 import dofkit
-from dofkit.documents import read_document
-from dofkit.documents.document import MOST_SLOW, _from_block, _from_flow, _from_yaml
-from dofkit.errors import Fault, SceneError
-from dofkit.reading import MOST_FAULTS, SceneFile, find, load, loads
-from dofkit.scene import Scene
+from dofkit.base.documents import read_document
+from dofkit.base.documents.document import MOST_SLOW, _from_block, _from_flow, _from_yaml
+from dofkit.base.errors import Fault, SceneError
+from dofkit.scene.reading import MOST_FAULTS, SceneFile, find, load, loads
+from dofkit.scene.scene import Scene
 
 HERE = Path(__file__).parent
 GOOD = sorted([*HERE.parent.glob("catalog/*/*.yaml"), *HERE.glob("scenes/[!b]*/*.yaml")])

@@ -12,11 +12,11 @@ from typing import Any, get_args
 import pytest
 
 import dofkit
-from dofkit.chart.ablation import SCENES, ablated, answered, differences
-from dofkit.chart.families import FAMILIES
-from dofkit.exact.sparse import rank_of_rows
-from dofkit.reductions import ALL, REDUCTIONS, ReductionName
-from dofkit.redundancy import Rows, analyse
+from dofkit.benchmark.ablation import SCENES, ablated, answered, differences
+from dofkit.benchmark.trials import FAMILIES
+from dofkit.classification.dependence.circuits import Rows, analyse
+from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.relations.reductions import ALL, REDUCTIONS, ReductionName
 
 #: A quarter of the catalog's scenes: the whole of it takes a minute.
 CATALOG = sorted((Path(__file__).parent.parent / "catalog").glob("*/*.yaml"))[::4]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import dofkit
-from dofkit.sampling import MotionError
+from dofkit.motion.sampled.configurations import MotionError
 
 Configuration = dict[str, float]
 Array = np.ndarray[Any, Any]

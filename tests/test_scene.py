@@ -13,13 +13,13 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from dofkit.errors import Fault, SceneError
-from dofkit.expr import ZERO, coordinate, fn, num, parameter, sqrt
-from dofkit.lowering import lower
-from dofkit.scene import Scene, check, faults_of
+from dofkit.base.errors import Fault, SceneError
+from dofkit.expressions.text import to_text
+from dofkit.expressions.tree import ZERO, coordinate, fn, num, parameter, sqrt
+from dofkit.scene.fields import as_written, exact
+from dofkit.scene.lowering import lower
+from dofkit.scene.scene import Scene, check, faults_of
 from dofkit.system import System
-from dofkit.text import to_text
-from dofkit.values import as_written, exact
 
 
 def faults(scene: Any) -> tuple[Fault, ...]:

@@ -7,7 +7,7 @@ import random
 import pytest
 from flint import nmod_mat
 
-from dofkit.exact.sparse import echelon, last_columns, rank_of_rows, sparse
+from dofkit.exact.matrices.sparse import echelon, last_columns, rank_of_rows, sparse
 
 P = (1 << 61) - 1
 

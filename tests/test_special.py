@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 import dofkit
+from dofkit.classification.special.cases import SEARCHED
 from dofkit.report import Report
-from dofkit.special.cases import SEARCHED
 
 XYZ = ["x", "y", "z"]
 Case = tuple[str, str, tuple[str, ...], str]

@@ -12,11 +12,11 @@ from families import FAMILIES
 from trials import differences
 
 import dofkit
-from dofkit.chart.families.making import Known
-from dofkit.chart.families.traps import TRAPS, Trap
-from dofkit.constants import interval
-from dofkit.expr import num
-from dofkit.text import Names, parse_expression
+from dofkit.benchmark.trials.making import Known
+from dofkit.benchmark.trials.traps import TRAPS, Trap
+from dofkit.expressions.enclosures import interval
+from dofkit.expressions.text import Names, parse_expression
+from dofkit.expressions.tree import num
 
 #: How many trials of a group are left open, and why.
 OPEN: dict[tuple[str, str], tuple[int, str]] = {

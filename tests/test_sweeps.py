@@ -8,7 +8,7 @@ import pytest
 from trials import differences
 
 import dofkit
-from dofkit.chart.families.sweeps import DIGITS, JOINTED, NEAR, SWEEPS, Case, Near
+from dofkit.benchmark.trials.sweeps import DIGITS, JOINTED, NEAR, SWEEPS, Case, Near
 
 #: (sweep, mechanism) -> (how many are left open, why).
 OPEN: dict[tuple[str, str], tuple[int, str]] = {

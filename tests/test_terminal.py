@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from rich.console import Console
 
+from dofkit.interface.show.terminal import MOST_ROWS, as_text, labels
 from dofkit.report import ConstraintEntry, Count, ForceEntry, Redundancy, Report, SpecialCase
-from dofkit.show.terminal import MOST_ROWS, as_text, labels
 
 
 def entry(**fields: Any) -> ConstraintEntry:

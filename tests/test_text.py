@@ -9,8 +9,23 @@ from fractions import Fraction
 
 import pytest
 
-from dofkit.expr import DT, PI, TIME, ZERO, E, Expr, call, coordinate, differential, fn, num, parameter, sym, velocity
-from dofkit.text import Names, parse_expression, parse_relations, to_text
+from dofkit.expressions.text import Names, parse_expression, parse_relations, to_text
+from dofkit.expressions.tree import (
+    DT,
+    PI,
+    TIME,
+    ZERO,
+    E,
+    Expr,
+    call,
+    coordinate,
+    differential,
+    fn,
+    num,
+    parameter,
+    sym,
+    velocity,
+)
 
 NAMES = Names(
     frozenset({"x", "y", "z", "theta", "phi", "s", "x_A", "y_A", "phi_B", "x1"}),

@@ -9,10 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dofkit.errors import TextError
-from dofkit.exact.identity import is_zero
-from dofkit.exact.terms import content
-from dofkit.expr import (
+from dofkit.base.errors import TextError
+from dofkit.exact.zero.identity import is_zero
+from dofkit.expressions.terms import content
+from dofkit.expressions.text import Names, parse_expression, to_text
+from dofkit.expressions.tree import (
     DT,
     FUNCTIONS,
     PI,
@@ -32,7 +33,6 @@ from dofkit.expr import (
     sym,
     velocity,
 )
-from dofkit.text import Names, parse_expression, to_text
 
 NAMES = Names(
     frozenset({"x", "y", "theta_1", "x_A"}),

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from dofkit.errors import TextError
-from dofkit.expr import num, parameter
-from dofkit.text import Names, UnknownNameError, parse_expression, parse_relations, valid_name
+from dofkit.base.errors import TextError
+from dofkit.expressions.text import Names, UnknownNameError, parse_expression, parse_relations, valid_name
+from dofkit.expressions.tree import num, parameter
 
 NAMES = Names(
     frozenset({"x", "y", "z", "theta", "s", "x_A"}),

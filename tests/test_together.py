@@ -13,12 +13,12 @@ import pytest
 from known_scenes import SCENES, report_of, scene_of, stem
 
 import dofkit
-from dofkit import expr as ex
-from dofkit.differentials import in_velocities
-from dofkit.expr import Expr
-from dofkit.lowering import lower
-from dofkit.normal import linear_form
-from dofkit.text import Names, parse_relations
+from dofkit.expressions import tree as ex
+from dofkit.expressions.differentials import in_velocities
+from dofkit.expressions.text import Names, parse_relations
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.normal_form import linear_form
+from dofkit.scene.lowering import lower
 
 
 def classified(coordinates: str, *constraints: str, **more: Any) -> dofkit.Report:

@@ -21,7 +21,7 @@ import pytest
 import worker_jobs
 
 import dofkit
-from dofkit.workers import Job, Pool, Worker
+from dofkit.base.workers import Job, Pool, Worker
 
 HERE = Path(__file__).parent
 SMALL = 1 << 29
@@ -224,7 +224,7 @@ def test_whoever_stops_early_leaves_nothing_running(tmp_path: Path) -> None:
 
 LEFT = """
 import os, sys, worker_jobs
-from dofkit.workers import Job, Pool, Worker
+from dofkit.base.workers import Job, Pool, Worker
 pool = Pool(2)
 worker = Worker()
 pids = [worker.run(Job(worker_jobs.process, None, 30)).value]
@@ -248,7 +248,7 @@ def test_no_process_is_left_behind(ending: str) -> None:
 def test_a_worker_dies_with_its_parent_in_the_middle_of_a_job(job: str, within: float, tmp_path: Path) -> None:
     """In Python it hears that the pipe is closed; inside a library its own alarm ends it."""
     path = tmp_path / "pid"
-    code = f"import worker_jobs as w\nfrom dofkit.workers import *\nWorker().run(Job(w.{job}, {str(path)!r}, 1))"
+    code = f"import worker_jobs as w\nfrom dofkit.base.workers import *\nWorker().run(Job(w.{job}, {str(path)!r}, 1))"
     paths = os.pathsep.join([str(HERE), str(HERE.parent)])
     with subprocess.Popen([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": paths}) as parent:
         pid = written(path)
@@ -291,7 +291,9 @@ def test_without_time_everything_is_undecided_but_named() -> None:
 def test_work_that_hears_no_deadline_is_killed(monkeypatch: pytest.MonkeyPatch) -> None:
     """8 coordinates, one finite equation as written: the lecture's count is 7."""
     monkeypatch.setattr("dofkit.bounded.CLASSIFIED", "worker_jobs:sketched")
-    monkeypatch.setattr("dofkit.workers.pool._shared", cache(lambda _: Pool(1, modules=["worker_jobs", "dofkit.jobs"])))
+    monkeypatch.setattr(
+        "dofkit.base.workers.pool._shared", cache(lambda _: Pool(1, modules=["worker_jobs", "dofkit.methods.jobs"]))
+    )
     assert dofkit.classify(dofkit.load(GOOD), budget=0).verdict == "undecided"
     scene = dofkit.load(HARD)
     start = time.monotonic()
@@ -335,7 +337,7 @@ def test_a_budget_is_a_number() -> None:
 
 
 def test_where_no_process_can_start_the_time_is_watched(monkeypatch: pytest.MonkeyPatch) -> None:
-    import dofkit.workers.pool as pools
+    import dofkit.base.workers.pool as pools
 
     monkeypatch.setattr(sys, "executable", "/no/such/python")
     monkeypatch.setattr(pools, "_shared", lambda process: Pool(1))
@@ -385,7 +387,7 @@ def test_a_file_in_the_working_folder_is_not_run(tmp_path: Path) -> None:
 
 
 STUCK = """
-import sys, worker_jobs, dofkit.telling as telling, dofkit.cli
+import sys, worker_jobs, dofkit.interface.classify_file as telling, dofkit.interface.cli
 real = telling.stages
 def stages(scene, *others):
     told = real(scene, *others)
@@ -395,7 +397,7 @@ def stages(scene, *others):
     yield from told
 telling.stages = stages
 sys.argv = ["dofkit", "classify", *sys.argv[1:]]
-dofkit.cli.main()
+dofkit.interface.cli.main()
 """
 
 
@@ -415,7 +417,7 @@ def test_a_scene_without_end_does_not_stop_the_others(tmp_path: Path) -> None:
 
 
 CRASHING = """
-import sys, worker_jobs, dofkit.telling as telling, dofkit.cli
+import sys, worker_jobs, dofkit.interface.classify_file as telling, dofkit.interface.cli
 real = telling.SceneFile.read
 def read(data, name):
     if name in ("crash", "hog", "sleep"):
@@ -425,7 +427,7 @@ telling.SceneFile.read = read
 import dofkit.watched
 dofkit.watched.limit = lambda seconds: 1.0
 sys.argv = ["dofkit", "classify", *sys.argv[1:]]
-dofkit.cli.main()
+dofkit.interface.cli.main()
 """
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from dofkit.chart.families.making import Known
+from dofkit.benchmark.trials.making import Known
 from dofkit.report import Report
 
 Outcome = Literal["right", "undecided", "wrong"]

@@ -1,1 +1,1 @@
-"""Numbers that can be trusted: expressions over finite fields and balls, points, ranks."""
+"""Numbers that can be trusted: the canonical ring, points, balls, ranks, exclusion. Knows no mechanics."""

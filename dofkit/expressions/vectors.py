@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from dofkit.expr import MINUS_ONE, ONE, TWO, ZERO, Expr, mul, num, power, sqrt
+from dofkit.expressions.tree import MINUS_ONE, ONE, TWO, ZERO, Expr, mul, num, power, sqrt
 
 Vec = tuple[Expr, ...]
 

@@ -10,13 +10,13 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError, ValidatorFunctionWrapHandler, WrapValidator
 
-from dofkit.documents import Document, read_document
-from dofkit.errors import DofkitError, Fault, SceneError
-from dofkit.homework.key import Convention, Key
+from dofkit.base.documents import Document, read_document
+from dofkit.base.errors import DofkitError, Fault, SceneError
+from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
-from dofkit.reading import find, load, with_hint, without_echoes
-from dofkit.scene import Scene
-from dofkit.values import Model, fault_at, fault_error, faults_of, retold, suggestion
+from dofkit.scene.fields import Model, fault_at, fault_error, faults_of, retold, suggestion
+from dofkit.scene.reading import find, load, with_hint, without_echoes
+from dofkit.scene.scene import Scene
 
 FeedbackLevel = Literal["hint", "full"]
 

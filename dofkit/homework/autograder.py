@@ -16,17 +16,17 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from dofkit.errors import DofkitError
+from dofkit.base.errors import DofkitError
+from dofkit.base.workers.crews import StoppedError
+from dofkit.homework.answers.sources import DOCUMENTS, LINES, TABLES, Handed, handed
+from dofkit.homework.answers.submission import Place, clean
 from dofkit.homework.assignment import Prepared, load_assignment
-from dofkit.homework.batch import Orders
 from dofkit.homework.formats import coursera, gradescope, prairielearn
 from dofkit.homework.formats.documents import text
 from dofkit.homework.judgement import needs_review
-from dofkit.homework.keeper import Keeper
 from dofkit.homework.result import Item, Result
-from dofkit.homework.sources import DOCUMENTS, LINES, TABLES, Handed, handed
-from dofkit.homework.submission import Place, clean
-from dofkit.workers.crews import StoppedError
+from dofkit.homework.runs.batch import Orders
+from dofkit.homework.runs.keeper import Keeper
 
 #: A longer file of a platform is not read.
 MOST_BYTES = 8_000_000

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Literal
 
-from dofkit.deadline import by_processor
-from dofkit.errors import TextError
+from dofkit.base.deadline import by_processor
+from dofkit.base.errors import TextError
+from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.grading import ANSWER_SECONDS, unasked
 from dofkit.homework.judgement import Given
-from dofkit.homework.key import Key
+from dofkit.homework.key.key import Key
 from dofkit.homework.questions import QuestionBase
-from dofkit.homework.submission import Submission
 from dofkit.report import Model
 
 

@@ -9,16 +9,16 @@ from typing import Any, cast
 
 from flint import ctx
 
+from dofkit.base.deadline import OutOfTimeError, by_processor
+from dofkit.base.errors import TextError
 from dofkit.base.spelling import nearest
-from dofkit.deadline import OutOfTimeError, by_processor
-from dofkit.errors import TextError
-from dofkit.exact.balls import PRECISION
+from dofkit.exact.points.balls import PRECISION
+from dofkit.homework.answers.sources import read_submission
+from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared, Problem, load_assignment
 from dofkit.homework.judgement import NOTHING, Given, Judgement, needs_review
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result
-from dofkit.homework.sources import read_submission
-from dofkit.homework.submission import Submission
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0

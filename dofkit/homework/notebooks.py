@@ -11,11 +11,11 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from dofkit.errors import DofkitError
+from dofkit.base.errors import DofkitError
+from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.grading import Grader
 from dofkit.homework.result import Item
-from dofkit.homework.submission import of_value
 
 #: An assignment: its path, or what was made of it.
 Source = str | os.PathLike[str] | Mapping[str, Any] | Prepared

@@ -12,7 +12,7 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from dofkit.errors import DofkitError
+from dofkit.base.errors import DofkitError
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.export.inline import exact_json, inlined
 from dofkit.homework.formats.wording import OPEN_SHARE, told

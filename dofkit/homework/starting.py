@@ -11,9 +11,9 @@ from typing import Any
 from pydantic import TypeAdapter
 from ruamel.yaml import YAML
 
-from dofkit.homework.key import Key
+from dofkit.homework.key.key import Key
 from dofkit.homework.questions import AnyQuestion
-from dofkit.reading import load
+from dofkit.scene.reading import load
 
 #: Questions about the whole scene, and about each constraint, and those about equations of motion.
 _OF_SCENE = ("dof", "velocity_dof", "k", "coordinates", "redundant")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dofkit.normal import Inequality, Normal
+from dofkit.relations.normal.normal_form import Inequality, Normal
 from dofkit.system import Constraint
 
 

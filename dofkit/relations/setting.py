@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from dofkit.exact.engines import BOTH, Engines
-from dofkit.expr import Expr
-from dofkit.reductions import ALL, Reductions
+from dofkit.expressions.tree import Expr
+from dofkit.relations.reductions import ALL, Reductions
 from dofkit.system import Coordinate, Distance
 
 

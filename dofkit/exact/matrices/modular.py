@@ -7,8 +7,8 @@ from typing import Any
 
 from flint import nmod_mat
 
-from dofkit.deadline import affordable
-from dofkit.exact.sparse import SparseRow
+from dofkit.base.deadline import affordable
+from dofkit.exact.matrices.sparse import SparseRow
 
 
 def rank_of(matrix: list[list[Any]], p: int) -> int:

@@ -8,7 +8,7 @@ import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from dofkit.errors import DofkitError
+from dofkit.base.errors import DofkitError
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.autograder import undecided
 from dofkit.homework.export.inline import exact_json, inlined

@@ -10,9 +10,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from dofkit.documents import read_document
+from dofkit.base.documents import read_document
 from dofkit.homework.assignment import load_assignment
-from dofkit.reading import find
+from dofkit.scene.reading import find
 
 
 def inlined(source: str | os.PathLike[str]) -> dict[str, Any]:

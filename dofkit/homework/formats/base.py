@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
-from dofkit.errors import DofkitError
+from dofkit.base.errors import DofkitError
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.result import Result
 

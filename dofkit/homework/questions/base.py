@@ -9,10 +9,10 @@ from typing import Annotated, get_args
 
 from pydantic import BeforeValidator, Field
 
-from dofkit.errors import Fault
+from dofkit.base.errors import Fault
 from dofkit.homework.judgement import Given, Judgement
-from dofkit.homework.key import Key
-from dofkit.values import Model, Number, exact, fault_error
+from dofkit.homework.key.key import Key
+from dofkit.scene.fields import Model, Number, exact, fault_error
 
 #: The numbers that a student gave to earlier questions of the same problem, by what was asked.
 Earlier = Mapping[str, Fraction]

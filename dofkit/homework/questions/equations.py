@@ -8,16 +8,16 @@ from typing import Annotated, Literal, NamedTuple, TypeVar
 
 from pydantic import BeforeValidator, Field
 
-from dofkit.errors import Fault, SceneError, TextError
-from dofkit.homework.comparison import Sameness, compare, is_integral
-from dofkit.homework.equations import Read, read_equations, with_equations
+from dofkit.base.errors import Fault, SceneError, TextError
+from dofkit.classification.dependence.equivalence import Sameness, compare, is_integral
+from dofkit.homework.answers.words import is_none, one_text, split_words
 from dofkit.homework.judgement import HALF, NOTHING, Given, Judgement, needs_review, partly, right, wrong
-from dofkit.homework.key import Key
+from dofkit.homework.key.key import Key
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.words import is_none, one_text, split_words
-from dofkit.lowering import lower
+from dofkit.scene.added_equations import Read, read_equations, with_equations
+from dofkit.scene.fields import Listed, suggestion
+from dofkit.scene.lowering import lower
 from dofkit.system import System
-from dofkit.values import Listed, suggestion
 
 _FEEDBACK = {
     Sameness.SAME: "",

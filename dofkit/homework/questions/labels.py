@@ -9,15 +9,15 @@ from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
+from dofkit.base.errors import Fault, TextError
 from dofkit.base.spelling import closest
-from dofkit.errors import Fault, TextError
+from dofkit.homework.answers.words import split_words
 from dofkit.homework.judgement import Given, Judgement, needs_review, partly
-from dofkit.homework.key import Key
-from dofkit.homework.misconceptions import explain_label
+from dofkit.homework.key.key import Key
+from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.words import split_words
 from dofkit.report import ConstraintEntry
-from dofkit.values import Listed, suggestion
+from dofkit.scene.fields import Listed, suggestion
 
 Part = Literal["holonomic", "scleronomic", "bilateral"]
 

@@ -9,18 +9,18 @@ from typing import Literal
 
 from pydantic import Field
 
-from dofkit import expr as ex
-from dofkit.errors import DofkitError, Fault, TextError
-from dofkit.expr import Expr
-from dofkit.homework.equations import as_text
+from dofkit.base.errors import DofkitError, Fault, TextError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.text import Comparison, Names, UnknownNameError, parse_expression, parse_relations, to_text
+from dofkit.expressions.tree import Expr
+from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
-from dofkit.homework.key import Key
-from dofkit.homework.motions import Answered, Sought, is_zero, same_lagrangian
-from dofkit.homework.motions import Motion as Found
+from dofkit.homework.key.equations_of_motion import Answered, Sought, is_zero, same_lagrangian
+from dofkit.homework.key.equations_of_motion import Motion as Found
+from dofkit.homework.key.key import Key
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.words import one_text
-from dofkit.text import Comparison, Names, UnknownNameError, parse_expression, parse_relations, to_text
-from dofkit.values import suggestion
+from dofkit.scene.added_equations import as_text
+from dofkit.scene.fields import suggestion
 
 #: ``L =``, ``p_theta =`` and the like before the answer.
 _LEADING = re.compile(r"[^=<>]{0,80}(?<![<>!])==?(?!=)")

@@ -6,11 +6,11 @@ from typing import Literal
 
 from pydantic import Field
 
+from dofkit.homework.answers.words import chosen, is_none, split_words
 from dofkit.homework.judgement import Given, Judgement, needs_review, right, wrong
-from dofkit.homework.key import Key
+from dofkit.homework.key.key import Key
+from dofkit.homework.key.selection import can_be_dropped, determine
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.selection import can_be_dropped, determine
-from dofkit.homework.words import chosen, is_none, split_words
 
 
 class Coordinates(QuestionBase):

@@ -8,12 +8,12 @@ from typing import Literal
 
 from pydantic import Field
 
+from dofkit.homework.answers.words import number
 from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
-from dofkit.homework.key import Key
-from dofkit.homework.misconceptions import explain
+from dofkit.homework.key.key import Key
+from dofkit.homework.key.misconceptions import explain
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.words import number
-from dofkit.values import as_written
+from dofkit.scene.fields import as_written
 
 #: A number that follows from an earlier wrong one; the number of the other convention.
 CARRIED, OTHER_CONVENTION = "CARRIED", "OTHER_CONVENTION"

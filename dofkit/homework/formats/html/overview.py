@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.html.pages import BADGES, asked, percent
 from dofkit.homework.formats.wording import number
-from dofkit.homework.misconceptions import ERRORS
+from dofkit.homework.key.misconceptions import ERRORS
 from dofkit.homework.result import Item, Result, Status
 
 #: Rows of each list that are shown; how many more there are is said.

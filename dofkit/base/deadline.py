@@ -1,0 +1,98 @@
+"""A bound on the time one scene may take: long loops ask `check`, which raises when it is used up."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import TypeVar
+
+from dofkit.base.errors import DofkitError
+
+#: Seconds for one scene where the caller gives no budget.
+DEFAULT_SECONDS = 60.0
+#: Past that, work has so many seconds (or that part of the time, if it is more) to see it and to end by itself.
+GRACE_SECONDS, GRACE_PART = 1.0, 0.25
+#: rows * columns * min(rows, columns) of a dense matrix that is still eliminated, and how much of that a second does.
+MAX_WORK, WORK_A_SECOND = 30_000_000_000, 3e9
+OUT_OF_TIME = "the time allowed for the scene was used up"
+
+T = TypeVar("T")
+_until: ContextVar[float] = ContextVar("until", default=float("inf"))
+_clock: ContextVar[Callable[[], float] | None] = ContextVar("clock", default=None)
+
+
+class OutOfTimeError(DofkitError):
+    """The time allowed for the scene was used up; what was asked is undecided."""
+
+
+def limit(seconds: float) -> float:
+    """The seconds after which work is killed that should have ended by itself after ``seconds``."""
+    return seconds + max(GRACE_SECONDS, GRACE_PART * seconds)
+
+
+def _now() -> float:
+    clock = _clock.get()
+    return time.monotonic() if clock is None else clock()
+
+
+@contextmanager
+def by_processor(seconds: float) -> Iterator[None]:
+    """Let `check` raise after so many seconds of this thread's processor time, whatever else the machine does.
+
+    Limits within are counted so too, and the clock's outside are left alone: the same work ends at the same place.
+    """
+    clock, token = _clock.set(time.thread_time), _until.set(time.thread_time() + seconds)
+    try:
+        yield
+    finally:
+        _until.reset(token)
+        _clock.reset(clock)
+
+
+@contextmanager
+def limited(seconds: float) -> Iterator[None]:
+    """Let `check` raise after so many seconds, or at an outer limit if that comes first."""
+    token = _until.set(min(_until.get(), _now() + seconds))
+    try:
+        yield
+    finally:
+        _until.reset(token)
+
+
+def left() -> float:
+    """The seconds that are left."""
+    return max(0.0, _until.get() - _now())
+
+
+@contextmanager
+def part(share: float) -> Iterator[None]:
+    """Let `check` raise where this share of the time that is left is used up: the rest is for what comes after."""
+    with limited(share * left()):
+        yield
+
+
+def unless_late(work: Callable[[], T], otherwise: T) -> T:
+    """The result of ``work``, or ``otherwise`` where the time is used up before."""
+    try:
+        return work()
+    except OutOfTimeError:
+        return otherwise
+
+
+def check() -> None:
+    """Raise OutOfTimeError where the time is used up."""
+    if _now() > _until.get():
+        raise OutOfTimeError(OUT_OF_TIME)
+
+
+def affordable(rows: int, columns: int) -> None:
+    """Raise OutOfTimeError for a matrix too large for elimination in the time of a scene, or in what is left of it."""
+    if rows * columns * min(rows, columns) > min(MAX_WORK, WORK_A_SECOND * left()):
+        raise OutOfTimeError(f"a matrix of {rows} rows and {columns} columns is too large here")
+
+
+def expired() -> bool:
+    """Is the time used up?"""
+    return _now() > _until.get()

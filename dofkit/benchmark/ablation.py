@@ -1,0 +1,284 @@
+"""What each reduction of `dofkit.reductions` is worth: cost and size of the model with one after another left out.
+
+The scenes grow by what one reduction leaves out; those of the catalog stand beside them.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from dofkit.base.deadline import OutOfTimeError
+from dofkit.classification.passes import Study, examined
+from dofkit.relations.reductions import ALL, REDUCTIONS, ReductionName, Reductions
+from dofkit.report import ConstraintEntry, Report
+from dofkit.scene.catalog import catalog_names
+from dofkit.scene.lowering import lower
+from dofkit.scene.reading import load
+
+Mapped = dict[str, Any]
+
+#: Seconds after which no new part of an answer is begun; times below `BRIEF` are the least of `REPEATS`.
+SECONDS, BRIEF, REPEATS = 10.0, 0.3, 3
+#: What tells how an answer was found, and how sure it is, and not what it is; of coordinates, one choice of many.
+TOLD = ("verdict", "method", "modelled", "warnings", "reason", "generalized_coordinates")
+#: What explains numbers: another sentence where one of them is open.
+SENTENCES = ("differs", "errs")
+#: What lists no more than was decided.
+LISTS = ("redundant", "redundancies", "special_cases", "conflicting")
+
+
+@dataclass(frozen=True)
+class AblationRow:
+    """One scene answered with all reductions (``off`` is empty) or all but one.
+
+    ``family``: the reduction that the scene was made for, or ``catalog``; ``size``: what grows with it; ``seconds``:
+    processor time of reading, lowering and answering. Of the model that was computed with: ``coordinates`` (of those
+    ``written``), finite ``relations``, ``forms`` put to an integrability test, and coordinates of the ``largest``
+    block; ``followed``: coordinates of relations that were followed from the drawing to tell a motion from a shake.
+    ``unchanged``: no answer differs from that with all reductions, though it may be open; ``differs``: the
+    fields that do.
+    """
+
+    scene: str
+    family: str
+    size: int
+    off: str
+    seconds: float
+    coordinates: int
+    relations: int
+    forms: int
+    largest: int
+    written: int
+    followed: int
+    unchanged: bool
+    undecided: bool
+    differs: list[str]
+
+
+class Made(NamedTuple):
+    """Scenes of any size that one reduction is for, in sizes for a quick run and for a whole one."""
+
+    scene: Callable[[int], Mapped]
+    quick: int
+    whole: tuple[int, ...]
+
+
+def ablation(quick: bool = False) -> Iterator[AblationRow]:
+    """A row for every scene and every reduction that may matter to it: its own family's, all for the catalog."""
+    for family, made in SCENES.items():
+        for size in (made.quick,) if quick else made.whole:
+            yield from ablated(f"{family}-{size}", family, size, made.scene(size), (family,))
+    for name in catalog_names()[:: 6 if quick else 1]:
+        yield from ablated(name, "catalog", 1, name, tuple(REDUCTIONS), 1)
+
+
+def ablated(
+    name: str,
+    family: str,
+    size: int,
+    source: Mapped | str,
+    without: tuple[ReductionName, ...],
+    repeats: int = REPEATS,
+) -> Iterator[AblationRow]:
+    """The scene answered with all reductions, then without each of some."""
+    full, seconds = answered(source, ALL, repeats)
+    yield _row(name, family, size, "", full, seconds, [])
+    for off in without:
+        study, seconds = answered(source, ALL - {off}, repeats)
+        changed = [] if study is None or full is None else differences(full.report, study.report)
+        yield _row(name, family, size, off, study, seconds, changed)
+
+
+def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Study | None, float]:
+    """The answer and its processor time; None where there was no time for it."""
+    best = float("inf")
+    for _ in range(repeats):
+        begin = time.thread_time()
+        try:
+            study = examined(lower(load(source)), SECONDS, reductions=reductions)
+        except OutOfTimeError:
+            return None, time.thread_time() - begin
+        best = min(best, time.thread_time() - begin)
+        if best > BRIEF:
+            break
+    return study, best
+
+
+def _row(
+    name: str, family: str, size: int, off: str, study: Study | None, seconds: float, changed: list[str]
+) -> AblationRow:
+    sizes = [] if study is None else [a.size for a in study.outcome.answers]
+    return AblationRow(
+        scene=name,
+        family=family,
+        size=size,
+        off=off,
+        seconds=seconds,
+        coordinates=sum(s.coordinates for s in sizes),
+        relations=sum(s.relations for s in sizes),
+        forms=sum(s.forms for s in sizes),
+        largest=max((s.coordinates for s in sizes), default=0),
+        written=0 if study is None else len(study.system.coordinates),
+        followed=0 if study is None else sum(a.looked.coordinates for a in study.outcome.answers),
+        unchanged=not changed,
+        undecided=study is None or (study.report.dof is None and study.report.consistent is not False),
+        differs=changed,
+    )
+
+
+def differences(full: Report, other: Report) -> list[str]:
+    """The fields in which another report of a scene answers differently; what it leaves open is no difference."""
+    found = [
+        field
+        for field in Report.model_fields
+        if field not in (*TOLD, "constraints")
+        and _differ(getattr(full, field), getattr(other, field))
+        and not (field in LISTS and other.verdict == "undecided")
+    ]
+    entries = zip(full.constraints, other.constraints, strict=True)
+    return found + [f"{a.name}.{field}" for a, b in entries for field in _of_entry(a, b)]
+
+
+def _of_entry(full: ConstraintEntry, other: ConstraintEntry) -> list[str]:
+    return [
+        field
+        for field in ConstraintEntry.model_fields
+        if field not in TOLD and _differ(getattr(full, field), getattr(other, field))
+    ]
+
+
+def _differ(a: Any, b: Any) -> bool:
+    """Do two values differ, parts that the second leaves open or that say how sure it is apart?"""
+    if hasattr(a, "model_dump") and hasattr(b, "model_dump"):
+        pairs = {k: (getattr(a, k), getattr(b, k)) for k in type(a).model_fields if k not in TOLD}
+        left_open = any(x is not None and y is None for x, y in pairs.values())
+        return any(_differ(x, y) for k, (x, y) in pairs.items() if not (left_open and k in SENTENCES))
+    return b is not None and a != b
+
+
+# Scenes
+
+
+def _discs(n: int, radius: Callable[[int], str], free: int = 0) -> Mapped:
+    """Discs that roll upright on a plane: coordinates (x, y, theta, phi) each."""
+    coordinates = [f"{q}{i}" for i in range(n) for q in ("x", "y", "theta", "phi")]
+    texts = [
+        text
+        for i in range(n)
+        for text in (
+            f"dx{i} - {radius(i)} cos(theta{i}) dphi{i} = 0",
+            f"dy{i} - {radius(i)} sin(theta{i}) dphi{i} = 0",
+        )
+    ]
+    return {"coordinates": [*coordinates, *(f"free{i}" for i in range(free))], "constraints": texts}
+
+
+def _untouched(n: int) -> Mapped:
+    """One disc beside n coordinates that nothing touches."""
+    return _discs(1, lambda _: "2", n)
+
+
+def _blocks(n: int) -> Mapped:
+    """n discs of different radii."""
+    return _discs(n, lambda i: str(i + 1))
+
+
+def _twins(n: int) -> Mapped:
+    """n equal discs."""
+    return _discs(n, lambda _: "2")
+
+
+def _copies(n: int) -> Mapped:
+    """A chain of n rods in the plane from the ground, every rod written twice."""
+    ends: list[Any] = [[0, 0], *(f"p{i}" for i in range(n))]
+    rods: list[Any] = [{"type": "link", "between": [ends[i], ends[i + 1]], "length": i + 1} for i in range(n)]
+    return {"dimension": 2, "particles": ends[1:], "constraints": rods + rods}
+
+
+def _still(n: int) -> Mapped:
+    """Bodies that slide on one another along x and y in turn; the last is held by two equal parallel cranks."""
+    below = ["ground", *(f"b{i}" for i in range(n))]
+    axes = ([1, 0], [0, 1])
+    joints: list[Any] = [
+        {"type": "prismatic", "between": [below[i], below[i + 1]], "axis": axes[i % 2]} for i in range(n)
+    ]
+    for x in (0, 3):
+        joints.append({"type": "link", "between": [[x, 0], {"on": below[-1], "at": [x + 1, 2]}]})
+    return {"dimension": 2, "bodies": below[1:], "constraints": joints}
+
+
+def _welds(n: int) -> Mapped:
+    """Three equal parallel cranks under n bodies welded in a row."""
+    row = [f"b{i}" for i in range(n)]
+    joints: list[Any] = [{"type": "weld", "between": [row[i], row[i + 1]]} for i in range(n - 1)]
+    for i in range(3):
+        joints.append({"type": "revolute", "between": ["ground", f"crank{i}"], "at": [3 * i, 0]})
+        joints.append({"type": "revolute", "between": [f"crank{i}", row[i * (n - 1) // 2]], "at": [3 * i + 1, 2]})
+    return {"dimension": 2, "bodies": [*row, *(f"crank{i}" for i in range(3))], "constraints": joints}
+
+
+def _clusters(n: int) -> Mapped:
+    """Three equal parallel cranks under a strip of triangles between n joints."""
+    stands = [[3 * i + 1, 2 + i % 2] for i in range(n)]
+    bars = [(i, i + 1) for i in range(n - 1)] + [(i, i + 2) for i in range(n - 2)]
+    links: list[Any] = [{"type": "link", "between": [f"p{a}", f"p{b}"]} for a, b in bars]
+    for i in (0, n // 2, n - 1):
+        x, y = stands[i]
+        links.append({"type": "link", "between": [[x - 1, y - 2], f"p{i}"]})
+    return {
+        "dimension": 2,
+        "particles": [{"name": f"p{i}", "at": at} for i, at in enumerate(stands)],
+        "constraints": links,
+    }
+
+
+def _eliminations(n: int) -> Mapped:
+    """The same in space, every joint held to the plane z = 0."""
+    flat = _clusters(n)
+    links = [
+        {**c, "between": [e if isinstance(e, str) else [*e, 0] for e in c["between"]]} for c in flat["constraints"]
+    ]
+    joints = [{**p, "at": [*p["at"], 0]} for p in flat["particles"]]
+    return {"particles": joints, "constraints": [*(f"z_p{i} = 0" for i in range(n)), *links]}
+
+
+def _classes(n: int) -> Mapped:
+    """A parallelogram with a crank too many, and a chain of n rods hanging from it."""
+    cranks = [{"type": "link", "between": [[4 * i, 0], f"c{i}"]} for i in range(3)]
+    coupler = [{"type": "link", "between": ["c0", "c1"]}, {"type": "link", "between": ["c1", "c2"]}]
+    coupler.append({"type": "link", "between": ["c0", "c2"]})
+    chain = [{"type": "link", "between": [f"h{i - 1}" if i else "c2", f"h{i}"]} for i in range(n)]
+    joints = [{"name": f"c{i}", "at": [4 * i + 1, 2]} for i in range(3)]
+    joints += [{"name": f"h{i}", "at": [10 + i, 2 + i % 2]} for i in range(n)]
+    return {"dimension": 2, "particles": joints, "constraints": [*cranks, *coupler, *chain]}
+
+
+def _closed(n: int) -> Mapped:
+    """n particles in space on quadrics that move with the next of them: finite relations only."""
+    surfaces = [f"x_p{i}^2 + y_p{i}^2 = {i + 2} + z_p{i} x_p{i + 1}" for i in range(n - 1)]
+    return {"particles": [f"p{i}" for i in range(n)], "constraints": surfaces}
+
+
+def _cheapest(n: int) -> Mapped:
+    """A strip of n triangles in the plane, its bars in general position."""
+    bars = [(i, i + 1) for i in range(n + 1)] + [(i, i + 2) for i in range(n)]
+    links = [{"type": "link", "between": [f"p{a}", f"p{b}"]} for a, b in bars]
+    return {"dimension": 2, "particles": [f"p{i}" for i in range(n + 2)], "constraints": links}
+
+
+SCENES: Mapping[ReductionName, Made] = {
+    "untouched": Made(_untouched, 32, (8, 16, 32, 64)),
+    "blocks": Made(_blocks, 8, (2, 4, 8, 16, 32)),
+    "twins": Made(_twins, 32, (8, 16, 32, 64)),
+    "copies": Made(_copies, 6, (3, 6, 12, 24)),
+    "still": Made(_still, 6, (3, 6, 12, 24)),
+    "welds": Made(_welds, 8, (4, 8, 16, 32)),
+    "clusters": Made(_clusters, 12, (6, 12, 24, 48)),
+    "eliminations": Made(_eliminations, 8, (4, 8, 16)),
+    "classes": Made(_classes, 8, (4, 8, 16, 32)),
+    "closed": Made(_closed, 6, (4, 6, 8, 12)),
+    "cheapest": Made(_cheapest, 16, (8, 16, 32, 64)),
+}

@@ -1,0 +1,166 @@
+"""Random frameworks, trees and loops of bodies, and what is true of them by construction."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+from flint import fmpq, fmpq_mat
+
+from dofkit.benchmark.trials.frameworks import Framework, Position
+
+Vector = tuple[Fraction, Fraction, Fraction]
+#: What a joint allows: freedoms in space.
+FREEDOMS = {
+    "revolute": 1,
+    "prismatic": 1,
+    "cylindrical": 2,
+    "universal": 2,
+    "spherical": 3,
+    "planar": 3,
+    "weld": 0,
+}
+PLANE = ("revolute", "prismatic", "weld")
+ZERO = (Fraction(0),) * 3
+
+
+def graph(rng: random.Random, dimension: int, joints: int, twice: bool = False) -> Framework:
+    """Random bars between joints at random places in general position; ``twice``: now and then a pair has two bars."""
+    names = [f"J{i}" for i in range(joints)]
+    pairs = list(combinations(names, 2))
+    few = dimension * joints - dimension * (dimension + 1) // 2
+    number = min(len(pairs), max(1, few + rng.randrange(-3, 4)))
+    chosen = rng.sample(pairs, number)
+    if twice and rng.random() < 1 / 4:
+        chosen.insert(rng.randrange(number + 1), rng.choice(chosen))
+    bars = tuple(pair[:: rng.choice((1, -1))] for pair in chosen)
+    return Framework({name: place(rng, dimension) for name in names}, (), tuple((b[0], b[1]) for b in bars))
+
+
+def place(rng: random.Random, dimension: int, size: int = 10**6) -> Position:
+    return tuple(Fraction(rng.randrange(-size, size + 1), 1000) for _ in range(dimension))
+
+
+def coarse(rng: random.Random, drawn: Framework) -> Framework:
+    """The same bars between different points of a small grid: many are in line, parallel or in one plane."""
+    grid = 3 if drawn.dimension > 1 else 20
+    while True:
+        joints = {name: tuple(Fraction(rng.randrange(grid)) for _ in p) for name, p in drawn.joints.items()}
+        if len(set(joints.values())) == len(joints):
+            return Framework(joints, (), drawn.bars)
+
+
+def dependent(drawn: Framework) -> list[int]:
+    """The bars whose rows depend on those before them, by exact elimination at the positions."""
+    rows = drawn.rows()
+    columns = [[fmpq(row[k].numerator, row[k].denominator) for row in rows] for k in range(drawn.coordinates)]
+    reduced, rank = fmpq_mat(columns).rref()
+    pivots = {next(c for c in range(len(rows)) if reduced[r, c] != 0) for r in range(rank)}
+    return [i for i in range(len(rows)) if i not in pivots]
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """A scene of bodies with its truth: velocities at the drawing, and the freedom where it follows from them."""
+
+    scene: dict[str, Any]
+    equations: int
+    coordinates: int
+    first: int
+    dof: int | None
+
+
+def tree(rng: random.Random, dimension: int, bodies: int) -> Bodies:
+    """Every body on one written before it: the joints' freedoms add up."""
+    kinds = list(FREEDOMS) if dimension == 3 else list(PLANE)
+    chosen = [rng.choice(kinds) for _ in range(bodies)]
+    joints = []
+    for i, kind in enumerate(chosen):
+        onto = "ground" if i == 0 else rng.choice(["ground", *(f"b{j}" for j in range(i))])
+        joints.append(_joint(rng, kind, dimension, f"j{i}", onto, f"b{i}")[0])
+    freedom = sum(FREEDOMS[kind] for kind in chosen)
+    each = dimension * (dimension + 1) // 2
+    names = [f"b{i}" for i in range(bodies)]
+    rng.shuffle(joints)
+    scene = {"dimension": dimension, "bodies": names, "constraints": joints}
+    return Bodies(scene, bodies * each - freedom, bodies * each, freedom, freedom)
+
+
+def loop(rng: random.Random, dimension: int, bodies: int) -> Bodies:
+    """Bodies in one closed loop with the ground: velocities are the joints' rates whose screws cancel.
+
+    Where the screws are independent nothing moves, and where they span all screws the loop's equations are regular.
+    """
+    kinds = [k for k in (FREEDOMS if dimension == 3 else PLANE) if k != "weld"]
+    names = ["ground", *(f"b{i}" for i in range(bodies)), "ground"]
+    joints, screws = [], []
+    for i in range(bodies + 1):
+        joint, own = _joint(rng, rng.choice(kinds), dimension, f"j{i}", names[i], names[i + 1])
+        joints.append(joint)
+        screws += own
+    each = dimension * (dimension + 1) // 2
+    rank = _rank(screws)
+    first = len(screws) - rank
+    dof = first if first == 0 or rank == each else None
+    equations = (bodies + 1) * each - len(screws)
+    scene = {"dimension": dimension, "bodies": names[1:-1], "constraints": joints}
+    return Bodies(scene, equations, bodies * each, first, dof)
+
+
+def _joint(
+    rng: random.Random, kind: str, dimension: int, name: str, first: str, second: str
+) -> tuple[dict[str, Any], list[list[Fraction]]]:
+    """A joint at a random place, and the screws (turn; velocity of the origin) that it allows."""
+    at, u = (_vector(rng, dimension) for _ in range(2))
+    made: dict[str, Any] = {"name": name, "type": kind, "between": [first, second]}
+    if kind not in ("weld", "prismatic"):
+        made["at"] = [str(x) for x in at[:dimension]]
+    if dimension == 2:
+        if kind == "prismatic":
+            made["axis"] = [str(x) for x in u[:2]]
+        turn: Vector = (Fraction(0), Fraction(0), Fraction(1))
+        return made, {"revolute": [_turn(turn, at)], "prismatic": [_slide(u)], "weld": []}[kind]
+    v = _across(u)
+    w = cross(u, v)
+    if kind == "universal":
+        made["axes"] = [[str(x) for x in u], [str(x) for x in v]]
+    elif kind not in ("spherical", "weld"):
+        made["axis"] = [str(x) for x in u]
+    return made, {
+        "revolute": [_turn(u, at)],
+        "prismatic": [_slide(u)],
+        "cylindrical": [_turn(u, at), _slide(u)],
+        "universal": [_turn(u, at), _turn(v, at)],
+        "spherical": [_turn(u, at), _turn(v, at), _turn(w, at)],
+        "planar": [_turn(u, at), _slide(v), _slide(w)],
+        "weld": [],
+    }[kind]
+
+
+def _vector(rng: random.Random, dimension: int) -> Vector:
+    x, y, z = (Fraction(rng.choice([n for n in range(-9, 10) if n])) for _ in range(3))
+    return (x, y, z if dimension == 3 else Fraction(0))
+
+
+def _across(u: Vector) -> Vector:
+    return (-u[1], u[0], Fraction(0))
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def _turn(axis: Vector, at: Vector) -> list[Fraction]:
+    return [*axis, *cross(at, axis)]
+
+
+def _slide(axis: Vector) -> list[Fraction]:
+    return [*ZERO, *axis]
+
+
+def _rank(screws: Sequence[Sequence[Fraction]]) -> int:
+    return int(fmpq_mat([[fmpq(x.numerator, x.denominator) for x in screw] for screw in screws]).rank())

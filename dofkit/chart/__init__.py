@@ -1,1 +1,0 @@
-"""Speed against accuracy: every method on scenes whose answers are known, and where each of them fails."""

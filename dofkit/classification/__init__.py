@@ -1,0 +1,1 @@
+"""From a `System` to a `Report`: freedom, dependence, labels with their reasons, special cases."""

@@ -1,0 +1,137 @@
+"""Counts that stand beside a report's own: in general position, and Gruebler's and Kutzbach's; and why they differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property, partial
+from typing import TypeVar
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.base.deadline import part, unless_late
+from dofkit.classification.freedom.branches import Outcome
+from dofkit.exact.matrices.sparse import echelon
+from dofkit.exact.points.field import NoPointError
+from dofkit.mobility.general_position import General, has_geometry, in_general_position
+from dofkit.mobility.kutzbach import mobility
+from dofkit.mobility.near_dependence import MOST, nearly_dependent
+from dofkit.mobility.placement import Placement, drawn, measured
+from dofkit.mobility.special_position import special
+from dofkit.mobility.twists import KINDS
+from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.report import Generic, Mobility, Report
+from dofkit.system import System
+
+#: Dependent sets of rows that are looked at, and sentences about them that are told.
+MOST_SETS, MOST_TOLD = 40, 6
+#: Of the time that is left, for the count in general position.
+SHARE = 0.4
+#: Measured lines count as parallel, and so on, within so many tolerances.
+SLACK = 10
+T = TypeVar("T")
+_LATE = General(None, why="there was no time to count")
+
+
+class Beside:
+    """The counts of one scene; the drawing is turned into numbers once, where it is asked for."""
+
+    def __init__(
+        self, system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report
+    ) -> None:
+        self.system, self.reduced, self.setting = system, reduced, setting
+        self.outcome, self.report = outcome, report
+
+    def generic(self) -> Generic | None:
+        """The count in general position; None without a drawing."""
+        if not has_geometry(self.system):
+            return None
+        look = partial(in_general_position, self.system, self.outcome.written_rows, self.setting)
+        found = unless_late(look, _LATE)
+        if found.rank is None:
+            return Generic(dof=None, redundant_equations=None, differs=found.why, verdict="undecided")
+        dof = len(self.system.coordinates) - found.rank
+        equations = sum(r.equations for r in self.reduced)
+        return Generic(
+            dof=dof,
+            redundant_equations=max(0, equations - found.rank),
+            differs=unless_late(partial(self._differs, dof), None),
+            verdict=found.verdict,
+        )
+
+    def _differs(self, dof: int) -> str | None:
+        here = self.report.instantaneous_dof
+        here = self.report.velocity_dof if here is None else here
+        if here is None or here == dof:
+            return None
+        if here < dof:
+            return "the drawing allows less than general position: what the texts say is special there"
+        many = here - dof
+        start = f"at the drawing {many} equation{'s' * (many > 1)} more depend{'s' * (many == 1)} on the others"
+        placement = self._placement
+        told = [] if placement is None else special(self.system, placement, self._dependent_sets(), self._slack())
+        return "; ".join([start, *told[:MOST_TOLD]])
+
+    def _slack(self) -> float:
+        return SLACK * float(self.system.tolerance or 0)
+
+    @cached_property
+    def _placement(self) -> Placement | None:
+        if self.system.tolerance is not None:
+            return measured(self.system)
+        return drawn(self.system, self.setting.positive)
+
+    def _dependent_sets(self) -> list[list[int]]:
+        """The constraints of minimal dependent sets of rows at the drawing; none that holds another."""
+        sets: list[list[int]] = []
+        for block, a in zip(self.outcome.blocks, self.outcome.answers, strict=True):
+            if len(a.matrix) != len(block.rows):
+                continue
+            for row, support in list(echelon(a.matrix, a.modulus, supports=True).supports.items())[:MOST_SETS]:
+                sets.append(sorted({block.rows[k].constraint for k in (row, *support)}))
+        unique = sorted(map(list, {tuple(s) for s in sets}))
+        return [s for s in unique if not any(set(t) < set(s) for t in unique)]
+
+    def nearly(self) -> str | None:
+        """What to say of a near-dependence at an exact drawing."""
+        here, system = self.report.instantaneous_dof, self.system
+        if here is None or system.tolerance is not None or not has_geometry(system):
+            return None
+        columns = len(system.coordinates)
+        small = columns <= MOST and all(c.type in KINDS for c in system.connections)
+        placement = measured(system) if small else None
+        return None if placement is None else nearly_dependent(placement, system.dimension, columns, columns - here)
+
+    def _exact(self) -> Placement | None:
+        return None if self.system.tolerance is not None else self._placement
+
+    def mobility(self) -> Mobility | None:
+        """Gruebler's and Kutzbach's count; None without bodies and joints."""
+        equations = [r.equations for r in self.reduced]
+        others = sum(
+            all(isinstance(p, Finite) for p in n.pieces) or self.reduced[i].constraint.type == "roll"
+            for i, r in enumerate(self.reduced)
+            for n in r.normals
+        )
+        return mobility(self.system, equations, others, self.report.velocity_dof, self._exact)
+
+
+def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
+    """What was found; None where there was no time, or the drawing has no value (a root of what is negative)."""
+    try:
+        return unless_late(work, None)
+    except (ArithmeticError, ValueError, NoPointError, DomainError):
+        return None
+
+
+def with_counts(
+    system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report
+) -> Report:
+    """The report with the counts beside its own."""
+    beside = Beside(system, reduced, setting, outcome, report)
+    with part(SHARE):
+        generic = _if_it_has_a_value(beside.generic)
+    found = {"generic": generic, "mobility": _if_it_has_a_value(beside.mobility)}
+    near = _if_it_has_a_value(beside.nearly)
+    return report.model_copy(update=found if near is None else {**found, "warnings": [*report.warnings, near]})

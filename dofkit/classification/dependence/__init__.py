@@ -1,0 +1,1 @@
+"""What follows from what: circuits, redundancy, conflicts, equivalence."""

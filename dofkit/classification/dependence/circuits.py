@@ -1,0 +1,251 @@
+"""Which constraints depend on which: redundant ones, groups, circuits, by rank over GF(p).
+
+A row is a scalar equation's differential at a generic point; finite rows come before differential ones,
+because only a finite relation fixes the constant. Dependent sets of constraints are those whose rows are.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+import networkx as nx
+
+from dofkit.base.deadline import check
+from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
+
+#: Sets of constraints are searched exhaustively up to this many members of a group.
+SEARCHED = 12
+#: Up to this many by giving one back where two can go for it, and seconds for that.
+EXCHANGED, EXCHANGE_SECONDS = 60, 1.0
+
+
+@dataclass(frozen=True)
+class Redundancies:
+    """What was found, constraints by their numbers; of those in ``undecided`` it is not known whether they can go.
+
+    ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
+    """
+
+    independent: dict[int, int]
+    redundant: list[int]
+    groups: list[tuple[int, list[int]]]
+    circuits: dict[int, list[int]]
+    undecided: tuple[int, ...] = ()
+    equations: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
+
+
+def left_open(constraints: Iterable[int]) -> Redundancies:
+    """Nothing is known of these constraints."""
+    return Redundancies({}, [], [], {}, tuple(sorted(set(constraints))))
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The matrix of a block, without zeros: ``owners[i]`` wrote row i, ``finite[i]`` tells a finite row.
+
+    ``equations[i]`` is the number of the scalar equation that row i is of; -1 where it is not known.
+    ``supports``: what each row depends on, of those before it, where something else than the matrix tells it.
+    """
+
+    matrix: Sequence[SparseRow]
+    owners: Sequence[int]
+    finite: Sequence[bool]
+    p: int
+    equations: Sequence[int] = ()
+    supports: Supports | None = None
+
+    def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
+        """The rows that some constraints wrote."""
+        return [
+            row
+            for row, owner, finite in zip(self.matrix, self.owners, self.finite, strict=True)
+            if owner in owners and (finite or not finite_only)
+        ]
+
+
+def analyse(parts: Sequence[Rows]) -> Redundancies:
+    """Redundant constraints, groups and circuits of blocks that share constraints."""
+    order = _order(parts)
+    bases = [_Basis(part) for part in parts]
+    kept = Counter(b.owners[i] for b in bases for i in b.pivots)
+    independent = {owner: kept[owner] for owner in order}
+    if not any(b.supports for b in bases):
+        return Redundancies(independent, [], [], {}, equations=dict.fromkeys(order, ()))
+    groups = _groups(bases)
+    redundant: list[int] = []
+    for _, members in groups:
+        redundant += _droppable(parts, [o for o in order if o in members], bases)
+    rows_of = Counter(o for part in parts for o in part.owners)
+    circuits = {owner: _circuit(parts, order, owner, bases, rows_of[owner] == 1) for owner in redundant}
+    return Redundancies(independent, sorted(redundant), groups, circuits, equations=_equations(parts, bases))
+
+
+def _equations(parts: Sequence[Rows], bases: Sequence[_Basis]) -> dict[int, tuple[int, ...]]:
+    """The scalar equations all of whose rows follow from those before them, a constraint each."""
+    known: dict[int, dict[int, bool]] = {}
+    for part, basis in zip(parts, bases, strict=True):
+        for i, (owner, equation) in enumerate(zip(part.owners, part.equations, strict=False)):
+            of_owner = known.setdefault(owner, {})
+            of_owner[equation] = of_owner.get(equation, True) and i in basis.supports
+    return {
+        owner: tuple(sorted(e for e, follows in found.items() if follows))
+        for owner, found in known.items()
+        if -1 not in found
+    }
+
+
+class _Basis:
+    """The first independent rows, finite ones before differential ones, and the others in terms of them."""
+
+    def __init__(self, rows: Rows) -> None:
+        self.owners = rows.owners
+        known = self._by_elimination(rows) if rows.supports is None else self._known(rows, rows.supports)
+        self.pivots, self.supports = known
+        self.pivot_owners = {self.owners[i] for i in self.pivots}
+        self.circuits: dict[int, set[int]] = {}
+        for i, support in self.supports.items():
+            self.circuits.setdefault(self.owners[i], set()).update(self.owners[j] for j in support)
+
+    @staticmethod
+    def _known(rows: Rows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
+        supports = {i: list(support) for i, support in tell().items()}
+        return [i for i in range(len(rows.owners)) if i not in supports], supports
+
+    @staticmethod
+    def _by_elimination(rows: Rows) -> tuple[list[int], dict[int, list[int]]]:
+        numbers = sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
+        found = echelon([rows.matrix[i] for i in numbers], rows.p, supports=True)
+        pivots = [numbers[k] for k in found.independent]
+        return pivots, {numbers[k]: [numbers[j] for j in support] for k, support in found.supports.items()}
+
+
+def _order(parts: Sequence[Rows]) -> list[int]:
+    """Constraints whose rows are all finite first, each part as written."""
+    owners = sorted({o for part in parts for o in part.owners})
+    differential = {o for part in parts for o, f in zip(part.owners, part.finite, strict=True) if not f}
+    return [o for o in owners if o not in differential] + [o for o in owners if o in differential]
+
+
+def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
+    """Constraints joined by circuits of rows."""
+    graph: nx.Graph = nx.Graph()
+    for basis in bases:
+        for i, support in basis.supports.items():
+            graph.add_node(basis.owners[i])
+            graph.add_edges_from((basis.owners[i], basis.owners[j]) for j in support)
+    extra = Counter(b.owners[i] for b in bases for i in b.supports)
+    groups = []
+    for component in nx.connected_components(graph):
+        groups.append((sum(extra[o] for o in component), sorted(component)))
+    return sorted(groups, key=lambda group: group[1])
+
+
+def _spans(parts: Sequence[Rows], kept: set[int], everything: set[int]) -> bool:
+    """Do the kept constraints imply the others? Finite ones only by finite ones: a rate does not fix a constant."""
+    return all(
+        rank_of_rows(part.of(kept, only), part.p) == rank_of_rows(part.of(everything, only), part.p)
+        for part in parts
+        for only in (False, True)
+    )
+
+
+def _droppable(parts: Sequence[Rows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
+    """As many constraints of a group as can go together; of several choices the last in the order.
+
+    Modulo 2 stands only which rows depend on which (balls tell no more): then those that add nothing to those before.
+    """
+    rows_of = Counter(o for p in parts for o in p.owners)
+    unweighted = any(p.p == 2 for p in parts) and len(members) > SEARCHED
+    if unweighted or len(members) > EXCHANGED or all(rows_of[o] == 1 for o in members):
+        kept_of = set().union(*(b.pivot_owners for b in bases))
+        return [o for o in members if o not in kept_of]
+    if len(members) > SEARCHED:
+        return _exchanged(parts, members, rows_of)
+    within = _Dispensable(parts, members)
+    dropped = _greedy(within, list(reversed(members)), [])
+    for size in range(len(members) - 1, len(dropped), -1):
+        for choice in combinations(reversed(members), size):
+            if within.can_go(choice):
+                return list(choice)
+    return dropped
+
+
+class _Dispensable:
+    """Which of some constraints can go together.
+
+    Rows can go without loss of rank where they are independent in the dual matroid, whose matrix is that of the sums
+    of rows that are 0 (Whitney): as many rows at most as there are such sums, however many rows there are.
+    """
+
+    def __init__(self, parts: Sequence[Rows], members: Sequence[int]) -> None:
+        self._tables: list[tuple[dict[int, list[SparseRow]], int, int]] = []
+        everything = set(members)
+        for part in parts:
+            own = [i for i, owner in enumerate(part.owners) if owner in everything]
+            finite = [i for i in own if part.finite[i]]
+            for numbers in (own,) if len(finite) == len(own) else (own, finite):
+                sums = vanishing([part.matrix[i] for i in numbers], part.p)
+                of: dict[int, list[SparseRow]] = {}
+                for i, column in zip(numbers, transposed(sums, len(numbers)), strict=True):
+                    of.setdefault(part.owners[i], []).append(column)
+                self._tables.append((of, len(sums), part.p))
+
+    def can_go(self, owners: Sequence[int]) -> bool:
+        """Do the others imply these? Finite ones only by finite ones: a rate does not fix a constant."""
+        for of, most, p in self._tables:
+            rows = [row for owner in owners for row in of.get(owner, ())]
+            if len(rows) > most or rank_of_rows(rows, p) < len(rows):
+                return False
+        return True
+
+
+def _greedy(within: _Dispensable, order: Sequence[int], gone: Sequence[int]) -> list[int]:
+    """What can go besides ``gone``, one after the other."""
+    dropped = list(gone)
+    for owner in order:
+        if owner not in dropped and within.can_go([*dropped, owner]):
+            dropped.append(owner)
+    return dropped
+
+
+def _exchanged(parts: Sequence[Rows], members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
+    """Many constraints of a group: the last first or the smallest first, then one given back where two can go for it.
+
+    Constraints of several equations are no matroid: what is found cannot be enlarged so, but may not be the most.
+    """
+    within = _Dispensable(parts, members)
+    last_first = list(reversed(members))
+    small_first = sorted(last_first, key=lambda o: rows_of[o])
+    dropped = max((_greedy(within, order, []) for order in (last_first, small_first)), key=len)
+    until = time.process_time() + EXCHANGE_SECONDS
+    better = True
+    while better:
+        better = False
+        for back in dropped:
+            check()
+            found = _greedy(within, [o for o in small_first if o != back], [o for o in dropped if o != back])
+            if len(found) > len(dropped):
+                dropped, better = found, True
+                break
+            if time.process_time() > until:
+                return dropped
+    return dropped
+
+
+def _circuit(parts: Sequence[Rows], order: list[int], owner: int, bases: Sequence[_Basis], single: bool) -> list[int]:
+    """A minimal set of other constraints on which a redundant one depends, of those before it where that can be."""
+    if not any(owner in b.pivot_owners for b in bases):
+        supports = set().union(*(b.circuits.get(owner, set()) for b in bases)) - {owner}
+        if len(supports) < 2 or len(supports) > SEARCHED or single:
+            return sorted(supports)
+        kept = [o for o in order if o in supports]
+    else:
+        kept = [o for o in order if o != owner]
+    for other in reversed(list(kept)):
+        if _spans(parts, set(kept) - {other}, (set(kept) - {other}) | {owner}):
+            kept.remove(other)
+    return sorted(kept)

@@ -1,0 +1,328 @@
+"""Is an answer the same constraint as the one that was asked for, in the presence of the scene's others?
+
+With O the other constraints, F those asked for and G the answer: they say the same where G follows from O and F, and F
+from O and G. What else there is, is told apart: the same set, but irregular there (the gradient vanishes on it), one
+branch, weaker, stronger, different, empty, differentiated, integrated with or without its constant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from functools import cached_property
+from itertools import chain
+from itertools import product as cartesian
+
+from dofkit.base.deadline import part, unless_late
+from dofkit.classification.dependence.implication import follows
+from dofkit.classification.dependence.inequalities import same_side
+from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
+from dofkit.classification.freedom.branches import Outcome, solve
+from dofkit.classification.freedom.preparation import prepared
+from dofkit.configuration.variety import field_jacobian, find
+from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.points.field import NoPointError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.blocks import Row, split
+from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian, Piece
+from dofkit.relations.normal.zero_set import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.system import System
+
+#: The share of the time that is left in which an answer may be found impossible.
+POSSIBLE = 0.3
+#: Choices of branches on which gradients are looked at.
+MAX_BRANCHES = 16
+
+#: Their equations also allow assemblies turned by half a turn, which nobody means: the drawn one is as good.
+JOINTS = frozenset({"revolute", "prismatic", "weld", "cylindrical", "screw", "universal", "spherical", "planar"})
+
+
+class Sameness(Enum):
+    """How an answer compares with the constraints that were asked for; the value is a stable code."""
+
+    SAME = "SAME"
+    IRREGULAR = "IRREGULAR"
+    BRANCH = "ONE_BRANCH"
+    DIFFERENTIATED = "DIFFERENTIATED"
+    INTEGRATED = "INTEGRATED"
+    WITHOUT_CONSTANT = "INTEGRATED_NO_CONSTANT"
+    WEAKER = "WEAKER"
+    STRONGER = "STRONGER"
+    DIFFERENT = "DIFFERENT"
+    EMPTY = "EMPTY"
+    UNDECIDED = "UNDECIDED"
+
+
+@dataclass(frozen=True)
+class Compared:
+    """What was found; ``met``: for every constraint asked for, does it follow from what is right in the answer?"""
+
+    sameness: Sameness
+    met: tuple[bool, ...] = ()
+
+
+def compare(
+    system: System,
+    asked: Sequence[int],
+    answer: Sequence[int],
+    constants: frozenset[str] = frozenset(),
+    engines: Engines = BOTH,
+) -> Compared:
+    """Compare the constraints of ``system`` numbered ``answer`` with those numbered ``asked``.
+
+    ``constants``: parameters that the answer brought with it, as constants of integration; ``engines`` decide.
+    """
+    return _comparison(system, asked, answer, constants, engines).result()
+
+
+def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
+    """Are the constraints numbered ``answer`` finite relations to which those numbered ``asked`` integrate?
+
+    Are the differentials of the answer and the forms the same in the presence of the others? None: undecided.
+    """
+    return _comparison(system, asked, answer, frozenset()).integrates()
+
+
+def _comparison(
+    system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str], engines: Engines = BOTH
+) -> Comparison:
+    reduced, setting = prepared(system)
+    setting = replace(setting, engines=engines)
+    return Comparison(system, tuple(reduced), setting, tuple(asked), tuple(answer), constants)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """An answer beside the constraints that it should be."""
+
+    system: System
+    reduced: tuple[Reduced, ...]
+    setting: Setting
+    asked: tuple[int, ...]
+    answer: tuple[int, ...]
+    constants: frozenset[str]
+
+    def result(self) -> Compared:
+        """What the answer is."""
+        if any(r.inequalities for r in (*self._wanted, *self._given)):
+            return self._unilateral()
+        if same_up_to_numbers(self._given, self._wanted, self.setting.positive):
+            return Compared(Sameness.SAME, tuple(True for _ in self._wanted))
+        times = power_of(self._given, self._wanted, self.setting.positive)
+        if times:
+            return Compared(Sameness.SAME if times == 1 else Sameness.IRREGULAR, tuple(True for _ in self._wanted))
+        sound = self._sound
+        kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
+        met = [self._follow(r.normals, kept) for r in self._wanted]
+        if None in sound or None in met:
+            return self._open(sound, met)
+        told = tuple(bool(m) for m in met)
+        if all(told) and all(sound):
+            return Compared(self._regularity(), told)
+        if all(told):
+            return Compared(self._too_strong(), told)
+        differentiated = all(sound) and not any(told) and self._differentiated()
+        if differentiated is not False:
+            return Compared(Sameness.DIFFERENTIATED if differentiated else Sameness.UNDECIDED, told)
+        if not self._possible:
+            return Compared(Sameness.EMPTY, tuple(False for _ in told))
+        integrated = self._integrated()
+        if integrated is not None:
+            return Compared(integrated, told)
+        if all(sound):
+            return Compared(Sameness.WEAKER, told)
+        implied = self._follow(self._all_wanted, self._answer)
+        if implied is None:
+            return Compared(Sameness.UNDECIDED, told)
+        return Compared(self._too_strong() if implied else Sameness.DIFFERENT, told)
+
+    @cached_property
+    def _given(self) -> list[Reduced]:
+        return [self.reduced[i] for i in self.answer]
+
+    @cached_property
+    def _wanted(self) -> list[Reduced]:
+        return [self.reduced[i] for i in self.asked]
+
+    @cached_property
+    def _answer(self) -> list[Normal]:
+        return [n for r in self._given for n in r.normals]
+
+    @cached_property
+    def _all_wanted(self) -> list[Normal]:
+        return [n for r in self._wanted for n in r.normals]
+
+    @cached_property
+    def _sound(self) -> list[bool | None]:
+        """Which relations of the answer follow from what was asked for."""
+        return [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
+
+    @cached_property
+    def _rest(self) -> list[Reduced]:
+        return [r for r in self.reduced if r not in self._given and r not in self._wanted]
+
+    @cached_property
+    def _others(self) -> list[Normal]:
+        return [n for r in self._rest for n in r.normals]
+
+    def _follow(self, what: Sequence[Normal], given: Sequence[Normal]) -> bool | None:
+        """Do the relations all follow from the others and what is given?"""
+        told = [follows(n, [*self._others, *given], self.setting) for n in what]
+        return False if False in told else None if None in told else True
+
+    def _open(self, sound: Sequence[bool | None], met: Sequence[bool | None]) -> Compared:
+        """Something was not decided; what was may be enough to say that the answer is none."""
+        if not self._possible:
+            return Compared(Sameness.EMPTY, tuple(False for _ in met))
+        return Compared(Sameness.UNDECIDED)
+
+    @cached_property
+    def _possible(self) -> bool:
+        """Can the others and the answer be satisfied together?"""
+        with part(POSSIBLE):
+            return unless_late(lambda: self._solved([*self._rest, *self._given]).consistent is not False, True)
+
+    def _solved(self, reduced: Sequence[Reduced]) -> Outcome:
+        return solve(self.system, reduced, self.setting)
+
+    def _too_strong(self) -> Sameness:
+        """The answer implies what was asked for, and more."""
+        if not self._possible:
+            return Sameness.EMPTY
+        integrated = self._integrated()
+        if integrated is not None:
+            return integrated
+        mine, asked = self._solved([*self._rest, *self._given]), self._solved([*self._rest, *self._wanted])
+        if None in (mine.dof, asked.dof, mine.velocity_dof, asked.velocity_dof):
+            return Sameness.UNDECIDED
+        if (mine.dof, mine.velocity_dof) != (asked.dof, asked.velocity_dof):
+            return Sameness.STRONGER
+        return Sameness.SAME if all(r.constraint.type in JOINTS for r in self._wanted) else Sameness.BRANCH
+
+    # differentials
+
+    def _differentiated(self) -> bool | None:
+        """Is the answer what one gets by differentiating the finite relations that were asked for?
+
+        None where that was not decided.
+        """
+        finite = _finite(self._all_wanted)
+        if not finite or any(isinstance(p, Finite) for n in self._answer for p in n.pieces):
+            return False
+        return self._follow([_differential(g) for g in finite], self._answer)
+
+    def _integrated(self) -> Sameness | None:
+        """Does the answer say in finite relations what was asked for in forms? None where it does not."""
+        integrates = self.integrates()
+        if not integrates:
+            return None if integrates is False else Sameness.UNDECIDED
+        new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=True) if not sound]
+        own = [{s for s in g.symbols if s.args[1] in self.constants} for g in new]
+        return Sameness.INTEGRATED if all(own) else Sameness.WITHOUT_CONSTANT
+
+    def integrates(self) -> bool | None:
+        """Is the answer finite, and are its differentials the forms that were asked for?
+
+        Finite relations among what was asked for follow from the answer itself. None where that was not decided.
+        """
+        finite = _finite(self._answer)
+        standing = [n for n in self._all_wanted if all(isinstance(p, Finite) for p in n.pieces)]
+        moving = [n for n in self._all_wanted if n not in standing]
+        if not moving or not finite or len(finite) != len(self._answer):
+            return False
+        rates = [_differential(g) for g in finite]
+        told = self._follow(rates, self._all_wanted)
+        told = self._follow(standing, self._answer) if told else told
+        return self._follow(moving, [*standing, *rates]) if told else told
+
+    # regularity
+
+    def _regularity(self) -> Sameness:
+        """The same set: is the answer's gradient as good there, on every branch?"""
+        if any(isinstance(p, Pfaffian) for n in self._answer for p in n.pieces):
+            return Sameness.IRREGULAR if any(map(_is_square, self._given)) else Sameness.SAME
+        if _lost(self._answer) and not _lost(self._all_wanted):
+            return Sameness.IRREGULAR
+        raw = [e.expr for r in self._given for e in r.constraint.relations]
+        branches = list(cartesian(*(n.branches for n in (*self._others, *self._all_wanted) if n.branches)))
+        told = {self._as_regular(choice, raw) for choice in branches[:MAX_BRANCHES]}
+        if None in told or len(branches) > MAX_BRANCHES:
+            return Sameness.UNDECIDED if any(n.notes for n in self._answer) else Sameness.SAME
+        return Sameness.IRREGULAR if False in told else Sameness.SAME
+
+    def _as_regular(self, choice: Sequence[Sequence[Piece]], raw: Sequence[Expr]) -> bool | None:
+        """Do the gradients of the answer as written span as much as those that were asked for, on one branch?"""
+        finite = [[p for p in branch if isinstance(p, Finite)] for branch in choice]
+        others = len([n for n in self._others if n.branches])
+        before = [p.expr for branch in finite[:others] for p in branch]
+        wanted = [p.expr for branch in finite[others:] for p in branch]
+        if not wanted:
+            return True
+        ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *wanted])
+        return None if ranks is None else ranks[0] >= ranks[1]
+
+    def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
+        """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""
+        names = [c.name for c in self.system.coordinates]
+        blocks, _ = split(names, [Row(0, p) for p in on])
+        rows = tuple(row for b in blocks for row in b.rows)
+        whole = blocks[0].__class__(tuple(n for n in names if any(n in b.coordinates for b in blocks)), rows)
+        chart = make_chart(whole, self.setting, more=list(chain(*sets)))
+        found = find(chart, {}, 7)
+        if not found.samples:
+            return None
+        try:
+            point = found.samples[0]
+            jacobians = [field_jacobian(chart, point, [chart.ring.node(e) for e in s]) for s in sets]
+        except (ZeroDivisionError, NoPointError):
+            return None
+        return [rank_of_rows(j, point.p) for j in jacobians]
+
+    # inequalities
+
+    def _unilateral(self) -> Compared:
+        """Inequalities are the same where they leave the same side of the same boundary."""
+        if self._answer or self._all_wanted:
+            return Compared(Sameness.DIFFERENT, tuple(False for _ in self._wanted))
+        given = [q for r in self._given for q in r.inequalities]
+        asked = [q for r in self._wanted for q in r.inequalities]
+        table = [[same_side(a, g, self._others, self.setting) for g in given] for a in asked]
+        if any(True not in row and None in row for row in table):
+            return Compared(Sameness.UNDECIDED)
+        found = {q: True in row for q, row in zip(asked, table, strict=True)}
+        met = tuple(all(found[q] for q in r.inequalities) for r in self._wanted)
+        extra = [k for k in range(len(given)) if not any(row[k] for row in table)]
+        if all(met):
+            return Compared(Sameness.STRONGER if extra else Sameness.SAME, met)
+        return Compared(Sameness.DIFFERENT if extra else Sameness.WEAKER, met)
+
+
+def _finite(normals: Sequence[Normal]) -> list[Expr]:
+    """The finite relations of normals with one branch; none where something else occurs."""
+    pieces = [p for n in normals for p in n.pieces]
+    if any(len(n.branches) != 1 for n in normals) or not all(isinstance(p, Finite) for p in pieces):
+        return []
+    return [p.expr for p in pieces if isinstance(p, Finite)]
+
+
+def _differential(g: Expr) -> Normal:
+    """dg as a Pfaffian form."""
+    moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
+    slopes = {str(s.args[1]): ex.diff(g, s) for s in moving}
+    return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, ex.diff(g, ex.TIME)),),))
+
+
+def _lost(normals: Sequence[Normal]) -> bool:
+    """Was a relation a power or a sum of squares in exponentials? Points over GF(p) do not know the zeros of those."""
+    return any(EXPONENT_NOTE in n.notes and not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes) for n in normals)
+
+
+def _is_square(r: Reduced) -> bool:
+    """Was a relation between velocities a power or a sum of squares of forms?"""
+    return any(n.notes and all(isinstance(p, Pfaffian) for p in n.pieces) for n in r.normals)

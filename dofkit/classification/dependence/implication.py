@@ -1,0 +1,170 @@
+"""What follows from what: does a relation hold at every state of motion that other constraints leave?
+
+Asked on every choice of the others' branches, at generic states over GF(p); where one of those does not satisfy the
+relation and complex solutions may be meant, at real states with balls. What is finite follows from finite relations
+only, the hidden ones included: a rate does not fix the constant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product as cartesian
+
+from dofkit.base.deadline import OutOfTimeError, check
+from dofkit.classification.freedom.branches import in_time
+from dofkit.classification.freedom.through_reference import all_of, conditional, through_reference
+from dofkit.configuration.states import States, value_at, vanishes
+from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, reduced
+from dofkit.relations.blocks import Row, coordinates_of, split
+from dofkit.relations.normal.domain import Condition, conditions_of
+from dofkit.relations.normal.no_solution import no_solution
+from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal, Pfaffian
+from dofkit.relations.setting import Setting
+
+#: No coordinate has this name.
+SLACK = "_s"
+RELATIONS = (Finite, Pfaffian, Nonlinear)
+#: Choices of branches that are looked at, and states on each.
+MAX_CHOICES, STATES = 16, 4
+#: States where a root is drawn on the way: the set may fall into parts, and all of these miss half of it once in 2^40.
+PARTED_STATES = 40
+#: Real states that are looked at where a relation may hold on one part of the set and fail on another.
+MANY_STATES = 16
+
+
+def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
+    """Does a relation hold on every branch of the others? None where that was not decided."""
+    here = replace(setting, reference=None, pose={}, grows=False, flag=False)
+    relation = through_reference(normal, setting)
+    if conditional(relation):
+        return None
+    choices = list(cartesian(*(through_reference(o, setting).branches for o in others)))
+    if len(choices) > MAX_CHOICES:
+        return None
+    told: list[bool | None] = []
+    for choice in choices:
+        rows = [Row(k, p) for k, b in enumerate(choice) for p in b if not isinstance(p, Inequality)]
+        ways = reduced(rows, setting.positive)
+        if len(ways) >= MAX_WAYS:
+            return None
+        for way in ways:
+            check()
+            told.append(_on(way, relation, here))
+            if told[-1] is False:
+                return False
+    return all_of(told)
+
+
+def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
+    """Does one of the relation's branches hold wherever the rows do?"""
+    names = sorted({n for r in way.rows for n in coordinates_of(r.piece)})
+    blocks, _ = split(names, way.rows)
+    answers = [in_time(b, setting) for b in blocks]
+    if any(a.consistent is False for a in answers):
+        return True
+    hidden = [g for a in answers for g in a.hidden]
+    if _undefined(relation, names, way.rows, setting):
+        return False
+    known = all(a.consistent for a in answers)
+    given = [r.piece for r in way.rows if isinstance(r.piece, Condition)]
+    asked = [p for b in relation.branches for p in b if isinstance(p, Condition) and p not in given]
+    branches = [[at_state(p) for p in b if isinstance(p, RELATIONS)] for b in relation.branches]
+    still = all(isinstance(p, Finite) for p in relation.pieces)
+    written = [s.written.piece.expr for s in way.slots if isinstance(s.written.piece, Nonlinear) and not still]
+    more = [*(e for b in branches for e in b), *(c.expr for c in (*given, *asked))]
+    moving = {str(s.args[1]) for e in more for s in e.symbols if s.args[0] in ("coordinate", "velocity")}
+    try:
+        states = States(sorted({*names, *moving}), way.rows, hidden, setting, [*more, *written], still)
+        smaller = any(a.degenerate or a.dof is None for a in answers)
+        held = _held(states, branches, written, given, asked, smaller)
+    except (OutOfTimeError, ArithmeticError, NoPointError):
+        return None
+    return held if held or known else None
+
+
+def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], setting: Setting) -> bool:
+    """Is there a configuration of the rows at which a logarithm of a finite relation has no value? True is certified.
+
+    Where u > 0 does not hold, u = -s^2 for some s.
+    """
+    standing = [r for r in rows if isinstance(r.piece, Finite)]
+    own, theirs = (
+        {c.expr for p in pieces if isinstance(p, Finite) for c in conditions_of(p.expr, setting.positive) if c.strict}
+        for pieces in (relation.pieces, [r.piece for r in standing])
+    )
+    moved = {*names, *(str(s.args[1]) for u in own for s in u.symbols if s.args[0] == "coordinate")}
+    for u in sorted(own - theirs, key=repr):
+        beyond = ex.add(u, ex.power(ex.coordinate(SLACK), ex.num(2)))
+        if no_solution([*(r.piece.expr for r in standing if isinstance(r.piece, Finite)), beyond], setting.positive):
+            continue
+        states = States([*sorted(moved), SLACK], [*standing, Row(0, Finite(beyond))], (), setting, (), True)
+        if next(states.certain(2), None) is not None:
+            return True
+    return False
+
+
+def at_state(piece: Finite | Pfaffian | Nonlinear) -> Expr:
+    """What is 0 at a state that satisfies a piece."""
+    return form_rate(piece) if isinstance(piece, Pfaffian) else piece.expr
+
+
+def _held(
+    states: States,
+    branches: Sequence[Sequence[Expr]],
+    written: Sequence[Expr],
+    given: Sequence[Condition],
+    asked: Sequence[Condition],
+    smaller: bool,
+) -> bool | None:
+    """Does a branch vanish at every state that is drawn? ``given`` conditions hold there, those ``asked`` have to.
+
+    ``smaller``: over the reals the set may be smaller than over GF(p), where nothing is refuted then. Nor is it where
+    the set may have parts without real points.
+    """
+    many = STATES if states.rational else PARTED_STATES
+    seen = list[bool | None]()
+    for k in range(many):
+        p = states.draw(k)
+        if p is not None and _all_vanish(states, p, written):
+            seen.append(_some_vanish(states, p, branches))
+            if seen[-1] is False:
+                break
+    plain = not written and not given and states.independent and not smaller
+    if plain and False in seen and states.rational:
+        return False
+    if seen and all(seen) and not asked and not states.chosen:
+        return True
+    told = [
+        all_of((_some_vanish(states, p, branches), *(_satisfied(states, p, c) for c in asked)))
+        for p in states.certain(MANY_STATES if asked or False in seen else STATES)
+        if _all_vanish(states, p, written) and all(_satisfied(states, p, c) is not False for c in given)
+    ]
+    if False in told:
+        return False
+    sure = bool(seen) and all(seen) and not states.chosen
+    return True if told and all(told) and (sure or len(told) > 1 or not seen) else None
+
+
+def _some_vanish(states: States, point: FieldPoint | BallPoint, branches: Sequence[Sequence[Expr]]) -> bool | None:
+    """Does one of the branches vanish? None where some expression has no value."""
+    found = [_all_vanish(states, point, branch) for branch in branches]
+    return True if True in found else None if None in found else False
+
+
+def _all_vanish(states: States, point: FieldPoint | BallPoint, expressions: Sequence[Expr]) -> bool | None:
+    """Are the expressions 0 at a state (where a ball does not tell)? None where one has no value."""
+    found = [value_at(states.ring, point, states.extra[e]) for e in expressions]
+    return all_of(None if v is None else vanishes(v) for v in found)
+
+
+def _satisfied(states: States, point: BallPoint, condition: Condition) -> bool | None:
+    """Does a condition hold at a real state? None where a ball does not tell."""
+    value = value_at(states.ring, point, states.extra[condition.expr])
+    if value is None or value.contains(0):
+        return None
+    return condition.sense == "!=" or bool(value > 0)

@@ -1,0 +1,1 @@
+"""The blocks of a system answered, over the branches of its relations."""

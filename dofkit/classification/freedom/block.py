@@ -1,0 +1,173 @@
+"""The answer to one block: its freedom, its hidden relations, and which of its rows integrate."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from dofkit.base.verdicts import weakest
+from dofkit.classification.freedom.agreement import held, numeric
+from dofkit.configuration.distance_geometry import lengths_unmet
+from dofkit.configuration.finite_blocks import finite_answer
+from dofkit.configuration.variety import Variety, find
+from dofkit.exact.engines import BALLS, BOTH
+from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.frames import pairing
+from dofkit.exact.zero.independence import doubt, independent_generators
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.differential_blocks import (
+    Codistribution,
+    Sampled,
+    ball_labels,
+    codistribution,
+    confined,
+    field_labels,
+    first_order,
+    prolong,
+    span_at,
+)
+from dofkit.integrability.nonlinear_velocities import bend
+from dofkit.mobility.frameworks import framework_answer
+from dofkit.relations.answer import Answer, Size
+from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.setting import Setting
+
+#: Rounds of prolongation: each finds one hidden finite relation.
+MAX_ROUNDS = 12
+#: Branches of one hidden relation that are followed.
+MAX_HIDDEN_BRANCHES = 6
+
+
+def answer(block: Block, setting: Setting) -> Answer:
+    """All that is asked of one block, and how large the model was."""
+    found = _engines(block, setting)
+    differential = bool(block.forms or block.nonlinear)
+    tested = differential or "closed" not in setting.reductions
+    own = Size(len(block.coordinates), len(block.finite), len(block.rows) if tested else 0)
+    return replace(found, size=own)
+
+
+def _engines(block: Block, setting: Setting) -> Answer:
+    """The cheapest method that is sound; where functions may be related in unseen ways, balls have the last word."""
+    if setting.links and setting.engines == BOTH and "cheapest" in setting.reductions:
+        framework = framework_answer(block, setting)
+        if framework is not None:
+            return framework
+    if setting.distances and setting.engines == BOTH:
+        unmet = lengths_unmet(block, setting)
+        if unmet is not None:
+            return unmet
+    alone = replace(setting, engines=BALLS, grows=False, flag=False)
+    try:
+        found = _answer(block, setting)
+    except NoPointError:
+        if setting.engines != BOTH:
+            raise
+        return numeric(_answer(block, alone))
+    if found.doubt and setting.engines == BOTH and setting.tolerance is None:
+        return held(found, _answer(block, alone))
+    return found
+
+
+def _answer(block: Block, setting: Setting) -> Answer:
+    if not block.forms and not block.nonlinear:
+        finite = finite_answer(block, setting)
+        finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
+        return finite if "closed" in setting.reductions else _tested(block, setting, finite)
+    return _mixed_answer(block, setting)
+
+
+def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
+    """The answer of finite relations once their differentials were put to the integrability test that they pass."""
+    forms = codistribution(block, setting, ())
+    for point, sampled in _spans(forms, find(forms.chart, setting.pose)):
+        if any(v != 0 for row in sampled.matrix for v in pairing(row, sampled.span.vectors)):
+            return replace(finite, verdict="undecided", reasons=[*finite.reasons, f"not closed modulo {point.p}"])
+    return finite
+
+
+def _mixed_answer(block: Block, setting: Setting) -> Answer:
+    result = _prolonged(block, setting, Answer())
+    if setting.reference is not None:
+        result.instantaneous = first_order(block, setting, setting.reference)
+    return result
+
+
+def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[Expr] = ()) -> Answer:
+    """The answer with the hidden relations that the rows force added one after another; of branches the largest."""
+    extra = list(given)
+    for _ in range(MAX_ROUNDS):
+        forms = codistribution(block, setting, extra)
+        result.doubt = result.doubt or doubt(forms.chart.ring)
+        found = find(forms.chart, setting.pose)
+        result.reasons = list(found.reasons)
+        if not found.consistent or (not found.samples and found.real is None):
+            result.consistent, result.verdict, result.hidden = found.consistent, found.verdict, extra
+            return result
+        new = confined(forms, found)
+        if new is None:
+            return replace(_with_spans(block, forms, found, extra, setting), doubt=result.doubt)
+        outcome = prolong(new, setting)
+        if not outcome:
+            result.consistent, result.verdict, result.hidden = False, "probable", extra
+            result.reasons.append("the constraints leave no motion through an interval of time")
+            return result
+        if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
+            ways = [_prolonged(block, setting, Answer(), [*extra, *branch]) for branch in outcome[:MAX_HIDDEN_BRANCHES]]
+            return max(ways, key=_largest)
+        fresh = [g for g in outcome[0] if g not in extra]
+        if not fresh:
+            break
+        extra += fresh
+    result.verdict, result.consistent = "undecided", None
+    result.reasons.append("motion is confined to a locus that could not be written down")
+    return result
+
+
+def _largest(a: Answer) -> tuple[int, int, int]:
+    return (int(a.consistent is not False), -1 if a.dof is None else a.dof, a.velocity_dof or 0)
+
+
+def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list[Expr], setting: Setting) -> Answer:
+    result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict)
+    if found.samples:
+        good = _spans(forms, found)
+        if good:
+            field_labels(block, forms, found, good, result, setting)
+            bend(block, setting, result)
+            return result
+    if found.real is not None and found.real.certified:
+        ball_labels(block, forms, found.real, result)
+        bend(block, setting, result)
+        return result
+    result.verdict, result.consistent = "undecided", None
+    result.reasons.append("no regular point was found to look at the differential constraints")
+    return result
+
+
+def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Sampled]]:
+    """The Lie algebra at every sample; at one, where it is all of the tangent space and nothing could raise it."""
+    good = []
+    for point in found.samples:
+        sampled = span_at(forms, point)
+        if sampled is None:
+            continue
+        good.append((point, sampled))
+        whole = sampled.span.dimension == len(forms.chart.symbols)
+        if whole and not forms.finite and independent_generators(forms.chart.ring):
+            break
+    return good
+
+
+def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:
+    """A constraint's own rows with the others forgotten."""
+    blocks, _ = split(coordinates, rows)
+    answers = [answer(b, replace(setting, pose={}, reference=None, grows=False, flag=False)) for b in blocks]
+    merged = Answer()
+    for a in answers:
+        merged.verdict = weakest(merged.verdict, a.verdict)
+        merged.curved = merged.curved or a.curved
+        merged.labels |= {len(merged.labels) + i: label for i, label in a.labels.items()}
+        if a.consistent is not True:
+            merged.consistent = a.consistent
+    return merged

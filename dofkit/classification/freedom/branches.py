@@ -1,0 +1,229 @@
+"""The blocks of a system answered, over the branches of its relations."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product as cartesian
+
+from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check
+from dofkit.classification.freedom.block import answer
+from dofkit.classification.freedom.domain import within
+from dofkit.classification.freedom.isomorphic_blocks import alike, retold
+from dofkit.classification.freedom.through_reference import through_reference
+from dofkit.exact.points.field import NoPointError
+from dofkit.expressions import tree as ex
+from dofkit.integrability.modulo_others import verified
+from dofkit.relations.answer import Answer
+from dofkit.relations.beside_others import MAX_WAYS, Slot
+from dofkit.relations.beside_others import reduced as reduced_velocities
+from dofkit.relations.blocks import Block, Row, parted, split
+from dofkit.relations.integration_constants import names_in, with_rows
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Still
+from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.system import System
+
+#: Choices of branches that are looked at.
+MAX_CHOICES = 16
+_LEFT_OUT = f"of more than {MAX_CHOICES} choices of branches not all were looked at, so the largest is not known"
+
+
+@dataclass
+class Outcome:
+    """The blocks of one choice of branches and their answers.
+
+    ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows.
+    """
+
+    rows: list[Row]
+    blocks: list[Block]
+    answers: list[Answer]
+    untouched: list[str]
+    impossible: list[int] = field(default_factory=list)
+    first_order: int | None = None
+    kinked: bool = False
+    copies: dict[int, int] = field(default_factory=dict)
+    reduced: tuple[Slot, ...] = ()
+
+    @property
+    def consistent(self) -> bool | None:
+        if self.impossible or any(a.consistent is False for a in self.answers):
+            return False
+        return None if any(a.consistent is None for a in self.answers) else True
+
+    @property
+    def written_rows(self) -> list[Row]:
+        """The rows with those of copies, which were answered as their originals."""
+        again = [Row(copy, row.piece) for copy, i in self.copies.items() for row in self.rows if row.constraint == i]
+        return [*self.rows, *again]
+
+    @property
+    def dof(self) -> int | None:
+        return self._total([a.dof for a in self.answers])
+
+    @property
+    def velocity_dof(self) -> int | None:
+        return self._total([a.velocity_dof for a in self.answers])
+
+    def _total(self, parts: Sequence[int | None]) -> int | None:
+        if not self.consistent or any(p is None for p in parts):
+            return None
+        return len(self.untouched) + sum(p for p in parts if p is not None)
+
+    @property
+    def most(self) -> int:
+        """No branch has more freedom than this, as far as is known; -1 where the freedom itself is known."""
+        if self.dof is not None:
+            return -1
+        return len(self.untouched) + sum(_most(b, a) for b, a in zip(self.blocks, self.answers, strict=True))
+
+    @property
+    def size(self) -> tuple[int, int, int]:
+        """What makes one choice of branches larger than another."""
+        return (int(self.consistent is not False), -1 if self.dof is None else self.dof, self.velocity_dof or 0)
+
+
+def _most(block: Block, a: Answer) -> int:
+    """A bound of a block's freedom: a relation takes at least one away, unless it may hold always unseen."""
+    if a.consistent and a.dof is not None:
+        return a.dof
+    return len(block.coordinates) - (a.doubt is None and bool(block.finite))
+
+
+def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:
+    """The largest of the branches, answered block by block."""
+    normals = [(i, through_reference(normal, setting)) for i, r in enumerate(reduced) for normal in r.normals]
+    options = [range(len(normal.branches)) or (None,) for _, normal in normals]
+    positive = setting.positive
+    never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
+    copied = copies(reduced) if "copies" in setting.reductions else {}
+    outcomes, why = list[Outcome](), None
+    known = Known(system)
+    constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
+    for number, choice in enumerate(cartesian(*options)):
+        if number == MAX_CHOICES:
+            why = _LEFT_OUT
+            break
+        rows, impossible = list[Row](), list(never)
+        for (i, normal), branch in zip(normals, choice, strict=True):
+            if branch is None:
+                impossible.append(i)
+            elif i not in copied:
+                rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
+        ways = reduced_velocities(with_rows(rows, constants), positive)
+        why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
+        for way in ways:
+            names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
+            outcome = _answered(names, way.rows, impossible, setting, known)
+            outcome.reduced = way.reduced
+            outcomes.append(outcome)
+    best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
+    best.copies = copied if outcomes else {}
+    if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
+        best.first_order = _first_order(system, normals, setting, constants)
+        best.kinked = any(normal.kinked for _, normal in normals)
+    return best
+
+
+def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> Outcome:
+    """The largest of the branches; one that is open where it may be larger, and undecided where not all were seen."""
+    best = max(outcomes, key=lambda o: o.size)
+    left = [o for o in outcomes if o.consistent is not False]
+    most = max(left, key=lambda o: o.most, default=None)
+    if best.dof is not None and most is not None and most.most > best.dof:
+        best = most
+    if why or (len(outcomes) > 1 and any(a.late for o in outcomes for a in o.answers)):
+        best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
+    elif best.consistent is not False:
+        best.answers = verified(best.reduced, best.blocks, best.answers, setting)
+    return best
+
+
+def _first_order(
+    system: System, normals: Sequence[tuple[int, Normal]], setting: Setting, constants: Mapping[str, Row]
+) -> int | None:
+    """Velocities allowed to first order where branches cross: there the gradient of a product is 0."""
+    rows = [
+        Row(i, p) for i, n in normals if len(n.branches) == 1 for p in n.branches[0] if not isinstance(p, Inequality)
+    ]
+    rows = with_rows(rows, constants)
+    blocks, untouched = split([*(c.name for c in system.coordinates), *names_in(rows, constants)], rows)
+    parts = [in_time(b, setting).instantaneous for b in blocks]
+    return None if any(p is None for p in parts) else len(untouched) + sum(p for p in parts if p is not None)
+
+
+def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
+    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original."""
+    seen: dict[tuple[object, ...], int] = {}
+    found = {}
+    for i, r in enumerate(reduced):
+        check()
+        if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
+            continue
+        key = tuple(sorted(repr(_up_to_a_number(normal)) for normal in r.normals))
+        if key in seen:
+            found[i] = seen[key]
+        else:
+            seen[key] = i
+    return found
+
+
+def _up_to_a_number(normal: Normal) -> list[list[object]]:
+    return [[_scaled(p) for p in branch] for branch in normal.branches]
+
+
+def _scaled(piece: object) -> object:
+    """A piece with the first coefficient made 1."""
+    if isinstance(piece, Finite):
+        first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
+        number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
+        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
+    return piece
+
+
+def _answered(names: Sequence[str], rows: list[Row], impossible: list[int], setting: Setting, known: Known) -> Outcome:
+    blocks, untouched = parted(names, rows, setting.reductions)
+    compared = len(blocks) > 1 and "twins" in setting.reductions
+    answers = [known.answer(block, setting, compared) for block in blocks]
+    return Outcome(rows, blocks, answers, untouched, impossible)
+
+
+class Known:
+    """The blocks that were answered: the same block again, or one that differs in names only, is not asked twice.
+
+    The blocks are kept, because their pieces' identities are keys.
+    """
+
+    def __init__(self, system: System) -> None:
+        self._roles = {c.name: (c.owner, c.role) for c in system.coordinates}
+        self._answers: dict[tuple[int, ...], tuple[Block, Answer]] = {}
+        self._alike: dict[Hashable, tuple[tuple[str, ...], Answer]] = {}
+
+    def answer(self, block: Block, setting: Setting, many: bool) -> Answer:
+        """The block's answer; of ``many`` blocks those that were answered are looked through for a twin."""
+        same = tuple(id(p) for p in (*(row.piece for row in block.rows), *block.conditions))
+        if same not in self._answers:
+            self._answers[same] = block, self._twin(block, setting) if many else in_time(block, setting)
+        return self._answers[same][1]
+
+    def _twin(self, block: Block, setting: Setting) -> Answer:
+        key = alike(block, setting, self._roles)
+        if key in self._alike:
+            own, known = self._alike[key]
+            return retold(known, own, block.coordinates)
+        found = in_time(block, setting)
+        self._alike[key] = (block.coordinates, found)
+        return found
+
+
+def in_time(block: Block, setting: Setting) -> Answer:
+    """The block's answer; undecided where the time is used up."""
+    try:
+        check()
+        return within(block, answer(block, setting), setting)
+    except OutOfTimeError as error:
+        return Answer(None, verdict="undecided", reasons=[str(error)], late=True)
+    except (ArithmeticError, NoPointError):
+        return Answer(None, verdict="undecided", reasons=["an expression has no value at the points that were tried"])

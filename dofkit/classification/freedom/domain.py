@@ -1,0 +1,120 @@
+"""Conditions of a block: do its relations hold somewhere where, as they were written, they have a value?
+
+At a regular point where the conditions hold strictly the set is what the relations make it; where they hold nowhere
+there is nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Literal
+
+from flint import arb
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.classification.freedom.block import answer
+from dofkit.configuration.finite_blocks import OFF_REFERENCE
+from dofkit.configuration.variety import find
+from dofkit.exact.points.balls import OutsideDomainError, RealPoint, RealSearch
+from dofkit.exact.points.field import NoPointError
+from dofkit.exact.ring.program import values
+from dofkit.expressions import tree as ex
+from dofkit.expressions.text import to_text
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block
+from dofkit.relations.chart import Chart
+from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.normal.domain import Condition, holds_at
+from dofkit.relations.normal.no_solution import no_solution
+from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.setting import Setting
+
+#: Searches for a point, each from other starts.
+SEEDS = 6
+
+
+def within(block: Block, result: Answer, setting: Setting) -> Answer:
+    """The answer where the block's conditions hold; inconsistent where they hold nowhere, undecided where unknown."""
+    if not block.conditions or result.consistent is not True:
+        return result
+    if result.instantaneous is not None and setting.reference is not None:
+        known = {**setting.reference, ex.TIME: ex.ZERO}
+        holds = [holds_at(c, known, setting.positive) for c in block.conditions]
+        if all(holds):
+            return result
+        if None in holds and False not in holds:
+            return _open(result, block.conditions)
+        elsewhere = replace(setting, reference=None, pose={})
+        result = within(block, answer(block, elsewhere), elsewhere)
+        result.reasons.append(OFF_REFERENCE)
+        return result
+    return _somewhere(block, result, setting)
+
+
+def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
+    relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + result.hidden
+    conditions = [c.expr for c in block.conditions]
+    chart = make_chart(block, replace(setting, reference=None), result.hidden, conditions)
+    nodes = [chart.ring.node(e) for e in conditions]
+    zero = _identically_zero(chart, nodes)
+    dead = [c for c, z in zip(block.conditions, zero, strict=True) if z and c.sense != ">="]
+    if dead:
+        return _nowhere(result, dead, "probable" if relations else "proved")
+    left = [(n, c) for n, c, z in zip(nodes, block.conditions, zero, strict=True) if not z]
+    if _found(chart, left):
+        return result
+    wanted = [c.expr for c in block.conditions if c.sense != "!="]
+    if no_solution(relations, setting.positive, wanted):
+        return _nowhere(result, block.conditions, "proved")
+    return _open(result, block.conditions)
+
+
+def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:
+    """Which of the nodes vanish on the whole set, as far as points over GF(p) tell?"""
+    samples = find(chart, {}).samples
+    found = [bool(samples)] * len(nodes)
+    for point in samples:
+        try:
+            at = values(chart.ring, point)
+        except (ZeroDivisionError, NoPointError):
+            return [False] * len(nodes)
+        found = [z and at[n] == 0 for z, n in zip(found, nodes, strict=True)]
+    return found
+
+
+def _found(chart: Chart, left: Sequence[tuple[int, Condition]]) -> bool:
+    """Is there a certified regular point, of the largest rank that was seen, at which all conditions hold strictly?"""
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    points = []
+    for seed in range(SEEDS):
+        try:
+            point = search.search(seed)
+        except (OverflowError, ValueError, DomainError):
+            continue
+        if point is not None and point.certified and point.consistent:
+            points.append(point)
+    rank = max((p.rank for p in points), default=0)
+    return any(p.rank == rank and _strictly(chart, p, left) for p in points)
+
+
+def _strictly(chart: Chart, found: RealPoint, left: Sequence[tuple[int, Condition]]) -> bool:
+    try:
+        at = values(chart.ring, found.point)
+    except (OutsideDomainError, ZeroDivisionError):
+        return False
+    return all(at[n] > 0 if c.sense != "!=" else not arb(at[n]).contains(0) for n, c in left)
+
+
+def _shown(conditions: Sequence[Condition]) -> str:
+    return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in conditions)
+
+
+def _nowhere(result: Answer, conditions: Sequence[Condition], verdict: Literal["proved", "probable"]) -> Answer:
+    why = f"as written the relations ask for {_shown(conditions)}, which holds nowhere where they do"
+    return Answer(False, verdict=verdict, hidden=result.hidden, reasons=[*result.reasons, why])
+
+
+def _open(result: Answer, conditions: Sequence[Condition]) -> Answer:
+    why = f"no configuration was found at which the relations hold and, as they ask, {_shown(conditions)}"
+    return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why])

@@ -1,0 +1,82 @@
+"""A system made ready for the engines: every relation as what it says, and what may be assumed of its symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain, count
+
+from dofkit.base.deadline import check
+from dofkit.base.errors import Fault, SceneError, TextError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.differentials import accelerations_of
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.accelerations import second_order
+from dofkit.relations.normal.normal_form import Inequality, Normal, normalise, without_instants
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.reductions import ALL, Reductions
+from dofkit.relations.setting import Setting
+from dofkit.system import System
+
+
+def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
+    """Each relation as what it says, and what may be assumed of the symbols."""
+    positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
+    positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
+    reduced = reduce_all(system, positive)
+    setting = Setting(
+        positive,
+        tuple(ex.parameter(p) for p in system.generic),
+        system.pose,
+        system.reference,
+        system.coordinates,
+        system.tolerance,
+        system.size,
+        dimension=system.dimension,
+        distances={} if system.tolerance else system.distances,
+        links=_links(system),
+        reductions=reductions,
+        welds=frozenset(i for i, c in enumerate(system.constraints) if c.type == "weld"),
+    )
+    return reduced, setting
+
+
+def _links(system: System) -> dict[int, list[tuple[str, str]]]:
+    """The particles that rigid links join, by constraint."""
+    found: dict[int, list[tuple[str, str]]] = {}
+    for i, a, b in system.links:
+        found.setdefault(i, []).append((a, b))
+    return found
+
+
+def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
+    """Every relation of every constraint as what it says; all that cannot be one are faults together."""
+    found, faults = [], []
+    fresh = _fresh(system)
+    for i, constraint in enumerate(system.constraints):
+        normals, inequalities = [], []
+        written = constraint.type in ("equation", "on")
+        for relation in constraint.relations:
+            check()
+            if relation.sense != "=":
+                inequalities.append(Inequality(relation.expr, relation.sense == ">"))
+                continue
+            try:
+                normals.append(_normal(relation.expr, positive, written, fresh))
+            except TextError as error:
+                faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
+        found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
+    if faults:
+        raise SceneError(tuple(faults), system.name)
+    return found
+
+
+def _normal(e: Expr, positive: frozenset[Expr], written: bool, fresh: Iterator[str]) -> Normal:
+    if accelerations_of(e):
+        return second_order(e, positive, fresh)
+    return without_instants(normalise(e, positive, written))
+
+
+def _fresh(system: System) -> Iterator[str]:
+    """Names for constants of integration: C, C1, C2, ... without those of the scene."""
+    taken = {c.name for c in system.coordinates} | {*system.parameters, *system.generic, *system.functions}
+    return (name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)

@@ -1,0 +1,101 @@
+"""Relations that hold on several branches: which pass through the reference."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from itertools import product as cartesian
+
+from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
+from dofkit.configuration.variety import on_variety, pose_point
+from dofkit.exact.zero.identity import is_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.blocks import Block, Row, coordinates_of
+from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.normal.domain import Condition, holds_at
+from dofkit.relations.normal.normal_form import Finite, Normal, Piece
+from dofkit.relations.normal.signs import arguments_of, by_signs
+from dofkit.relations.normal.zero_set import zero_set
+from dofkit.relations.setting import Setting
+
+
+def through_reference(normal: Normal, setting: Setting) -> Normal:
+    """The branches that hold at the reference configuration; all of them where none is given, or none holds there."""
+    if setting.reference is None:
+        return normal
+    normal = _at_kinks(normal, {**setting.reference, ex.TIME: ex.ZERO}, setting.positive)
+    if len(normal.branches) < 2:
+        return normal
+    kept = tuple(b for b in normal.branches if _holds(b, setting))
+    return replace(normal, branches=kept) if kept else normal
+
+
+def _at_kinks(normal: Normal, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> Normal:
+    """Finite relations told apart by the signs of what stands in abs() and vanishes at the reference."""
+    branches: list[tuple[Piece, ...]] = []
+    kinked = False
+    for branch in normal.branches:
+        options: list[list[tuple[Piece, ...]]] = []
+        for p in branch:
+            folded = _folded(p.expr, known, positive) if isinstance(p, Finite) else []
+            kinked = kinked or bool(folded)
+            options.append(_by_signs(p.expr, folded, positive) if folded and isinstance(p, Finite) else [(p,)])
+        branches += [tuple(q for part in choice for q in part) for choice in cartesian(*options)]
+    return replace(normal, branches=tuple(branches), kinked=True) if kinked else normal
+
+
+def _folded(e: Expr, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> list[Expr]:
+    """The arguments of absolute values that vanish at the reference."""
+    try:
+        return [u for u in arguments_of(e) if is_zero(ex.substitute(u, known), positive)]
+    except ZeroDivisionError:
+        return []
+
+
+def _by_signs(e: Expr, arguments: Sequence[Expr], positive: frozenset[Expr]) -> list[tuple[Piece, ...]]:
+    found: list[tuple[Piece, ...]] = []
+    for signed, conditions in by_signs(e, arguments, positive):
+        moving = frozenset(s for s in signed.symbols if s.args[0] in ("coordinate", "time"))
+        zeros = ((),) if is_zero(signed, positive) else zero_set(signed, positive, moving)[0]
+        found += [(*map(Finite, conjunction), *conditions) for conjunction in zeros]
+    return found
+
+
+def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
+    finite = [p for p in branch if isinstance(p, Finite)]
+    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    chart = make_chart(_block(finite), setting)
+    if "field" not in setting.engines:
+        ball = ball_point(chart, known, random.Random("dofkit branch"))
+        return ball is not None and ball_matrix(chart, ball, True) is not None
+    point = pose_point(chart, known, 5)
+    if point is None or not on_variety(chart, point):
+        return False
+    return all(holds_at(p, known, setting.positive) is not False for p in branch if isinstance(p, Condition))
+
+
+def _block(pieces: Sequence[Finite]) -> Block:
+    names = sorted({n for p in pieces for n in coordinates_of(p)})
+    return Block(tuple(names), tuple(Row(i, p) for i, p in enumerate(pieces)))
+
+
+def all_of(answers: Iterable[bool | None]) -> bool | None:
+    """False where one is, else None where one is, else True."""
+    found: bool | None = True
+    for answer in answers:
+        if answer is False:
+            return False
+        found = found if answer else None
+    return found
+
+
+def algebraic(e: Expr, *more: str) -> bool:
+    """No functions beyond sines and cosines (and ``more``): then what is not 0 over GF(p) is not 0."""
+    return all(n.op != "fn" or n.args[0] in ("sin", "cos", "tan", *more) for n in ex.nodes(e))
+
+
+def conditional(normal: Normal) -> bool:
+    """Does a branch say only where it holds?"""
+    return any(all(isinstance(p, Condition) for p in branch) for branch in normal.branches if branch)

@@ -1,0 +1,159 @@
+"""What a form integrates to with the help of others: which of them it needs, and the finite relation they give."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain, count, islice
+
+from dofkit.base.deadline import OutOfTimeError, check
+from dofkit.classification.freedom.block import answer
+from dofkit.exact.points.field import NoPointError
+from dofkit.expressions.text import to_text
+from dofkit.integrability.differential_blocks import codistribution
+from dofkit.integrability.first_integrals import FirstIntegral, assigned, first_integrals
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.normal.normal_form import Pfaffian
+from dofkit.relations.setting import Setting
+
+#: Blocks up to this many constraints and coordinates are searched for companions and integrals.
+MAX_CONSTRAINTS, MAX_COORDINATES = 10, 12
+
+
+@dataclass(frozen=True)
+class Together:
+    """``companions``: a minimal set of other constraints with which a form integrates; None where it was not sought.
+
+    ``integral``: what it then says, as text; ``identically`` tells that this was proved in the canonical ring.
+    """
+
+    companions: tuple[int, ...] | None = None
+    integral: str | None = None
+    identically: bool = True
+
+
+@dataclass(frozen=True)
+class Found:
+    """Integrals by the numbers of the rows they can stand for, and all of them."""
+
+    by_row: Mapping[int, FirstIntegral]
+    integrals: Sequence[FirstIntegral]
+
+
+@dataclass
+class Companionship:
+    """The blocks of a system, asked one constraint at a time; what was found for a block is kept."""
+
+    setting: Setting
+    _integrals: dict[tuple[int, ...], Found] = field(default_factory=dict)
+
+    def of(self, constraint: int, block: Block, a: Answer) -> Together:
+        """For a constraint that is holonomic in its block: what it needs there, and its integral."""
+        owners = list(dict.fromkeys(r.constraint for r in block.rows))
+        if len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES or block.nonlinear:
+            return Together()
+        try:
+            kept = self._needed(constraint, block, owners)
+            integral = self._integral(constraint, block, kept)
+        except (OutOfTimeError, ArithmeticError, NoPointError):
+            return Together()
+        companions = tuple(o for o in kept if o != constraint)
+        if integral is None:
+            return Together(companions)
+        return Together(companions, equation(integral, block), integral.identically)
+
+    def modulo(self, constraint: int, block: Block, a: Answer) -> Together:
+        """For a constraint that is not: a finite relation that it says in the presence of all the others."""
+        owners = list(dict.fromkeys(r.constraint for r in block.rows))
+        if a.dof is None or len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES:
+            return Together()
+        try:
+            integral = self._integral(constraint, block, owners)
+        except (OutOfTimeError, ArithmeticError, NoPointError):
+            return Together()
+        return Together() if integral is None else Together((), equation(integral, block), integral.identically)
+
+    def _needed(self, constraint: int, block: Block, owners: Sequence[int]) -> list[int]:
+        """A minimal set of constraints, ``constraint`` among them, in which it is holonomic; later ones go first."""
+        kept = list(owners)
+        for other in reversed(owners):
+            check()
+            fewer = [o for o in kept if o != other]
+            if other != constraint and self._holonomic(constraint, _rows(block, fewer), block):
+                kept = fewer
+        return kept
+
+    def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
+        plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
+        for part in split(block.coordinates, rows)[0]:
+            linear = [
+                i for i, r in enumerate(part.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)
+            ]
+            if linear:
+                found = answer(part, plain)
+                if not found.consistent or any(not _true(found, i) for i in linear):
+                    return False
+        return True
+
+    def _integral(self, constraint: int, block: Block, owners: Sequence[int]) -> FirstIntegral | None:
+        """The integral of the one form that a constraint wrote, among those of some constraints."""
+        own = _forms_of(constraint, block)
+        return self._found(block, owners).by_row.get(own[0]) if len(own) == 1 else None
+
+    def basis(self, block: Block) -> list[str]:
+        """Independent integrals of all the block's rows together, as text."""
+        owners = list(dict.fromkeys(r.constraint for r in block.rows))
+        if len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES or block.nonlinear:
+            return []
+        try:
+            integrals = self._found(block, owners).integrals
+        except (OutOfTimeError, ArithmeticError, NoPointError):
+            return []
+        return [equation(f, block, i if len(integrals) > 1 else None) for i, f in enumerate(integrals)]
+
+    def _found(self, block: Block, owners: Sequence[int]) -> Found:
+        """The integrals of a block's rows that some constraints wrote."""
+        key = (id(block), *owners)
+        if key not in self._integrals:
+            self._integrals[key] = self._sought(block, owners)
+        return self._integrals[key]
+
+    def _sought(self, block: Block, owners: Sequence[int]) -> Found:
+        numbers = [i for i, r in enumerate(block.rows) if r.constraint in owners]
+        part = Block(block.coordinates, tuple(block.rows[i] for i in numbers))
+        plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
+        whole = answer(part, plain)
+        if whole.dof is None:
+            return Found({}, [])
+        forms = codistribution(part, plain, whole.hidden)
+        sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
+        integrals = first_integrals(forms, sought)
+        shift = forms.finite - len(part.finite)
+        by_row = assigned(forms, integrals)
+        return Found({numbers[row - shift]: f for row, f in by_row.items()}, integrals)
+
+
+def _forms_of(constraint: int, block: Block) -> list[int]:
+    return [i for i, r in enumerate(block.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)]
+
+
+def _rows(block: Block, owners: Sequence[int]) -> list[Row]:
+    return [r for r in block.rows if r.constraint in owners]
+
+
+def _true(a: Answer, i: int) -> bool:
+    label = a.labels.get(i)
+    return label is not None and label.holonomic is True
+
+
+def equation(f: FirstIntegral, block: Block, number: int | None = None) -> str:
+    """``f = C``, or C1, C2, ... where there are several or the block itself has a C."""
+    taken = set(block.coordinates)
+    for row in block.rows:
+        piece = row.piece
+        parts = [e for _, e in piece.items()] if isinstance(piece, Pfaffian) else [piece.expr]
+        taken |= {str(s.args[1]) for e in parts for s in e.symbols}
+    names = (f"C{i}" for i in count(1))
+    free = (name for name in (names if number is not None else chain(("C",), names)) if name not in taken)
+    return f"{to_text(f.expr)} = {next(islice(free, number or 0, None))}"

@@ -1,0 +1,221 @@
+"""The report's entries, one a constraint, from the blocks' answers."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from functools import partial
+
+from dofkit.base.deadline import OutOfTimeError, check
+from dofkit.base.verdicts import Verdict
+from dofkit.classification.dependence.circuits import Redundancies
+from dofkit.classification.freedom.block import alone
+from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.freedom.isomorphic_blocks import nameless
+from dofkit.classification.labels.companions import Companionship
+from dofkit.classification.labels.entry import Told, entry, label_in_system, unfinished
+from dofkit.classification.labels.equation_names import said
+from dofkit.classification.labels.reasons import Others
+from dofkit.exact.points.field import NoPointError
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.modulo_others import label
+from dofkit.integrability.traits import Traits, traits
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.integration_constants import fixed_constants
+from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Piece, Still
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.report import ConstraintEntry
+
+#: Up to this many coordinates, those of one constraint are listed in the scene's order.
+LISTED = 2000
+
+
+def entries_of(
+    reduced: Sequence[Reduced],
+    setting: Setting,
+    outcome: Outcome,
+    dependent: Sequence[Redundancies],
+    names: Sequence[str],
+    company: Companionship,
+) -> list[ConstraintEntry]:
+    """An entry for every constraint, in order; one that there is no time for says so."""
+    independent: Counter[int] = Counter()
+    for found in dependent:
+        independent.update(found.independent)
+    known = {i for found in dependent for i in found.independent} - _unmeasured(outcome)
+    circuits = {i: c for found in dependent for i, c in found.circuits.items()}
+    left_open = {i for found in dependent for i in found.undecided}
+    following = _following(dependent)
+    told = _told(len(reduced), outcome, setting)
+    constants = fixed_constants(
+        [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
+    )
+    told_of = _Remembered(setting).traits
+    entries, consistent = [], outcome.consistent
+    for i, r in enumerate(reduced):
+        number = independent[i] if i in known else None if told[i] else 0
+        circuit = None if i not in circuits else [names[j] for j in circuits[i]]
+        try:
+            check()
+            beside = partial(_with_others, i, told[i], company, names)
+            made = _one(i, r, told[i], setting, consistent, number, circuit, constants, told_of, beside)
+            made = _with_open_dependence(made) if i in left_open else _with_equations(made, r, following.get(i))
+            entries.append(made)
+        except OutOfTimeError as error:
+            entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
+    return entries
+
+
+def labels_in_system(
+    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
+) -> list[tuple[bool | None, Verdict]]:
+    """Whether each constraint is holonomic in the system, and how sure; what needs an integral found is left None."""
+    told = _told(len(reduced), outcome, setting)
+    if not outcome.consistent:
+        return [(None, "undecided")] * len(reduced)
+    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+
+
+def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:
+    """The scalar equations of each constraint that follow from those before them, by their numbers."""
+    following: dict[int, set[int]] = {}
+    for found in dependent:
+        for i, equations in found.equations.items():
+            following.setdefault(i, set()).update(equations)
+    return following
+
+
+def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | None) -> ConstraintEntry:
+    """An entry with its redundant equations by name, where their number is what was found before."""
+    if following is None or made.independent is None or len(following) != made.equations - made.independent:
+        return made
+    written = [relation for relation in r.constraint.relations if relation.sense == "="]
+    names = [said(written[k], r.constraint.text) for k in sorted(following)]
+    reason = made.reason
+    if names and made.equations > 1:
+        many = "follows" if len(names) == 1 else "follow"
+        reason += f" Of its {made.equations} equations {len(names)} {many} from those before: {'; '.join(names)}."
+    return made.model_copy(update={"redundant_equations": names, "reason": reason})
+
+
+def _with_open_dependence(made: ConstraintEntry) -> ConstraintEntry:
+    """An entry of which it is not known whether it follows from the others."""
+    reason = f"{made.reason} Whether it follows from the others was not decided."
+    return made.model_copy(update={"verdict": "undecided", "independent": None, "reason": reason})
+
+
+def _unmeasured(outcome: Outcome) -> set[int]:
+    """The constraints of blocks whose velocities are not known: not all of their equations were looked at."""
+    open_blocks = (b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.velocity_dof is None)
+    return {r.constraint for block in open_blocks for r in block.rows}
+
+
+def _one(
+    i: int,
+    r: Reduced,
+    told: list[Told],
+    setting: Setting,
+    consistent: bool | None,
+    independent: int | None,
+    circuit: list[str] | None,
+    constants: Mapping[str, Expr],
+    told_of: Callable[[Piece], Traits],
+    with_others: Callable[[bool], Others],
+) -> ConstraintEntry:
+    by_itself = None
+    written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
+    if any(isinstance(row.piece, Nonlinear) for row in written):
+        still = [t.row for t in told if isinstance(t.row.piece, Still)]
+        by_itself = _curved(told) or _alone_in_time([*written, *still], setting)
+    elif any(isinstance(t.row.piece, Pfaffian) for t in told):
+        by_itself = _inherited(told) or _alone_in_time([t.row for t in told], setting)
+    return entry(
+        r.constraint,
+        r.normals,
+        r.inequalities,
+        told,
+        by_itself,
+        setting,
+        independent,
+        circuit,
+        consistent,
+        constants,
+        told_of,
+        with_others,
+    )
+
+
+def _with_others(i: int, told: Sequence[Told], company: Companionship, names: Sequence[str], in_system: bool) -> Others:
+    """What the constraints of its block do for a form; nothing where it stands alone there or in several blocks."""
+    blocks = {id(t.block): t for t in told if t.block is not None}
+    only = next(iter(blocks.values())) if len(blocks) == 1 else None
+    if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in told)):
+        return Others()
+    found = (company.of if in_system else company.modulo)(i, only.block, only.answer)
+    companions = None if found.companions is None else tuple(f"'{names[k]}'" for k in found.companions)
+    return Others(companions, found.integral, found.identically)
+
+
+class _Remembered:
+    """Labels of pieces, found once for those that differ in names only."""
+
+    def __init__(self, setting: Setting) -> None:
+        self._setting = setting
+        self._known: dict[Hashable, Traits] = {}
+
+    def traits(self, piece: Piece) -> Traits:
+        if not isinstance(piece, Pfaffian):
+            return traits(piece, self._setting.positive, self._setting.engines)
+        key = nameless(piece)
+        found = self._known.get(key)
+        if found is None:
+            found = self._known[key] = traits(piece, self._setting.positive, self._setting.engines)
+        return found
+
+
+def _told(number: int, outcome: Outcome, setting: Setting) -> list[list[Told]]:
+    """Every constraint's rows with their labels; a copy has those of its original.
+
+    What the other constraints reduce is labelled as it was written.
+    """
+    told: list[list[Told]] = [[] for _ in range(number)]
+    replaced = {id(row) for slot in outcome.reduced for row in slot.rows}
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        linear = [r for r in block.rows if not isinstance(r.piece, Nonlinear)]
+        for i, row in enumerate(linear):
+            if id(row) not in replaced:
+                told[row.constraint].append(Told(row, a.labels.get(i), a, block))
+        for row in block.rows:
+            if isinstance(row.piece, Nonlinear):
+                told[row.constraint].append(Told(row, None, a, block))
+    for slot in outcome.reduced:
+        found, a = label(slot, outcome.blocks, outcome.answers, setting)
+        told[slot.written.constraint].append(Told(slot.written, found, a, reduced=True))
+    for i, original in outcome.copies.items():
+        told[i] = [Told(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in told[original]]
+    return told
+
+
+def _curved(told: Sequence[Told]) -> Answer | None:
+    """Velocities that bend under the other constraints bend without them."""
+    return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
+
+
+def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
+    mentioned = {name for row in own for name in coordinates_of(row.piece)}
+    coordinates = [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < LISTED else []
+    coordinates += sorted(mentioned - set(coordinates))
+    try:
+        check()
+        return alone(own, setting, coordinates)
+    except (OutOfTimeError, ArithmeticError, NoPointError):
+        return Answer(None, verdict="undecided")
+
+
+def _inherited(told: Sequence[Told]) -> Answer | None:
+    """A single form that is non-holonomic in the system is so alone: what integrates alone integrates in any system."""
+    if len(told) != 1 or told[0].label is None or told[0].label.holonomic is not False:
+        return None
+    return Answer(labels={0: told[0].label})

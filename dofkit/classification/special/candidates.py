@@ -1,0 +1,205 @@
+"""Where a block's answer may change: common zeros of minors and of curvature, and zeros of denominators."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import combinations
+from math import comb
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.classification.special.common_zeros import MAX_READ, Leaf, common_zeros
+from dofkit.classification.special.minors import MAX_MINORS, Reduction, Table, curvatures
+from dofkit.exact.ring.canonical import Poly, TooLargeError
+from dofkit.exact.ring.minors import determinant
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+
+
+@dataclass
+class Candidates:
+    """``ranks`` and ``bends``: conditions on coordinates under which all largest minors, all curvature, vanish.
+
+    ``poles``: (row, factor of its denominators). ``values``: conditions on parameters alone.
+    """
+
+    ranks: list[Leaf] = field(default_factory=list)
+    bends: list[Leaf] = field(default_factory=list)
+    poles: list[tuple[int, Poly]] = field(default_factory=list)
+    values: list[Leaf] = field(default_factory=list)
+
+    @property
+    def empty(self) -> bool:
+        return not (self.ranks or self.bends or self.poles or self.values)
+
+
+def candidates(table: Table, rank: int | None, curvature: int) -> Candidates:
+    """All that are found; ``rank`` of the rows in the coordinates' columns (None: they contradict each other).
+
+    ``curvature``: the number of independent directions that [D, D] adds to D at a generic point, 0 where not known.
+    """
+    search = _Search(table)
+    if rank is None:
+        search.attempt(search.agreements)
+        return search.found
+    search.attempt(search.poles)
+    reduction = Reduction(table)
+    size = rank - len(reduction.solved)
+    search.attempt(lambda: search.minors(reduction, size))
+    search.attempt(lambda: search.curvature(reduction, size, curvature))
+    for polys in (*table.clocks, *(list(curl.values()) for curl in table.curls)):
+        search.attempt(partial(search.values_of, polys))
+    search.inside()
+    search.merge()
+    return search.found
+
+
+def _simple(leaf: Leaf) -> bool:
+    """Conditions that a person can read."""
+    return all(len(p) <= MAX_READ for p in (*leaf.others, *(v for _, v in leaf.solved)))
+
+
+class _Search:
+    def __init__(self, table: Table) -> None:
+        self.table, self.reals = table, table.reals
+        self.found = Candidates()
+
+    def attempt(self, work: Callable[[], None]) -> None:
+        """Do it; what is too large finds nothing."""
+        try:
+            work()
+        except (TooLargeError, DomainError):
+            return
+
+    def agreements(self) -> None:
+        """Values for which relations that contradict each other may agree, or rows that do become dependent."""
+        self.places(self.table.relations)
+        reduction = Reduction(self.table)
+        self.values_of([entry for r in reduction.rest for entry in reduction.work[r]])
+
+    def minors(self, reduction: Reduction, size: int) -> None:
+        if size < 1:
+            return
+        minors = [m for m in reduction.minors(size) if m != 0]
+        self.values_of(minors)
+        self.found.ranks += self.places(minors)
+
+    def curvature(self, reduction: Reduction, size: int, independent: int) -> None:
+        """Where all of it vanishes, for which parameters that of one form does, and where less of it is independent."""
+        if size < 0 or not any(self.table.curls):
+            return
+        matrix = curvatures(self.table, reduction.kernel(size))
+        every = [c for row in matrix for c in row if c != 0]
+        self.found.bends += self.places(every)
+        for row in matrix if len(matrix) > 1 else ():
+            self.values_of(row)
+        self.values_of(every)
+        bent = [row for row in matrix if any(c != 0 for c in row)]
+        if independent > 1 and comb(len(bent), independent) * comb(len(bent[0]), independent) <= MAX_MINORS:
+            self.found.bends += self.places(self._minors_of(bent, independent))
+
+    def _minors_of(self, matrix: list[list[Poly]], size: int) -> list[Poly]:
+        columns = range(len(matrix[0]))
+        picked = [(r, c) for r in combinations(matrix, size) for c in combinations(columns, size)]
+        return [determinant(self.table.canon, [[row[i] for i in c] for row in r]) for r, c in picked]
+
+    def poles(self) -> None:
+        for r, below in enumerate(self.table.below):
+            if not below.is_constant():
+                moving = [f for f in self.reals.factors(below) if self._of_coordinates([f])]
+                self.found.poles += [(r, f) for f in moving if len(f) <= MAX_READ]
+
+    # -- conditions -------------------------------------------------------------------------------
+
+    def values_of(self, polys: Iterable[Poly]) -> None:
+        """Conditions on the parameters under which polynomials vanish everywhere."""
+        left = [p for p in polys if p != 0]
+        if not left:
+            return
+        if any(len(p) == 1 and self.reals.never_zero_factor(p) for p in left):
+            return
+        coefficients: list[Poly] = []
+        for poly in left:
+            coefficients += self.reals.coefficients(poly)
+            if any(self.reals.never_zero(c) for c in coefficients):
+                return
+        self._add_values(common_zeros(self.reals, coefficients))
+
+    def _add_values(self, leaves: Iterable[Leaf]) -> None:
+        self.found.values += [leaf for leaf in leaves if leaf != Leaf() and leaf not in self.found.values]
+
+    def places(self, polys: Iterable[Poly]) -> list[Leaf]:
+        """Conditions on coordinates under which polynomials vanish and the finite relations can hold.
+
+        Where they can hold for some values of the parameters only, those are kept instead.
+        """
+        left = [p for p in polys if p != 0]
+        kept = []
+        for leaf in common_zeros(self.reals, left, short=True) if left else ():
+            conditions = leaf.conditions(self.table.canon)
+            needed = [] if any(map(self._instant, conditions)) else self._needed(leaf)
+            own = [c for c in conditions if self.reals.of_parameters(c)]
+            if own or (needed and [] not in needed):
+                for more in needed:
+                    self._add_values(common_zeros(self.reals, [*own, *more]))
+            elif needed and _simple(leaf) and self._of_coordinates(conditions) and self._defined(leaf):
+                kept.append(leaf)
+        return kept
+
+    def _needed(self, leaf: Leaf) -> list[list[Poly]]:
+        """What the finite relations need of the parameters on a leaf, in every way that they can hold for a while."""
+        relations = [self.reals.on(leaf, g) for g in self.table.relations]
+        if any(self.reals.never_zero(g) for g in relations):
+            return []
+        try:
+            ways = common_zeros(self.reals, relations)
+        except TooLargeError:
+            return [[]]
+        conditions = [way.conditions(self.table.canon) for way in ways]
+        return [
+            [c for c in way if self.reals.of_parameters(c)] for way in conditions if not any(map(self._instant, way))
+        ]
+
+    def _instant(self, poly: Poly) -> bool:
+        """A condition on time alone."""
+        symbols = self._symbols([poly])
+        return ex.TIME in symbols and all(s.args[0] in ("time", "parameter") for s in symbols)
+
+    def _symbols(self, conditions: Iterable[Poly]) -> frozenset[Expr]:
+        canon = self.table.canon
+        present = {i for poly in conditions for i in canon.generators_in(poly)}
+        return frozenset[Expr]().union(*(canon.ring.var_expr[i].symbols for i in present))
+
+    def _defined(self, leaf: Leaf) -> bool:
+        """Do the rows' denominators not vanish on a leaf?"""
+        below = [self.reals.on(leaf, p) for p in self.table.below]
+        return all(p != 0 and not any(divmod(p, c)[1] == 0 for c in leaf.others) for p in below)
+
+    def inside(self) -> None:
+        """Parameters that functions hold together with coordinates may be 0 (sin(k x))."""
+        ring = self.table.canon.ring
+        for var in ring.vars:
+            shown = ring.var_expr[var.index].symbols
+            if var.kind == "symbol" or all(s.args[0] == "parameter" for s in shown):
+                continue
+            free = {i for s in shown if s.args[0] == "parameter" and (i := ring.var_index(s)) is not None}
+            zero = self.table.canon.one * 0
+            self._add_values(Leaf(((i, zero),)) for i in sorted(free - self.reals.never))
+
+    def merge(self) -> None:
+        """sin u = 1 and sin u = -1 are one condition: cos u = 0."""
+        canon = self.table.canon
+        for var in canon.ring.vars:
+            ends = [Leaf(((var.index, canon.one * sign),)) for sign in (1, -1)]
+            if var.kind in ("cos", "sin") and all(end in self.found.values for end in ends):
+                kept = [leaf for leaf in self.found.values if leaf not in ends]
+                self.found.values = [*kept, Leaf(((var.partner, canon.one * 0),))]
+
+    def _of_coordinates(self, conditions: Sequence[Poly]) -> bool:
+        """Do coordinates occur, and no unknown functions?"""
+        canon = self.table.canon
+        present = {i for poly in conditions for i in canon.generators_in(poly)}
+        known = all(canon.ring.vars[i].kind != "call" for i in present)
+        return known and any(s.args[0] == "coordinate" for s in self._symbols(conditions))

@@ -1,0 +1,323 @@
+"""The special cases of a small scene, each confirmed and told in a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from typing import Any
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.base.deadline import OutOfTimeError, expired, limited
+from dofkit.base.errors import DofkitError
+from dofkit.base.verdicts import Verdict, weakest
+from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.freedom.isomorphic_blocks import alike
+from dofkit.classification.special.candidates import Candidates, candidates
+from dofkit.classification.special.common_zeros import Leaf, Reals
+from dofkit.classification.special.integrals import undefined_integrals
+from dofkit.classification.special.loci import Place, place, undefined
+from dofkit.classification.special.meeting_branches import meetings
+from dofkit.classification.special.minors import Table, table_of
+from dofkit.classification.special.parameters import Condition, Values, assignments, at_values, changed, differences
+from dofkit.classification.special.wording import drop, flag, order_of, where
+from dofkit.exact.points.field import NoPointError
+from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block, expressions
+from dofkit.relations.normal.normal_form import Inequality
+from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.report import Report, SpecialCase
+from dofkit.system import System
+
+#: Blocks with more rows, coordinates or terms are not searched, nor scenes with more blocks.
+MAX_ROWS, MAX_COLUMNS, MAX_TERMS, MAX_BLOCKS = 6, 10, 20, 12
+#: Times that a scene is answered again with special values, and loci that are confirmed a block.
+MAX_VALUES, MAX_PLACES = 8, 6
+#: Scenes with more coordinates are not answered again; and all of it takes no longer than this.
+MAX_SCENE, MAX_SECONDS = 40, 10.0
+SEARCHED = "special cases by the zeros of minors and of curvature"
+
+_UNFINISHED = (TooLargeError, DomainError, ArithmeticError, ValueError, NoPointError, OutOfTimeError)
+
+Again = Callable[[System], Report]
+
+
+@dataclass(frozen=True)
+class Told:
+    """What a case is told against: the system, what may be assumed of it, and the generic answer."""
+
+    system: System
+    setting: Setting
+    report: Report
+    order: Mapping[Expr, int]
+    inequalities: Sequence[Inequality] = ()
+
+    def allows(self, canon: Canon, leaf: Leaf) -> bool:
+        """Does no inequality forbid the conditions, as far as these are solved?"""
+        values = {canon.ring.var_expr[i]: canon.to_expr(v) for i, v in leaf.solved}
+        known = {s: v for s, v in values.items() if s.op == "sym"}
+        positive = self.setting.positive
+        return not any(never_holds(ex.substitute(q.expr, known), q.strict, positive) for q in self.inequalities)
+
+    def names(self, constraints: Sequence[int]) -> list[str]:
+        return [self.system.constraints[i].name for i in constraints]
+
+    @property
+    def velocities(self) -> int:
+        """Independent velocities at a generic configuration."""
+        return self.report.velocity_dof or 0
+
+    @property
+    def rank(self) -> int:
+        """Of all rows at a generic configuration."""
+        return len(self.system.coordinates) - self.velocities
+
+
+@dataclass(frozen=True)
+class Found:
+    """One block, its polynomials and its candidates."""
+
+    block: Block
+    answer: Answer
+    table: Table
+    candidates: Candidates
+
+    @property
+    def rank(self) -> int:
+        """Of its rows at a generic configuration."""
+        return len(self.block.coordinates) - (self.answer.velocity_dof or 0)
+
+    @property
+    def curved(self) -> bool:
+        """Is there curvature at a generic configuration: a form that does not integrate?"""
+        return any(label.holonomic is False for label in self.answer.labels.values())
+
+
+def special_cases(
+    system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report, again: Again
+) -> dict[str, Any]:
+    """What a report has of them: ``special_cases``, parameter values first, and in ``method`` that they were sought.
+
+    ``again`` answers another system.
+    """
+    if setting.tolerance is not None or len(outcome.blocks) > MAX_BLOCKS:
+        return {}
+    told = Told(system, setting, report, order_of(system), [q for r in reduced for q in r.inequalities])
+    cases: list[SpecialCase] = []
+    with limited(MAX_SECONDS):
+        found = _searched(outcome, told)
+        if not found:
+            return {}
+        conditions = [Condition(leaf, f.table.reals) for f in found for leaf in f.candidates.values]
+        with suppress(*_UNFINISHED):
+            conditions += undefined_integrals(system, report)
+        for part in (
+            _values(conditions, told, again),
+            meetings(system, reduced, setting, outcome),
+            *(_places(f, told) for f in found),
+        ):
+            with suppress(*_UNFINISHED):
+                cases.extend(part)
+    return {"special_cases": _merged(cases), "method": f"{report.method}; {SEARCHED}"}
+
+
+def _searched(outcome: Outcome, told: Told) -> list[Found]:
+    """The blocks that are small, with their candidates; where one has none, those that are like it are left out."""
+    roles = {c.name: (c.owner, c.role) for c in told.system.coordinates}
+    fruitless: set[Hashable] = set()
+    found = []
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        key = alike(block, told.setting, roles) if len(outcome.blocks) > 1 else None
+        one = None if key in fruitless else _search(block, a, told)
+        if one is not None:
+            found.append(one)
+        if key is not None and (one is None or one.candidates.empty):
+            fruitless.add(key)
+    return found
+
+
+def _merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
+    """What is said of several constraints at one place, said once."""
+    kept: dict[tuple[str, str], SpecialCase] = {}
+    for case in cases:
+        key = (case.where, case.what)
+        if key in kept:
+            names = [*kept[key].constraints, *(n for n in case.constraints if n not in kept[key].constraints)]
+            sure = weakest(kept[key].verdict, case.verdict)
+            case = case.model_copy(update={"constraints": names, "verdict": sure})
+        kept[key] = case
+    return list(kept.values())
+
+
+def _search(block: Block, a: Answer, told: Told) -> Found | None:
+    """The candidates of a block; None where it is not searched."""
+    system = told.system
+    if not _small(block, a) or not _plain(block, told) or expired():
+        return None
+    nonzero = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "nonzero")
+    rank = None if a.velocity_dof is None else len(block.coordinates) - a.velocity_dof
+    curvature = a.growth[1] - a.growth[0] if a.growth and len(a.growth) > 1 else 0
+    try:
+        table = table_of(block, a.hidden, told.setting, nonzero)
+        return Found(block, a, table, candidates(table, rank, curvature))
+    except _UNFINISHED:
+        return None
+
+
+def _small(block: Block, a: Answer) -> bool:
+    """Few short rows, all linear in the velocities, with an answer."""
+    terms = sum(len(e.args) if e.op == "add" else 1 for e in expressions(block))
+    return (
+        terms <= MAX_TERMS
+        and len(block.rows) + len(a.hidden) <= MAX_ROWS
+        and len(block.coordinates) <= MAX_COLUMNS
+        and not block.nonlinear
+        and not a.degenerate
+        and (a.velocity_dof is not None or a.consistent is False)
+    )
+
+
+def _plain(block: Block, told: Told) -> bool:
+    """Coordinates that are what their names say, no generic geometry, and no drawing that speaks for itself."""
+    system = told.system
+    turning = {name for r in system.rotations if r.chart == "gibbs" for name in r.names}
+    if not turning.isdisjoint(block.coordinates) or (system.reference is not None and not block.forms):
+        return False
+    generic = {ex.parameter(p) for p in system.generic}
+    own = {c.name for c in system.coordinates}
+    return own.issuperset(block.coordinates) and all(generic.isdisjoint(e.symbols) for e in expressions(block))
+
+
+# -- loci -----------------------------------------------------------------------------------------
+
+
+def _places(found: Found, told: Told) -> Iterator[SpecialCase]:
+    """Ranks that drop, then curvature that vanishes elsewhere, then coefficients without a value."""
+    if told.report.velocity_dof is None:
+        return
+    dropped: list[Leaf] = []
+    for leaf in found.candidates.ranks[:MAX_PLACES]:
+        seen = _seen(found, told, leaf, 0)
+        if seen is not None and seen.rank < found.rank:
+            dropped.append(leaf)
+            yield from _dropping(found, told, leaf, seen)
+    for leaf in found.candidates.bends[:MAX_PLACES] if found.curved else ():
+        seen = None if leaf in dropped else _seen(found, told, leaf, found.rank)
+        if seen is not None:
+            yield from _bending(found, told, leaf, seen)
+    for row, below in found.candidates.poles[:MAX_PLACES]:
+        yield from _pole(found, told, row, below)
+
+
+def _seen(found: Found, told: Told, leaf: Leaf, grows: int) -> Place | None:
+    canon, reals = found.table.canon, found.table.reals
+    left = [g for g in found.table.relations if not _holds(reals, leaf, g)]
+    if len(leaf.conditions(canon)) + len(left) > len(found.block.coordinates):
+        return None
+    conditions, relations = ([canon.to_expr(p) for p in polys] for polys in (leaf.conditions(canon), left))
+    try:
+        return place(found.block, found.answer, told.setting, conditions, relations, grows)
+    except _UNFINISHED:
+        return None
+
+
+def _holds(reals: Reals, leaf: Leaf, relation: Poly) -> bool:
+    """Does a finite relation hold wherever the conditions do?"""
+    left = reals.on(leaf, relation)
+    return left == 0 or any(divmod(left, condition)[1] == 0 for condition in leaf.others)
+
+
+def _locus(
+    found: Found, told: Told, leaf: Leaf, what: str, constraints: Sequence[int], sure: Verdict
+) -> Iterator[SpecialCase]:
+    at = where(found.table.canon, leaf, told.order)
+    sure = weakest(sure, found.answer.verdict)
+    if sure != "undecided" and told.allows(found.table.canon, leaf):
+        yield SpecialCase(where=at, kind="locus", what=what, constraints=told.names(constraints), verdict=sure)
+
+
+def _dropping(found: Found, told: Told, leaf: Leaf, seen: Place) -> Iterator[SpecialCase]:
+    """The minors vanish identically on the locus; a ball certifies the rank that is left."""
+    by = found.rank - seen.rank
+    sure: Verdict = "proved" if by == 1 and seen.regular else "probable"
+    return _locus(found, told, leaf, drop(told.rank, by, told.velocities, seen.moves), seen.dependent, sure)
+
+
+def _bending(found: Found, told: Told, leaf: Leaf, seen: Place) -> Iterator[SpecialCase]:
+    """Curvature that vanishes, or of which less is independent, where no rank drops."""
+    own, there = found.answer.growth, seen.growth
+    if seen.rank != found.rank or not seen.moves or len(there) < 2:
+        return
+    vanishes = there[1] == there[0]
+    if not vanishes and (own is None or len(own) < 2 or there[1] >= own[1]):
+        return
+    forms = tuple(sorted({r.constraint for r in found.block.forms}))
+    what, grown = flag(told.report.growth_vector, own, there, vanishes)
+    known = not grown or (len(there) == 3 and seen.least == there and there[2] == len(found.table.symbols))
+    sure: Verdict = "proved" if vanishes and seen.regular and known else "probable"
+    yield from _locus(found, told, leaf, what, forms, sure)
+
+
+def _pole(found: Found, told: Told, row: int, below: Poly) -> Iterator[SpecialCase]:
+    """Coefficients of a form that have no value where their denominator is 0."""
+    block, canon = found.block, found.table.canon
+    given = len(block.finite) + len(found.answer.hidden)
+    if row < given:
+        return
+    tops = [canon.to_expr(p) for p in found.table.rows[row] if p != 0]
+    relations = [canon.to_expr(g) for g in found.table.relations]
+    sure = undefined(block, told.setting, relations, canon.to_expr(below), tops)
+    if sure is not None:
+        leaf = found.table.reals.leaf(below)
+        owner = block.forms[row - given].constraint
+        yield from _locus(found, told, leaf, "the coefficients are not defined there", [owner], sure)
+
+
+# -- parameters -----------------------------------------------------------------------------------
+
+
+def _values(conditions: Sequence[Condition], told: Told, again: Again) -> Iterator[SpecialCase]:
+    """The scene answered again for every set of special values."""
+    if len(told.system.coordinates) > MAX_SCENE:
+        return
+    different: dict[str, Condition] = {}
+    for condition in conditions:
+        at = where(condition.reals.canon, condition.leaf, told.order)
+        known = different.get(at, condition)
+        different[at] = replace(known, integrals=tuple(dict.fromkeys((*known.integrals, *condition.integrals))))
+    left = MAX_VALUES
+    found: dict[frozenset[str], str] = {}
+    for at, condition in sorted(different.items(), key=lambda pair: pair[0].count(" and ")):
+        ways = [] if expired() else assignments(condition, told.system.parameters)
+        left -= len(ways)
+        case = _at_values(condition, ways, at, told, again) if ways and left >= 0 else None
+        parts = frozenset(at.split(" and "))
+        if case is not None and not any(other < parts and what == case.what for other, what in found.items()):
+            found[parts] = case.what
+            yield case
+
+
+def _at_values(condition: Condition, ways: Sequence[Values], at: str, told: Told, again: Again) -> SpecialCase | None:
+    """What the answer becomes, where all values that satisfy the conditions give the same one."""
+    system = told.system
+    try:
+        reports = [again(at_values(system, way)) for way in ways]
+    except (DofkitError, *_UNFINISHED):
+        return None
+    said = [differences(told.report, r, condition.integrals) for r in reports]
+    if not said[0] or any(other != said[0] for other in said[1:]):
+        return None
+    names = changed(told.report, reports[0]) or list(condition.integrals)
+    if not names:
+        symbols = frozenset().union(*(way.keys() for way in ways))
+        names = [c.name for c in system.constraints if any(not symbols.isdisjoint(r.expr.symbols) for r in c.relations)]
+    sure = weakest(told.report.verdict, *(r.verdict for r in reports))
+    if sure == "undecided":
+        return None
+    return SpecialCase(where=at, kind="parameters", what="; ".join(said[0]), constraints=names, verdict=sure)

@@ -1,0 +1,273 @@
+"""Common real zeros of polynomials in the canonical ring, as conditions that a person can read.
+
+The polynomials are split into factors, a factor into squares that vanish together, and what is linear is solved and
+put into the rest (triangular decomposition). A `Leaf` is one conjunction of conditions; the leaves' union is the
+zero set. What never vanishes for the values that the scene allows has no leaf.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import product as cartesian
+
+from dofkit.base.deadline import check
+from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.zero_set import Signs, sum_of_even, zero_set
+
+#: Polynomials with more terms, or of a higher degree, are not factored.
+MAX_TERMS, MAX_DEGREE = 48, 12
+#: Sums of even powers are looked for in polynomials of so many terms.
+MAX_EVEN = 12
+#: Conditions that a person can read have so many terms.
+MAX_READ = 4
+#: With a longer polynomial among them, no common zeros are looked for.
+MAX_LONG = 160
+#: Conditions that are followed before the search is given up, and leaves that are kept.
+MAX_STEPS, MAX_LEAVES = 120, 12
+
+
+@dataclass(frozen=True)
+class Leaf:
+    """Conditions that hold together: ``solved`` generators with their values, and ``others`` that vanish."""
+
+    solved: tuple[tuple[int, Poly], ...] = ()
+    others: tuple[Poly, ...] = ()
+
+    def conditions(self, canon: Canon) -> list[Poly]:
+        """Polynomials that vanish on the leaf."""
+        return [canon.gens[i] - value for i, value in self.solved] + list(self.others)
+
+
+class Reals:
+    """What a canonical ring's generators may be: real, positive or nonzero as declared."""
+
+    def __init__(self, canon: Canon, positive: frozenset[Expr], nonzero: frozenset[Expr]) -> None:
+        self.canon, self.positive = canon, positive
+        self.signs = Signs(canon, positive)
+        ring = canon.ring
+        self.never = self.signs.positive | {v.index for v in ring.vars if v.kind == "symbol" and v.key in nonzero}
+        self.free = {v.index for v in ring.vars if v.kind == "symbol"} - self.never
+        shown = [e.symbols for e in ring.var_expr]
+        self.moving = {i for i, s in enumerate(shown) if any(x.args[0] in ("coordinate", "time") for x in s)}
+        self.moving |= {v.index for v in ring.vars if v.kind == "call"}
+        self.inside = frozenset().union(
+            *(s for v, s in zip(ring.vars, shown, strict=True) if v.kind != "symbol"), frozenset[Expr]()
+        )
+
+    def never_zero(self, poly: Poly) -> bool:
+        """True where the polynomial is proved to vanish nowhere."""
+        if poly.is_constant():
+            return bool(poly != 0)
+        present = self.canon.generators_in(poly)
+        if len(poly) == 1:
+            return self.never.issuperset(present)
+        if poly.total_degree() == 1 and not self.free.isdisjoint(present):
+            return False
+        even = sum_of_even(poly, self.signs) if len(poly) <= MAX_EVEN else None
+        return even is not None and any(not zeros for zeros in even)
+
+    def never_zero_factor(self, term: Poly) -> bool:
+        """Do the parameters in a single term never vanish?"""
+        return (self.never | self.moving).issuperset(self.canon.generators_in(term))
+
+    def of_parameters(self, poly: Poly) -> bool:
+        """Do neither coordinates nor time occur?"""
+        return self.moving.isdisjoint(self.canon.generators_in(poly))
+
+    def coefficients(self, poly: Poly) -> list[Poly]:
+        """The coefficients, polynomials in the parameters, of the monomials in all that moves."""
+        n = len(self.canon.gens)
+        groups: dict[tuple[int, ...], Poly] = {}
+        for exponents, coefficient in poly.to_dict().items():
+            moving = tuple(k if n - 1 - p in self.moving else 0 for p, k in enumerate(exponents))
+            term = self.canon.one * coefficient
+            for p, k in enumerate(exponents):
+                if k and not moving[p]:
+                    term = term * self.canon.gens[n - 1 - p] ** int(k)
+            groups[moving] = groups[moving] + term if moving in groups else term
+        return list(groups.values())
+
+    def factors(self, poly: Poly) -> list[Poly]:
+        """Irreducible factors that may vanish; (cos u - 1) (cos u + 1) is told as sin u.
+
+        Raises TooLargeError.
+        """
+        if len(poly) > MAX_TERMS or poly.total_degree() > MAX_DEGREE:
+            raise TooLargeError
+        if len(poly) == 1:
+            return [self.canon.gens[i] for i in self.canon.generators_in(poly) if i not in self.never]
+        if poly.total_degree() == 1:
+            return [] if self.never_zero(poly) else [poly]
+        found = [f for f, _ in poly.factor()[1] if not self.never_zero(f)]
+        for var in self.canon.ring.vars:
+            if var.kind in ("cos", "sin"):
+                ends = [self.canon.gens[var.index] - 1, self.canon.gens[var.index] + 1]
+                if all(end in found for end in ends):
+                    found = [f for f in found if f not in ends] + [self.canon.gens[var.partner]]
+        return found
+
+    def put(self, poly: Poly, values: Sequence[tuple[int, Poly]]) -> Poly:
+        """A polynomial with generators replaced by their values."""
+        present = set(self.canon.generators_in(poly))
+        if present.isdisjoint(i for i, _ in values):
+            return poly
+        replaced = dict(values)
+        gens = [replaced.get(i, g) for i, g in enumerate(self.canon.gens)]
+        return self.canon.reduce(poly.compose(*reversed(gens), ctx=self.canon.ctx))
+
+    def on(self, leaf: Leaf, poly: Poly) -> Poly:
+        """A polynomial on a leaf, as far as that is solved."""
+        for index, value in leaf.solved:
+            poly = self.under(poly, index, value)
+        return poly
+
+    def under(self, poly: Poly, index: int, value: Poly) -> Poly:
+        """A polynomial where a generator has a value, with what follows for its sine or cosine."""
+        poly = self.put(poly, [(index, value), *(self.implied(index, value) or ())])
+        var = self.canon.ring.vars[index]
+        if var.kind in ("cos", "sin") and value == 0:
+            poly = divmod(poly, self.canon.gens[var.partner] ** 2 - 1)[1]
+        return poly
+
+    def implied(self, index: int, value: Poly) -> list[tuple[int, Poly]] | None:
+        """Values of other generators that follow from that of one; None where they cannot be told."""
+        ring, zero = self.canon.ring, self.canon.one * 0
+        var = ring.vars[index]
+        if var.kind in ("cos", "sin"):
+            return [(var.partner, zero)] if value**2 == 1 else []
+        if var.key not in self.inside:
+            return []
+        found = []
+        for other in ring.vars:
+            if other.kind != "symbol" and var.key in ring.var_expr[other.index].symbols:
+                if value != 0 or other.kind not in ("cos", "sin") or other.key[0] != var.key:
+                    return None
+                found.append((other.index, self.canon.one if other.kind == "cos" else zero))
+        return found
+
+    # -- one condition ------------------------------------------------------------------------
+
+    def splits(self, factor: Poly) -> list[list[Poly]]:
+        """The branches of an irreducible factor's real zeros: what vanishes together on each."""
+        even = sum_of_even(factor, self.signs)
+        if even is not None and (len(even) > 1 or len(factor) == 1):
+            options = [[i for i in zeros if i not in self.never] for zeros in even]
+            return [[self.canon.gens[i] for i in sorted(set(choice))] for choice in cartesian(*options)]
+        if len(factor) > 2 and factor.total_degree() == 2:
+            e = self.canon.to_expr(factor)
+            branches, _ = zero_set(e, self.positive, e.symbols)
+            if branches != ((e,),):
+                ring = self.canon.ring
+                nodes = [[ring.node(g) for g in branch] for branch in branches]
+                if len(ring.vars) > len(self.canon.gens):
+                    raise TooLargeError
+                return [[self.canon.quotient(node)[0] for node in branch] for branch in nodes]
+        return [[factor]]
+
+    def solved(self, poly: Poly) -> tuple[int, Poly] | None:
+        """A condition as the value of a generator that can be put into the others; None where it cannot be solved."""
+        ring = self.canon.ring
+        present = self.canon.generators_in(poly)
+        if len(present) == 1 and poly.total_degree() == 1 and ring.vars[present[0]].kind in ("cos", "sin"):
+            return present[0], self._value(poly, present[0])
+        moves = not self.moving.isdisjoint(present)
+        order = sorted(present, key=lambda i: (i not in self.moving, ring.var_expr[i] == ex.TIME, i in self.never, -i))
+        for i in order:
+            if ring.vars[i].kind != "symbol" or (moves and i not in self.moving):
+                continue
+            if poly.derivative(self._place(i)).is_constant():
+                value = self._value(poly, i)
+                if self.implied(i, value) is not None:
+                    return i, value
+        return None
+
+    def leaf(self, condition: Poly) -> Leaf:
+        """One condition, solved where it can be."""
+        found = self.solved(condition)
+        return Leaf((), (condition,)) if found is None else Leaf((found,))
+
+    def _place(self, index: int) -> int:
+        """The place of a generator in the polynomial ring, which has them in reverse."""
+        return len(self.canon.gens) - 1 - index
+
+    def _value(self, poly: Poly, index: int) -> Poly:
+        return self.canon.gens[index] - poly / poly.derivative(self._place(index)).leading_coefficient()
+
+
+class CommonZeros:
+    """The search for the leaves; `common_zeros` runs it."""
+
+    def __init__(self, reals: Reals, short: bool) -> None:
+        self.reals, self.canon, self.short = reals, reals.canon, short
+        self.steps = 0
+        self.leaves: list[Leaf] = []
+
+    def follow(self, polys: Iterable[Poly], leaf: Leaf) -> None:
+        """Every leaf on which the polynomials vanish too."""
+        check()
+        self.steps += 1
+        if self.steps > MAX_STEPS or len(self.leaves) > MAX_LEAVES:
+            raise TooLargeError
+        left: list[Poly] = []
+        for poly in polys:
+            if len(poly) > MAX_LONG:
+                raise TooLargeError
+            if poly == 0 or poly in left:
+                continue
+            if self.reals.never_zero(poly):
+                return
+            left.append(poly)
+        if not left:
+            self.leaves.append(leaf)
+            return
+        first = min(left, key=lambda p: (len(p), int(p.total_degree())))
+        rest = [p for p in left if p is not first]
+        for factor in self.reals.factors(first):
+            for together in self.reals.splits(factor):
+                self._take(together, rest, leaf)
+
+    def _take(self, together: list[Poly], rest: list[Poly], leaf: Leaf) -> None:
+        if not together:
+            self.follow(rest, leaf)
+            return
+        condition, more = together[0], together[1:]
+        found = self.reals.solved(condition)
+        if self.short and (len(condition) > MAX_READ or (found is None and leaf.others)):
+            return
+        if found is None:
+            kept = [p for p in rest if divmod(p, condition)[1] != 0]
+            self._take(more, kept, Leaf(leaf.solved, (*leaf.others, condition)))
+            return
+        index, value = found
+        partner = self.canon.ring.vars[index].partner
+        if any(i == partner and self.reals.never_zero(value**2 + v**2 - 1) for i, v in leaf.solved):
+            return
+
+        def put(poly: Poly) -> Poly:
+            return self.reals.under(poly, index, value)
+
+        after = [p for p in map(put, more) if p != 0]
+        others = tuple(p for p in map(put, leaf.others) if p != 0)
+        if any(self.reals.never_zero(p) for p in (*after, *others)):
+            return
+        solved = (*((i, put(v)) for i, v in leaf.solved), found)
+        self._take(after, [put(p) for p in rest], Leaf(solved, others))
+
+
+def common_zeros(reals: Reals, polys: Iterable[Poly], short: bool = False) -> list[Leaf]:
+    """The smallest sets of conditions under which all of some polynomials vanish. Raises TooLargeError.
+
+    A leaf whose conditions include those of another is a part of it, and left out; ``short``: so are conditions that
+    nobody could read, and more than one that cannot be solved.
+    """
+    search = CommonZeros(reals, short)
+    search.follow(polys, Leaf())
+    keys = [frozenset(map(str, leaf.conditions(reals.canon))) for leaf in search.leaves]
+    kept: dict[frozenset[str], Leaf] = {}
+    for key, leaf in zip(keys, search.leaves, strict=True):
+        if not any(other < key for other in keys):
+            kept.setdefault(key, leaf)
+    return list(kept.values())

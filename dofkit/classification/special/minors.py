@@ -1,0 +1,214 @@
+"""A block's rows as polynomials: where their rank drops, and what curvature is left on their kernel.
+
+Rows are the differentials of the finite relations and the Pfaffian forms, each times its denominators. Rows with
+a coefficient that never vanishes are eliminated first: the rank drops where that of the rest does. The kernel is
+spanned by Cramer's vectors, so the curvature d(omega)(u, v) of every form on every two of them is a polynomial too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from math import comb
+
+from dofkit.base.deadline import check
+from dofkit.classification.special.common_zeros import Reals
+from dofkit.classification.special.derivatives import Derivation
+from dofkit.exact.ring.canonical import Canon, Poly, Quotient, TooLargeError
+from dofkit.exact.ring.minors import cleared, determinant
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.blocks import Block
+from dofkit.relations.normal.normal_form import Finite, Pfaffian
+from dofkit.relations.setting import Setting
+
+#: Minors, and vectors of the kernel, of which there may be so many; their size.
+MAX_MINORS, MAX_VECTORS, MAX_SIZE = 20, 8, 4
+#: Entries of larger minors have at most so many terms, those of minors up to 2 x 2 so many.
+MAX_TERMS, MAX_SHORT = 12, 60
+
+
+@dataclass(frozen=True)
+class Table:
+    """``relations`` are the finite relations; ``rows`` over ``symbols`` (coordinates, then time where it enters).
+
+    The first rows are the relations' differentials. Of every form ``curls`` has the coefficients of d(omega) by
+    pairs of columns, ``clocks`` what holds its time (the dt coefficient and time derivatives); ``below`` has every
+    row's denominator, as written.
+    """
+
+    canon: Canon
+    reals: Reals
+    symbols: tuple[Expr, ...]
+    relations: list[Poly]
+    rows: list[list[Poly]]
+    curls: list[dict[tuple[int, int], Poly]]
+    clocks: list[list[Poly]]
+    below: list[Poly]
+
+    @property
+    def n(self) -> int:
+        """The number of coordinates."""
+        return sum(s != ex.TIME for s in self.symbols)
+
+
+def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: frozenset[Expr]) -> Table:
+    """The polynomials of a block without nonlinear rows. Raises TooLargeError."""
+    finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(hidden)
+    forms = [dict(r.piece.items()) for r in block.forms if isinstance(r.piece, Pfaffian)]
+    everything = [*finite, *(e for form in forms for e in form.values())]
+    timed = any(ex.TIME in form or any(ex.TIME in e.symbols for e in form.values()) for form in forms)
+    timed = timed or any(ex.TIME in g.symbols for g in finite)
+    symbols = tuple(ex.coordinate(c) for c in block.coordinates) + ((ex.TIME,) if timed else ())
+    ring = Ring(everything, setting.positive)
+    nodes = {e: ring.node(e) for e in everything}
+    canon = Canon(ring)
+    slopes = Derivation(canon)
+    values = {e: slopes.lowest(*canon.quotient(node)) for e, node in nodes.items()}
+    written = [[slopes.of(values[g], s) if s in g.symbols else slopes.zero for s in symbols] for g in finite]
+    written += [[values[form[s]] if s in form else slopes.zero for s in symbols] for form in forms]
+    clear = [cleared(canon, row) for row in written]
+    bent = [_curl(slopes, form, values, symbols) for form in forms]
+    turned = [dict(zip(curl, cleared(canon, list(curl.values()))[0], strict=True)) for curl in bent]
+    return Table(
+        canon,
+        Reals(canon, setting.positive, nonzero),
+        symbols,
+        [values[g][0] for g in finite],
+        [tops for tops, _ in clear],
+        turned,
+        [_clock(slopes, row) for row in written] if timed else [],
+        [whole for _, whole in clear],
+    )
+
+
+def _curl(
+    slopes: Derivation, form: Mapping[Expr, Expr], values: Mapping[Expr, Quotient], symbols: Sequence[Expr]
+) -> dict[tuple[int, int], Quotient]:
+    """d(omega): the coefficient of dq_i ^ dq_j for i < j, where it is not 0."""
+    found: dict[tuple[int, int], Quotient] = {}
+    for j, i in ((j, i) for j, s in enumerate(symbols) if s in form for i in range(len(symbols)) if i != j):
+        entry = form[symbols[j]]
+        if symbols[i] not in entry.symbols:
+            continue
+        key, (top, below) = (min(i, j), max(i, j)), slopes.of(values[entry], symbols[i])
+        old, under = found.get(key, slopes.zero)
+        top = top if i < j else -top
+        total = old + top if below == under else old * below + top * under
+        found[key] = slopes.lowest(slopes.canon.reduce(total), below if below == under else below * under)
+    return {key: found[key] for key in sorted(found) if found[key][0] != 0}
+
+
+def _clock(slopes: Derivation, row: Sequence[Quotient]) -> list[Poly]:
+    """What holds the time in a row: its last coefficient, and the others' derivatives."""
+    return [row[-1][0], *(slopes.of(entry, ex.TIME)[0] for entry in row[:-1])]
+
+
+class Reduction:
+    """The rows after elimination with pivots that never vanish.
+
+    ``solved``: (pivot column, row) with the pivot 1 and 0 in the other pivot columns, up to the factors in
+    ``scales``; ``rest``: what is left of the other rows, over the ``free`` columns.
+    """
+
+    def __init__(self, table: Table) -> None:
+        self.table, self.canon = table, table.canon
+        work = [row[:] for row in table.rows]
+        self.solved: list[tuple[int, int]] = []
+        while (pivot := self._pivot(work)) is not None:
+            check()
+            r, c = pivot
+            entry = work[r][c]
+            for other in range(len(work)):
+                if other != r and work[other][c] != 0:
+                    if max(map(len, work[other])) > MAX_SHORT:
+                        raise TooLargeError
+                    work[other] = self._combined(work[other], work[r], c, entry)
+            self.solved.append(pivot)
+        self.work = work
+        done, columns = {r for r, _ in self.solved}, {c for _, c in self.solved}
+        self.free = [c for c in range(len(table.symbols)) if c not in columns]
+        self.rest = [r for r in range(len(work)) if r not in done]
+
+    def _pivot(self, work: list[list[Poly]]) -> tuple[int, int] | None:
+        """(row, coordinate column) of a coefficient that never vanishes; a number where there is one."""
+        done, columns = {r for r, _ in self.solved}, {c for _, c in self.solved}
+        places = [(r, c) for r in range(len(work)) if r not in done for c in range(self.table.n) if c not in columns]
+        entries = [(r, c) for r, c in places if work[r][c] != 0]
+        constant = next(((r, c) for r, c in entries if work[r][c].is_constant()), None)
+        if constant is not None:
+            return constant
+        return next(((r, c) for r, c in entries if self.table.reals.never_zero(work[r][c])), None)
+
+    def _combined(self, row: list[Poly], pivot: list[Poly], c: int, entry: Poly) -> list[Poly]:
+        factor = row[c]
+        if entry.is_constant():
+            factor = factor / entry.leading_coefficient()
+            return [self.canon.reduce(a - factor * b) if b != 0 else a for a, b in zip(row, pivot, strict=True)]
+        return [self.canon.reduce(entry * a - factor * b) for a, b in zip(row, pivot, strict=True)]
+
+    def minors(self, size: int) -> list[Poly]:
+        """All minors of a size of what is left, in the coordinates' columns. Raises TooLargeError."""
+        columns = [c for c in self.free if c < self.table.n]
+        if comb(len(columns), size) * comb(len(self.rest), size) > MAX_MINORS:
+            raise TooLargeError
+        return [self._minor(r, c) for r in combinations(self.rest, size) for c in combinations(columns, size)]
+
+    def _minor(self, rows: Sequence[int], columns: Sequence[int]) -> Poly:
+        check()
+        longest = max(len(self.work[r][c]) for r in rows for c in columns)
+        if len(rows) > MAX_SIZE or longest > (MAX_SHORT if len(rows) < 3 else MAX_TERMS):
+            raise TooLargeError
+        return determinant(self.canon, [[self.work[r][c] for c in columns] for r in rows])
+
+    def kernel(self, size: int) -> list[list[Poly]]:
+        """Vectors that span the kernel wherever the rank is not smaller (Cramer). Raises TooLargeError."""
+        if comb(len(self.free), size + 1) * comb(len(self.rest), size) > MAX_VECTORS:
+            raise TooLargeError
+        zero, found = self.canon.one * 0, []
+        for rows in combinations(self.rest, size):
+            for columns in combinations(self.free, size + 1):
+                vector = [zero] * len(self.table.symbols)
+                for k, c in enumerate(columns):
+                    others = [d for d in columns if d != c]
+                    value = self._minor(rows, others) if size else self.canon.one
+                    vector[c] = value if k % 2 == 0 else -value
+                found.append(self._lifted(vector))
+        return found
+
+    def _lifted(self, vector: list[Poly]) -> list[Poly]:
+        """With the pivots' components, all times the pivots that are no numbers."""
+        below: Poly = self.canon.one
+        for r, c in self.solved:
+            if not self.work[r][c].is_constant():
+                below = below * self.work[r][c]
+        lifted = [below * v if v != 0 else v for v in vector]
+        for r, c in self.solved:
+            total = self.canon.one * 0
+            for f in self.free:
+                if vector[f] != 0 and self.work[r][f] != 0:
+                    total = total - self.work[r][f] * lifted[f]
+            pivot = self.work[r][c]
+            lifted[c] = self.canon.reduce(total / pivot.leading_coefficient() if pivot.is_constant() else total / pivot)
+        return lifted
+
+
+def curvatures(table: Table, vectors: Sequence[Sequence[Poly]]) -> list[list[Poly]]:
+    """Of every form d(omega)(u, v) for all pairs of vectors; no pairs where it is closed."""
+    canon, found = table.canon, []
+    for curl in table.curls:
+        values = []
+        for u, v in combinations(vectors, 2) if curl else ():
+            check()
+            total = canon.one * 0
+            for (i, j), coefficient in curl.items():
+                if max(map(len, (*u, *v))) * len(coefficient) > MAX_SHORT:
+                    raise TooLargeError
+                area = u[i] * v[j] - u[j] * v[i]
+                if area != 0:
+                    total = total + coefficient * area
+            values.append(canon.reduce(total))
+        found.append(values)
+    return found

@@ -1,0 +1,134 @@
+"""Reports in which everything is undecided: what is left to say of a scene where there was no time for more."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from dofkit.expressions.tree import Expr
+from dofkit.mobility.textbook_count import Facts, count
+from dofkit.report import FORMS, ConstraintEntry, Count, ForceEntry, Form, Report
+from dofkit.scene.scene import Scene
+from dofkit.scene.survey import names_by_position
+from dofkit.system import BODY_ROLES, Constraint, Relation, System
+
+
+def sketch(system: System, why: str) -> Report:
+    """All that a system says without being computed with: names, texts, forms as written, the count of equations."""
+    entries = [_entry(c, why) for c in system.constraints]
+    written = sum(e.equations for e in entries if e.form == "finite")
+    told = count(system, Facts(written, None, None, 0, 0, entries))
+    forces = [ForceEntry(name=f.name, reason=f.reason) for f in system.forces]
+    return _report(system.name, told, entries, forces, [*system.warnings, _sentence(why)])
+
+
+def blank(scene: Scene, why: str) -> Report:
+    """The same of a scene that could not even be read as mathematics in time: its equations are not counted."""
+    d, particles, bodies = scene.dimension, len(scene.particles), len(scene.bodies)
+    coordinates = d * particles + len(BODY_ROLES[d]) * bodies + len(scene.coordinates)
+    told = Count(
+        particles=particles,
+        bodies=bodies,
+        dimension=d,
+        coordinates=coordinates,
+        constraints=0,
+        independent=None,
+        naive_dof=coordinates,
+        formula=f"f = n - k = {coordinates} - k",
+        errs="the equations were not counted",
+    )
+    names = names_by_position("c", [c.name for c in scene.constraints])
+    given = [Constraint(name, c.kind(), c.shown, ()) for name, c in zip(names, scene.constraints, strict=True)]
+    named = zip(names_by_position("f", [f.name for f in scene.forces]), scene.forces, strict=True)
+    forces = [ForceEntry(name=name, reason=f.reason) for name, f in named]
+    return _report(scene.name, told, [_entry(c, why) for c in given], forces, [_sentence(why)])
+
+
+def undecided(report: Report, why: str) -> Report:
+    """A sketch with another reason."""
+    entries = [e.model_copy(update={"reason": f"Not decided: {why}."}) for e in report.constraints]
+    return report.model_copy(update={"constraints": entries, "warnings": [*report.warnings[:-1], _sentence(why)]})
+
+
+def _sentence(why: str) -> str:
+    return f"Nothing was decided: {why}."
+
+
+def _entry(constraint: Constraint, why: str) -> ConstraintEntry:
+    form: Form = max((_form(r) for r in constraint.relations), key=FORMS.index, default="finite")
+    return ConstraintEntry(
+        name=constraint.name,
+        type=constraint.type,
+        text=constraint.text,
+        form=form,
+        holonomic=None,
+        holonomic_alone=None,
+        scleronomic=None,
+        catastatic=None,
+        bilateral=all(r.sense == "=" for r in constraint.relations),
+        exact=None,
+        integrating_factor=None,
+        integral=None,
+        circuit=None,
+        equations=sum(r.sense == "=" for r in constraint.relations),
+        independent=None,
+        verdict="undecided",
+        reason=f"Not decided: {why}.",
+    )
+
+
+def _form(relation: Relation) -> Form:
+    """The form as written; over the reals it may be simpler."""
+    if relation.sense != "=":
+        return "inequality"
+    if not any(map(_moves, relation.expr.symbols)):
+        return "finite"
+    return "pfaffian" if _degree(relation.expr) <= 1 else "nonlinear"
+
+
+def _moves(symbol: Expr) -> bool:
+    return symbol.args[0] in ("velocity", "differential", "dt")
+
+
+def _degree(e: Expr) -> Fraction:
+    """The degree in velocities or differentials, read off the text; 2 for what is no polynomial in them."""
+    if not any(map(_moves, e.symbols)):
+        return Fraction(0)
+    if e.op == "sym":
+        return Fraction(1)
+    if e.op == "add":
+        return max(map(_degree, e.args))
+    if e.op == "mul":
+        return sum(map(_degree, e.args), Fraction(0))
+    if e.op == "pow" and e.args[1].op == "num":
+        return _degree(e.args[0]) * Fraction(e.args[1].args[0])
+    return Fraction(2)
+
+
+def _report(
+    name: str, told: Count, entries: Sequence[ConstraintEntry], forces: Sequence[ForceEntry], warnings: Sequence[str]
+) -> Report:
+    return Report(
+        scene=name,
+        consistent=None,
+        dof=None,
+        velocity_dof=None,
+        instantaneous_dof=None,
+        singular=None,
+        holonomic=None,
+        scleronomic=None,
+        count=told,
+        redundant_equations=None,
+        redundant=[],
+        redundancies=[],
+        conflicting=[],
+        generalized_coordinates=None,
+        growth_vector=None,
+        constraints=list(entries),
+        forces=list(forces),
+        special_cases=[],
+        verdict="undecided",
+        method="none",
+        modelled="nothing: there was no time",
+        warnings=list(warnings),
+    )

@@ -1,0 +1,213 @@
+"""Lengths that no points can have, proved by geometry before anything is searched.
+
+A distance is at most the length of any way between its ends (the triangle inequality), and the Gram matrix of points
+all of whose distances are known, G_ij = (d_0i^2 + d_0j^2 - d_ij^2) / 2, is positive semidefinite and of rank at most d
+(Menger 1928, Schoenberg 1935; its determinants are those of Cayley and Menger). Floating point proposes, intervals
+decide; where they do not tell two sides apart, as in a triangle drawn out to a line, nothing is contradicted.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations, islice, pairwise
+from typing import Any
+
+import networkx as nx
+from flint import arb, arb_mat, ctx
+
+from dofkit.base.deadline import check
+from dofkit.expressions import tree as ex
+from dofkit.expressions.enclosures import interval
+from dofkit.expressions.tree import Expr
+from dofkit.expressions.vectors import square_between
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block
+from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.setting import Setting
+from dofkit.system import Distance, Place
+
+#: Precisions at which two lengths are compared, in bits.
+BITS = (64, 256, 1024)
+#: Steps of all searches for short ways, cliques that are looked at, and points of one body that are used.
+MAX_VISITS, MAX_CLIQUES, MAX_CARRIED = 100_000, 20_000, 40
+#: Ways that are longer than a distance by more than this fraction are no reason to doubt it.
+SLACK = 1e-9
+#: Distances are shown to so many digits.
+DIGITS = 6
+
+Node = tuple[str | None, str]
+
+
+@dataclass(frozen=True)
+class Side:
+    """A known distance, about ``length``; ``owner`` None where a body, or the ground, holds both points."""
+
+    squared: Expr
+    length: float
+    owner: int | None
+
+
+@dataclass(frozen=True)
+class Unmet:
+    """Constraints whose lengths cannot be met together, and why."""
+
+    constraints: tuple[int, ...]
+    reason: str
+
+
+def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
+    """The answer to a block whose links cannot close; None where that is not seen."""
+    owners = sorted({row.constraint for row in block.rows})
+    given = [(i, d) for i in owners for d in setting.distances.get(i, ())]
+    found = unmet(given, setting.dimension, setting.positive) if len(given) > 1 else None
+    if found is None:
+        return None
+    return Answer(False, reasons=[found.reason], method="lengths compared", conflict=found.constraints)
+
+
+def unmet(given: Sequence[tuple[int, Distance]], dimension: int, positive: frozenset[Expr]) -> Unmet | None:
+    """A minimal set of distances, each with its constraint, that no points in so many dimensions have; or None."""
+    web = _Web(given, positive)
+    return web.twice or web.polygon() or web.simplex(dimension)
+
+
+class _Web:
+    """Points and what is known of their distances: ``exact`` ones, and ``bounds`` from above."""
+
+    def __init__(self, given: Sequence[tuple[int, Distance]], positive: frozenset[Expr]) -> None:
+        self.positive = positive
+        draw = random.Random("dofkit lengths")
+        symbols = sorted({s for _, d in given for s in d.squared.symbols}, key=repr)
+        self.values = {s: Fraction(draw.randrange(10**6, 10**7), 10**6) for s in symbols}
+        self.exact: dict[frozenset[Node], Side] = {}
+        self.bounds: dict[frozenset[Node], Side] = {}
+        self.twice: Unmet | None = None
+        for owner, d in given:
+            self._add(_node(d.first), _node(d.second), d.squared, owner, d.at_most)
+        for first, second in _carried(given):
+            self._add(_node(first), _node(second), square_between(first.reference or (), second.reference or ()), None)
+
+    def _add(self, a: Node, b: Node, squared: Expr, owner: int | None, at_most: bool = False) -> None:
+        about = interval(squared, self.values, BITS[0])
+        if about is None or not about >= 0:
+            about = arb(0) if squared.is_zero else None
+        if about is None or a == b:
+            return
+        side = Side(squared, float(about.sqrt().mid()), owner)
+        table = self.bounds if at_most else self.exact
+        known = table.setdefault(frozenset((a, b)), side)
+        if known is side:
+            return
+        if at_most and side.length < known.length:
+            table[frozenset((a, b))] = side
+        elif not at_most and self.twice is None and owner is not None and self._differ(known, side):
+            lengths = f"{_shown(known)} and {_shown(side)}"
+            self.twice = Unmet(_owners((known, side)), f"{a[1]} and {b[1]} cannot be both {lengths} apart.")
+
+    def _differ(self, a: Side, b: Side) -> bool:
+        return self._longer(a, [b]) or self._longer(b, [a])
+
+    def _longer(self, one: Side, others: Sequence[Side]) -> bool:
+        """Is one length certainly more than some others together, whatever the positive parameters are?"""
+        gap = ex.add(_length(one), *(ex.mul(ex.MINUS_ONE, _length(o)) for o in others))
+        if gap.symbols:
+            return never_holds(ex.mul(ex.MINUS_ONE, gap), False, self.positive)
+        for bits in BITS:
+            found = interval(gap, None, bits)
+            if found is not None and not found.contains(0):
+                return bool(found > 0)
+        return False
+
+    def polygon(self) -> Unmet | None:
+        """A distance longer than a way between its ends (each side of a polygon is at most the others together)."""
+        sides = {**self.bounds, **self.exact}
+        for pair, bound in self.bounds.items():
+            if pair in self.exact and bound.length < self.exact[pair].length:
+                sides[pair] = bound
+        web = nx.Graph()
+        web.add_edges_from((*sorted(pair, key=repr), {"side": side}) for pair, side in sides.items())
+        visits = 0
+        for pair, side in sorted(self.exact.items(), key=lambda item: -item[1].length):
+            check()
+            a, b = sorted(pair, key=repr)
+            far, ways = nx.single_source_dijkstra(web, a, cutoff=side.length * (1 + SLACK), weight=_beside(side))
+            visits += len(far)
+            if b in ways:
+                others = [web[u][v]["side"] for u, v in pairwise(ways[b])]
+                if self._longer(side, others):
+                    way, most = "-".join(node[1] for node in ways[b]), sum(o.length for o in others)
+                    told = f"{a[1]} and {b[1]} cannot be {_shown(side)} apart: by way of {way} they are at most"
+                    return Unmet(_owners((side, *others)), f"{told} {most:.{DIGITS}g} apart.")
+            if visits > MAX_VISITS:
+                return None
+        return None
+
+    def simplex(self, dimension: int) -> Unmet | None:
+        """Points all of whose distances are known, and that cannot lie in so many dimensions; the fewest first."""
+        known = {pair for pair, side in self.exact.items() if not side.squared.symbols}
+        web = nx.Graph(sorted((sorted(pair, key=repr) for pair in known), key=repr))
+        for clique in islice(nx.enumerate_all_cliques(web), MAX_CLIQUES):
+            check()
+            if len(clique) > dimension + 3:
+                return None
+            if len(clique) < 3:
+                continue
+            owners = _owners(self.exact[frozenset(pair)] for pair in combinations(clique, 2))
+            if owners and self._unembeddable(clique, dimension):
+                names = ", ".join(node[1] for node in clique)
+                told = f"no {len(clique)} points in {dimension} dimension{'s' * (dimension > 1)} have the distances"
+                return Unmet(owners, f"{told} given between {names} (Cayley-Menger determinant).")
+        return None
+
+    def _unembeddable(self, clique: Sequence[Node], dimension: int) -> bool:
+        base, *rest = clique
+        exact = {p: self.exact[frozenset(p)].squared for p in combinations(clique, 2)}
+        squares = {p: interval(squared, None, BITS[1]) for p, squared in exact.items()}
+
+        def square(u: Node, v: Node) -> Any:
+            return arb(0) if u == v else squares.get((u, v), squares.get((v, u)))
+
+        with ctx.workprec(BITS[1]):
+            rows = [[(square(base, u) + square(base, v) - square(u, v)) / 2 for v in rest] for u in rest]
+            volume = arb_mat(rows).det()
+        return bool(volume < 0) or (len(rest) > dimension and not volume.contains(0))
+
+
+def _node(place: Place) -> Node:
+    return place.frame, place.label
+
+
+def _carried(given: Iterable[tuple[int, Distance]]) -> Iterable[tuple[Place, Place]]:
+    """Pairs of points of one body: they keep the distance they are drawn at."""
+    bodies: dict[str, dict[Node, Place]] = {}
+    for _, d in given:
+        for place in (d.first, d.second):
+            if place.frame is not None and place.reference is not None:
+                bodies.setdefault(place.frame, {})[_node(place)] = place
+    for places in bodies.values():
+        if len(places) <= MAX_CARRIED:
+            yield from combinations(places.values(), 2)
+
+
+def _length(side: Side) -> Expr:
+    return ex.sqrt(side.squared)
+
+
+def _beside(hidden: Side) -> Any:
+    """The lengths of all sides but one."""
+
+    def weight(_u: Node, _v: Node, data: Mapping[str, Side]) -> float | None:
+        return None if data["side"] is hidden else data["side"].length
+
+    return weight
+
+
+def _owners(sides: Iterable[Side]) -> tuple[int, ...]:
+    return tuple(sorted({side.owner for side in sides if side.owner is not None}))
+
+
+def _shown(side: Side) -> str:
+    return f"{side.length:.{DIGITS}g}"

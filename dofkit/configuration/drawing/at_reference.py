@@ -1,0 +1,236 @@
+"""What the drawn configuration allows: to first order, and as a motion."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from flint import arb, ctx
+
+from dofkit.base.verdicts import weakest
+from dofkit.configuration.drawing.dependent_classes import chart_of, dependent_parts
+from dofkit.configuration.drawing.fewer_coordinates import smaller
+from dofkit.configuration.local.dimension import INDEPENDENT, WHOLE, numeric_dimension
+from dofkit.configuration.local.manifold import Local, Manifold
+from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
+from dofkit.configuration.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
+from dofkit.exact.matrices.certified import ball_part, dependencies
+from dofkit.exact.matrices.modular import rank_of, without_time
+from dofkit.exact.matrices.sparse import SparseRow, echelon, rank_of_rows, sparse
+from dofkit.exact.points.balls import BallPoint, OutsideDomainError, jacobian, precision
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import Frame
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import Looked
+from dofkit.relations.chart import Chart
+
+#: A gap between singular values that tells them apart.
+CLEAR = 1e3
+RIGID = f"what is dependent is rigid: {WHOLE}"
+EXPLICIT = "every relation gives a coordinate by others, so the set is a graph"
+
+
+@dataclass(frozen=True)
+class AtReference:
+    """``instantaneous``: velocities allowed to first order; ``local``: the dimension of the finite motion.
+
+    ``matrix`` is the Jacobian there over GF(``modulus``), or the pattern of its dependent rows. ``dependent``: columns
+    that the others determine, where the matrix does not tell. ``looked``: what was looked at of the relations.
+    """
+
+    instantaneous: int
+    local: Local
+    matrix: list[SparseRow]
+    modulus: int
+    rank: int
+    rigid: int
+    ball: BallPoint | None
+    dependent: tuple[int, ...] | None = None
+    looked: Looked = field(default_factory=Looked)
+
+
+def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = True) -> AtReference | None:
+    """The answer at the reference configuration (t = 0); None where that is not on the variety.
+
+    With measured geometry (not ``exact``) the relations need not hold there to the last digit.
+    """
+    known = {**reference, ex.TIME: ex.ZERO}
+    if "field" not in chart.engines:
+        return by_balls(chart, known, exact)
+    point = pose_point(chart, known, 3)
+    if point is None or (exact and not on_variety(chart, point)):
+        return None
+    matrix = field_jacobian(chart, point)
+    n = chart.coordinates
+    rank = rank_of_rows(matrix, point.p)
+    rank_q = rank_of_rows(without_time(matrix, n), point.p) if len(chart.columns) > n else rank
+    timed = len(chart.columns) - n
+    fields = rigid_fields(chart, point)
+    rigid = rank_of(fields, point.p)
+    ball = None
+    if not exact:
+        ball = ball_point(chart, known, point.rng) if "balls" in chart.engines else None
+        local = Local(None, "undecided", "measured")
+        return AtReference(n - rank_q, local, [], point.p, rank, rigid, ball)
+    few = len(chart.columns) - rank - timed - rigid <= BALL_COLUMNS
+    together = timed or rank == n - rigid or "classes" not in chart.reductions
+    apart = None if together else _by_parts(chart, known, matrix, point.p, rank)
+    if apart is not None:
+        local, looked = apart
+        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
+    if rank < len(matrix) and not timed:
+        local, spared = _with_fewer(chart, known, point, fields, few)
+        looked = Looked(coordinates=n - spared, spared=spared)
+        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
+    if rank < len(matrix) and few and "balls" in chart.engines:
+        ball = ball_point(chart, known, point.rng)
+    local = _at_fixed_time(local_at(chart, point, ball, rigid, chart.time), timed)
+    return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball)
+
+
+def _with_fewer(
+    chart: Chart, known: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]], few: bool
+) -> tuple[Local, int]:
+    """The local dimension by a chart with fewer coordinates, where there is one, and how many went.
+
+    ``fields``: the motions of the whole as one body over the chart's columns; what they are on fewer is what is left.
+    """
+    small, free = smaller(chart, known)
+    spared = chart.coordinates - small.coordinates
+    here = point if small is chart else pose_point(small, known, 3)
+    if here is None or not on_variety(small, here):
+        return Local(None, "undecided", "with fewer coordinates the relations do not hold at the drawing"), 0
+    if not small.nodes:
+        return Local(free, "proved", EXPLICIT), spared
+    kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
+    rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
+    ball = ball_point(small, known, here.rng) if few and "balls" in chart.engines else None
+    local = local_at(small, here, ball, rigid)
+    return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
+
+
+def _by_parts(
+    chart: Chart, known: Mapping[Expr, Expr], matrix: Sequence[SparseRow], p: int, rank: int
+) -> tuple[Local, Looked] | None:
+    """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
+
+    See `separate`. None where one does not, or is not known to, or is all there is: then all have to be looked at
+    together.
+    """
+    dimension = len(chart.columns) - rank
+    if rank == len(matrix):
+        return Local(dimension, "proved", INDEPENDENT), Looked(rank)
+    parts = dependent_parts(chart, echelon(matrix, p, supports=True))
+    if len(parts) == 1 and len(parts[0].rows) == len(matrix):
+        return None
+    found = []
+    followed = more = 0
+    for part in parts:
+        own = chart_of(chart, part.rows)
+        local, spared = _of_part(own, known, part.rank)
+        if local is None:
+            return None
+        found.append(local)
+        followed += 0 if local.reason == RIGID else own.coordinates - spared
+        more += spared
+    reasons = dict.fromkeys(local.reason for local in found)
+    looked_at = {row for part in parts for row in part.rows}
+    local = Local(dimension, weakest(*(local.verdict for local in found)), "; ".join(reasons))
+    rigid = sum(local.reason == RIGID for local in found)
+    return local, Looked(len(matrix) - len(looked_at), rigid, len(found) - rigid, followed, more)
+
+
+def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local | None, int]:
+    """One class by itself, and how many coordinates went before it was followed.
+
+    None where its set is not known to be a manifold of the codimension of its rank.
+    """
+    point = pose_point(chart, known, 3)
+    if point is None:
+        return None, 0
+    left = len(chart.columns) - rank
+    fields = rigid_fields(chart, point)
+    rigid = rank_of(fields, point.p)
+    if left == rigid:
+        return Local(left, "proved", RIGID), 0
+    local, spared = _with_fewer(chart, known, point, fields, left - rigid <= BALL_COLUMNS)
+    return (local if local.dimension == left else None), spared
+
+
+def _at_fixed_time(local: Local, timed: int) -> Local:
+    """The dimension without that of time, along which the set goes on; none where it does not."""
+    if local.dimension is None:
+        return local
+    return replace(local, dimension=None if local.confined else local.dimension - timed)
+
+
+def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:
+    """`at_reference` with balls alone: what a tiny ball contains 0 of is taken for 0."""
+    ball = ball_point(chart, known, random.Random("dofkit reference"))
+    matrix = None if ball is None else ball_matrix(chart, ball, exact)
+    if ball is None or matrix is None:
+        return None
+    n, columns = chart.coordinates, len(chart.columns)
+    timed = columns - n
+    part = ball_part(matrix)
+    rank = part.rank
+    at = values(chart.ring, ball)
+    rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
+    if not exact:
+        return AtReference(n - rank, Local(None, "undecided", "measured"), [], 2, rank, rigid, ball)
+    of_q = ball_part([row[:n] for row in matrix])
+    local = Local(None, "undecided", f"the gap between pivots is {part.gap:.1e}")
+    if part.gap > CLEAR:
+        frame = Frame(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
+        manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
+        local = _at_fixed_time(_followed(manifold, rigid, chart.time), timed)
+    shown = sparse(dependencies(matrix, part))
+    names = tuple(of_q.columns) if rank == of_q.rank else ()
+    return AtReference(n - of_q.rank, local, shown, 2, rank, rigid, ball, names)
+
+
+def _followed(manifold: Manifold, rigid: int, time: int | None) -> Local:
+    try:
+        return numeric_dimension(manifold, rigid, time)
+    except (ZeroDivisionError, OutsideDomainError):
+        return Local(None, "undecided", "the relations could not be followed along a curve through this configuration")
+
+
+def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:
+    """The Jacobian over all columns; None where a relation's ball excludes 0 or has no value."""
+    try:
+        at = values(chart.ring, ball)
+        if exact and not all(at[node].contains(0) for node in chart.nodes):
+            return None
+        present = [c for c in chart.columns if c >= 0]
+        found = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
+    except (ZeroDivisionError, OutsideDomainError):
+        return None
+    place = {c: i for i, c in enumerate(present)}
+    return [[row[place[c]] if c >= 0 else arb(0) for c in chart.columns] for row in found]
+
+
+def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
+    """The reference configuration with balls; symbols without a value get random ones."""
+    ctx.prec = precision()
+    symbols: dict[Expr, Any] = {}
+    for var in chart.ring.vars:
+        if var.kind != "symbol":
+            continue
+        value = known.get(var.key)
+        if value is None:
+            symbols[var.key] = arb(rng.randrange(257, 1023)) / 512
+            continue
+        ring = Ring([value])
+        node = ring.node(value)
+        constants = {v.key: arb(3) / 4 for v in ring.vars if v.kind == "symbol"}
+        try:
+            symbols[var.key] = values(ring, BallPoint(constants, 0))[node]
+        except (OutsideDomainError, ZeroDivisionError):
+            return None
+    return BallPoint(symbols, 0)

@@ -1,0 +1,153 @@
+"""Blocks of finite relations only: freedom at the reference, or at generic points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import isfinite
+
+from dofkit.configuration.drawing.at_reference import AtReference, at_reference
+from dofkit.configuration.drawing.measured import measure
+from dofkit.configuration.variety import Variety, field_jacobian, find
+from dofkit.exact.matrices.certified import ball_part, dependencies
+from dofkit.exact.matrices.modular import without_time
+from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse
+from dofkit.exact.points.balls import RealPoint
+from dofkit.exact.points.frames import sparse_frame
+from dofkit.exact.zero.independence import doubt
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block
+from dofkit.relations.chart import Chart
+from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.setting import Setting
+
+OFF_REFERENCE = (
+    "the reference configuration does not satisfy all finite relations: the answer is for configurations that do, "
+    "and nothing is said of the reference itself"
+)
+ONE_MOMENT = "at the reference configuration the relations hold at this moment only: no motion passes through it"
+
+
+def finite_answer(block: Block, setting: Setting) -> Answer:
+    chart = make_chart(block, setting)
+    result = _finite_answer(chart, setting)
+    result.doubt = doubt(chart.ring)
+    return result
+
+
+def _finite_answer(chart: Chart, setting: Setting) -> Answer:
+    if setting.reference is not None:
+        drawn = _drawn_answer(chart, setting, setting.reference)
+        if drawn is not None:
+            return drawn
+    found = find(chart, setting.pose)
+    result = Answer(found.consistent, found.dimension, found.dimension, found.verdict, reasons=list(found.reasons))
+    if setting.reference is not None:
+        result.reasons.append(OFF_REFERENCE)
+    result.method = "rank over GF(p)" + (" and balls" if found.real else "")
+    if found.samples:
+        _finite_matrix(chart, found, result)
+    elif found.real is not None:
+        result.method = "real points with balls"
+        _numeric_matrix(chart, found.real, result)
+    return result
+
+
+def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
+    """Which relations depend on which, and which coordinates on which, from a regular real point."""
+    if not real.certified or not real.rows or len(real.matrix) != len(chart.nodes):
+        return
+    result.matrix = sparse(dependencies(real.matrix, real.part))
+    shown = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
+    columns = [i for i, s in enumerate(shown) if s != ex.TIME]
+    part = ball_part([[row[c] for c in columns] for row in real.matrix])
+    if part.rank < real.rank:
+        result.consistent, result.dof, result.velocity_dof = False, None, None
+        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
+        return
+    result.dependent = tuple(str(shown[columns[i]].args[1]) for i in part.columns)
+
+
+def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]) -> Answer | None:
+    """At the reference configuration; None where the relations do not hold there."""
+    found = at_reference(chart, reference, exact=setting.tolerance is None)
+    if found is None:
+        return None
+    if setting.tolerance is not None:
+        return _measured_answer(chart, setting, found)
+    result = Answer(True, found.local.dimension, found.local.dimension, found.local.verdict)
+    result.method = "rank over GF(p) at the given configuration"
+    result.instantaneous, result.looked = found.instantaneous, found.looked
+    result.matrix, result.modulus = found.matrix, found.modulus
+    if found.dependent is None:
+        result.dependent = dependent_names(found.matrix, chart, found.modulus)
+    else:
+        result.method = "balls at the given configuration"
+        result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
+    if found.local.confined and found.rank == len(chart.columns):
+        result.consistent, result.dof, result.velocity_dof, result.verdict = False, None, None, "probable"
+        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
+        return result
+    if found.local.confined:
+        return _confined_answer(chart, setting, result)
+    if found.rank < len(found.matrix):
+        result.reasons.append(found.local.reason)
+    if found.local.dimension is None and chart.time is not None:
+        result.consistent = None
+    columns = len(chart.columns) - found.rank
+    result.degenerate = found.local.dimension != columns - (len(chart.columns) - chart.coordinates)
+    return result
+
+
+def _confined_answer(chart: Chart, setting: Setting, result: Answer) -> Answer:
+    """No motion passes through the reference; whether one does elsewhere is asked of generic configurations."""
+    elsewhere = find(chart, {})
+    result.consistent = False if elsewhere.consistent is False else None
+    if elsewhere.samples:
+        _finite_matrix(chart, elsewhere, result)
+    result.dof = result.velocity_dof = result.instantaneous = None
+    if result.consistent is not False:
+        result.verdict = "undecided"
+        result.reasons.append(ONE_MOMENT)
+    return result
+
+
+def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answer:
+    """Measured geometry: the rank within the tolerance."""
+    if "balls" not in setting.engines:
+        return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
+    at = {s: float(v.mid()) for s, v in found.ball.symbols.items()} if found.ball is not None else {}
+    told = measure(chart, at, setting.roles, float(setting.tolerance or 0), setting.size, found.rigid)
+    result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
+    result.method = "singular values within the tolerance at the given configuration"
+    result.instantaneous = told.instantaneous
+    exact = "no singular value but 0 itself is taken for 0"
+    gap = f"the gap between singular values is {told.gap:.1e}" if isfinite(told.gap) else exact
+    result.reasons.append(f"{told.reason}; {gap}")
+    result.matrix, result.modulus = sparse(told.dependencies), 2
+    result.dependent = tuple(str(chart.symbols[c].args[1]) for c in told.columns)
+    result.degenerate = told.dimension != told.instantaneous
+    return result
+
+
+def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:
+    point = found.samples[0]
+    matrix = field_jacobian(chart, point)
+    n = chart.coordinates
+    rank = rank_of_rows(matrix, point.p)
+    rank_q = rank_of_rows(without_time(matrix, n), point.p) if len(chart.columns) > n else rank
+    result.matrix, result.modulus = matrix, point.p
+    result.dependent = dependent_names(matrix, chart, point.p)
+    if rank_q < rank:
+        result.consistent, result.dof, result.velocity_dof = False, None, None
+        result.verdict = "probable"
+        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
+        return
+    result.degenerate = result.dof is not None and result.dof != n - rank
+
+
+def dependent_names(rows: Sequence[SparseRow], chart: Chart, p: int) -> tuple[str, ...]:
+    """Coordinates that the rows can be solved for, the last ones where there is a choice."""
+    frame = sparse_frame(without_time(rows, chart.coordinates), chart.coordinates, p)
+    return tuple(str(chart.symbols[c].args[1]) for c in frame.dependent)

@@ -1,0 +1,148 @@
+"""A branch of the set through a singular point, followed towards the point and confirmed to high precision."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from dofkit.base.deadline import check
+from dofkit.configuration.local.manifold import Form, Manifold
+from dofkit.configuration.local.neighbourhood import FAULTS, SURE, Neighbourhood, damped, independent
+from dofkit.exact.points.balls import BallPoint, jacobian
+from dofkit.exact.points.frames import Frame
+from dofkit.exact.ring.program import values
+from dofkit.expressions.tree import Expr
+
+#: Distances at which a branch must be found, attempts, and iterations of each.
+DISTANCES, ATTEMPTS, ITERATIONS = (2.0**-3, 2.0**-7, 2.0**-11), 8, 60
+#: Singular values that count as 0, and as not 0, at a point brought to high precision.
+NOUGHT, SOME = 1e-13, 1e-10
+#: The order to which the remaining relations are followed on a branch, and the radius given to its point.
+ORDER, RADIUS = 6, 2.0**-90
+
+
+def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | None:
+    """The largest dimension found among the branches of the set through the point; None where none was found.
+
+    A branch begins along a real zero of the second-order ``forms`` and is followed towards the point: at each distance
+    a real point of the set is brought to high precision, the rank of all relations there is told by a gap, and the
+    dependent ones vanish along a random curve.
+    """
+    try:
+        here = Neighbourhood(ball)
+        starts = _beginnings(here, forms)
+    except FAULTS:
+        return None
+    best = None
+    for direction in starts:
+        check()
+        found = _followed(here, direction)
+        if found is not None and (best is None or found > best):
+            best = found
+        if best is not None and best >= wanted:
+            return best
+    return best
+
+
+def _beginnings(here: Neighbourhood, forms: Sequence[Form]) -> list[np.ndarray]:
+    """Unit tangents of M at the point on which all forms are 0, from random ones by Gauss-Newton."""
+    ball = here.ball
+    tangent = np.zeros((len(here.place), ball.dimension))
+    for a, c in enumerate(ball.frame.free):
+        if c in here.number:
+            tangent[here.number[c], a] = 1.0
+    dependent = here.dependent
+    if dependent:
+        _, j = here.floats(np.zeros(len(here.place)), ball.rows)
+        tangent[dependent] = -np.linalg.solve(j[:, dependent], j @ tangent)
+    scales = np.array([ball.scales[c] for c in ball.frame.free])
+    cut = np.array([[[0.0 if v.contains(0) else float(v.mid()) for v in row] for row in f] for f in forms]) * np.outer(
+        scales, scales
+    )
+    sizes = np.abs(cut).max(axis=(1, 2))
+    cut = cut / np.where(sizes > 0, sizes, 1.0)[:, None, None]
+    rng = np.random.default_rng(7)
+    found = []
+    for _ in range(ATTEMPTS):
+        v = _null(cut, rng.standard_normal(ball.dimension))
+        if v is not None:
+            found.append(tangent @ v / np.linalg.norm(tangent @ v))
+    return found
+
+
+def _null(forms: np.ndarray, v: np.ndarray) -> np.ndarray | None:
+    """A unit vector near v on which all forms are 0, by damped steps across v: along v they would lead to 0."""
+    for _ in range(ITERATIONS):
+        v = v / np.linalg.norm(v)
+        slopes = forms @ v
+        wrong = slopes @ v
+        if float(np.max(np.abs(wrong))) < 1e-13:
+            return v
+        v = v + damped(np.vstack([2 * slopes, v]), np.append(wrong, 0.0))
+    return v / np.linalg.norm(v) if float(np.max(np.abs((forms @ v) @ v))) < 1e-10 else None
+
+
+def _followed(here: Neighbourhood, direction: np.ndarray) -> int | None:
+    dimension: int | None = None
+    for distance in DISTANCES:
+        try:
+            u = _descend(here, distance * direction)
+            size = 0.0 if u is None else float(np.linalg.norm(u))
+            if u is None or not distance / 8 < size < distance * 8:
+                return None
+            found = _dimension_at(here, u)
+        except FAULTS:
+            return None
+        if found is None or dimension not in (None, found):
+            return None
+        dimension, direction = found, u / size
+    return dimension
+
+
+def _descend(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
+    """The nearest point of the set, by damped steps."""
+    for _ in range(ITERATIONS):
+        check()
+        f, j = here.floats(u, here.ball.nodes)
+        if float(np.max(np.abs(f))) < 1e-15:
+            return u
+        step = damped(j, f)
+        u = u + step
+        if float(np.linalg.norm(step)) < 1e-14:
+            return u
+    return u if float(np.max(np.abs(here.floats(u, here.ball.nodes)[0]))) < 1e-12 else None
+
+
+def _dimension_at(here: Neighbourhood, u: np.ndarray) -> int | None:
+    """The dimension of the set at a regular point near u; None where the point is not seen to be one."""
+    ball = here.ball
+    _, j = here.floats(u, ball.nodes)
+    rows, columns = independent(j, SOME)
+    moved = here.newton(here.exactly(u), [ball.nodes[r] for r in rows], columns)
+    if moved is None or here.residual(moved, ball.nodes) > SURE:
+        return None
+    point = BallPoint(moved, 0)
+    at = values(here.ring, point)
+    exact = jacobian(here.ring, at, point, ball.nodes, here.columns, arb(0))
+    j = np.array([[float(v.mid()) for v in row] for row in exact]) * here.scales / here.norms[:, None]
+    singular = np.linalg.svd(j, compute_uv=False)
+    rank = int(np.sum(singular > SOME))
+    if rank != len(rows) or (rank < len(singular) and singular[rank] > NOUGHT):
+        return None
+    return len(ball.columns) - rank if _stays(here, moved, rows, columns) else None
+
+
+def _stays(here: Neighbourhood, moved: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int]) -> bool:
+    """Do the dependent relations hold along a random curve through the point?"""
+    ball = here.ball
+    own = set(here.keys)
+    point = BallPoint({s: arb(v, RADIUS) if s in own else v for s, v in moved.items()}, 0)
+    dependent = tuple(sorted(here.place[c] for c in columns))
+    free = tuple(i for i in range(len(ball.columns)) if i not in set(dependent))
+    there = Manifold(ball.ring, ball.nodes, ball.columns, Frame(tuple(sorted(rows)), dependent, free), point)
+    rng = np.random.default_rng(11)
+    direction: list[Any] = [arb(int(rng.integers(64, 512))) / 256 * ball.scales[c] for c in free]
+    return all(s.coefficient(k).contains(0) for s in there.follow(direction, ORDER) for k in range(ORDER))

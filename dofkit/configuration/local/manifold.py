@@ -1,0 +1,196 @@
+"""The manifold of independent relations through a point, followed along curves as power series."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from flint import arb, arb_mat, nmod, nmod_mat
+
+from dofkit.base.deadline import check
+from dofkit.base.verdicts import Verdict
+from dofkit.exact.matrices.sparse import Solved
+from dofkit.exact.points.frames import Frame, solve
+from dofkit.exact.points.series import Series, SeriesPoint, monomial, series_values, zero_poly
+from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.ring import Ring, Scalar
+
+Form = list[list[Scalar]]
+
+
+@dataclass(frozen=True)
+class Local:
+    """The dimension of a set at one of its points, time counted where it is a column; None where it is not decided.
+
+    ``confined``: time is constant on the set near the point.
+    """
+
+    dimension: int | None
+    verdict: Verdict
+    reason: str
+    confined: bool = False
+
+
+class Curve:
+    """A curve on the manifold: the ``path`` of every column, and the program's values along it."""
+
+    def __init__(self, ring: Ring, path: list[Series], point: SeriesPoint, at: list[Series]) -> None:
+        self.ring, self.path, self.point, self.at = ring, path, point, at
+
+    def slopes(self, nodes: Sequence[int], columns: Sequence[int]) -> list[list[Series]]:
+        """d(node)/d(column) along the curve."""
+        order = self.point.order
+        zero, one = Series(self.point.like, order), Series(self.point.like + 1, order)
+        found = []
+        for node in nodes:
+            check()
+            g = gradient(self.ring, self.at, self.point, [(node, one)])
+            found.append([g.get(c, zero) if c >= 0 else zero for c in columns])
+        return found
+
+
+class Manifold:
+    """The manifold of the independent relations; ``others`` are the nodes of the dependent ones, functions on it.
+
+    ``scales`` are the sizes by which the columns are measured (a length for places, 1 for angles).
+    """
+
+    def __init__(
+        self,
+        ring: Ring,
+        nodes: Sequence[int],
+        columns: Sequence[int],
+        frame: Frame,
+        base: Any,
+        scales: Sequence[float] = (),
+    ) -> None:
+        self.ring, self.nodes, self.columns, self.frame, self.base = ring, list(nodes), list(columns), frame, base
+        self.scales = list(scales) or [1.0] * len(self.columns)
+        at = values(ring, base)
+        self.sample = at[0] * 0 if at else base.number(0)
+        self.like = zero_poly(base, self.sample)
+        self.start = [at[ring.var_node[c]] if c >= 0 else self.sample for c in columns]
+        kept = set(frame.rows)
+        self.rows = [self.nodes[r] for r in frame.rows]
+        self.others = [n for i, n in enumerate(self.nodes) if i not in kept]
+
+    @property
+    def dimension(self) -> int:
+        """m."""
+        return len(self.frame.free)
+
+    @cached_property
+    def _inverse(self) -> Any:
+        """The inverse of the independent rows by the dependent columns, at the point."""
+        at = values(self.ring, self.base)
+        one = self.sample + 1
+        if isinstance(self.sample, nmod):
+            place = {self.columns[c]: k for k, c in enumerate(self.frame.dependent)}
+            slopes = (gradient(self.ring, at, self.base, [(node, one)]) for node in self.rows)
+            sparse_rows = [{place[c]: int(v) for c, v in g.items() if c in place and v != 0} for g in slopes]
+            return Solved(sparse_rows, self.sample.modulus())
+        rows = []
+        for node in self.rows:
+            g = gradient(self.ring, at, self.base, [(node, one)])
+            rows.append([g.get(self.columns[c], self.sample) for c in self.frame.dependent])
+        return inverse(rows)
+
+    def follow(self, direction: Sequence[Scalar], order: int) -> list[Series]:
+        """The other relations along q(s), whose free columns are start + s direction."""
+        curve = self.line(direction, order)
+        return [curve.at[n] for n in self.others]
+
+    def line(self, direction: Sequence[Scalar], order: int) -> Curve:
+        """The curve whose free columns are start + s direction."""
+        step = Series(monomial(self.like), order)
+        starts = [Series(self.like + self.start[c], order) for c in self.frame.free]
+        return self.curve([a + step * v for a, v in zip(starts, direction, strict=True)], order)
+
+    def curve(self, free: Sequence[Series], order: int) -> Curve:
+        """The curve with the given free columns: the dependent ones are found one order after another.
+
+        With A the inverse of dg/d(dependent) at the point, the coefficient of s^k is -A [s^k] g, where g is
+        evaluated with that coefficient 0: it enters g at s^k by dg/d(dependent) alone.
+        """
+        path = [Series(self.like + value, order) for value in self.start]
+        for c, series in zip(self.frame.free, free, strict=True):
+            path[c] = series
+        for k in range(1, order if self.rows else 1):
+            check()
+            _, at = self._evaluate(path, k + 1)
+            step = product(self._inverse, [at[n].coefficient(k) for n in self.rows])
+            power = monomial(self.like) ** k
+            for value, c in zip(step, self.frame.dependent, strict=True):
+                path[c] = path[c] - Series(power * value, order)
+        point, at = self._evaluate(path, order)
+        return Curve(self.ring, path, point, at)
+
+    def _evaluate(self, path: Sequence[Series], order: int) -> tuple[SeriesPoint, list[Series]]:
+        moved = {c: path[i].truncated(order) for i, c in enumerate(self.columns) if c >= 0}
+        point = SeriesPoint(self.base, moved, order, self.like)
+        return point, series_values(self.ring, point)
+
+    def slopes(self, curve: Curve, functions: Sequence[int]) -> list[list[Series]]:
+        """The derivatives by the free columns of ``functions`` on the manifold, along a curve.
+
+        df/d(free) = f_free - l B, with the multipliers l A = f_dep for the rows (A, B) of the independent relations.
+        """
+        dependent = [self.columns[c] for c in self.frame.dependent]
+        free = [self.columns[c] for c in self.frame.free]
+        rows = curve.slopes(self.rows, dependent + free)
+        found = curve.slopes(functions, dependent + free)
+        r = len(dependent)
+        a = [[row[c] for row in rows] for c in range(r)]
+        multipliers = solve(a, [[f[c] for f in found] for c in range(r)]) if r else []
+        told = []
+        for i, f in enumerate(found):
+            line = list(f[r:])
+            for k, row in enumerate(rows):
+                line = [v - multipliers[k][i] * row[r + j] for j, v in enumerate(line)]
+            told.append(line)
+        return told
+
+    def quadratic_forms(self) -> list[Form]:
+        """For each other relation, the matrix of its second-order part on the free columns."""
+        m = self.dimension
+        zero, one = self.sample, self.sample + 1
+        unit = [[one if i == j else zero for j in range(m)] for i in range(m)]
+        alone = [self._second(u) for u in unit]
+        forms = [[[zero] * m for _ in range(m)] for _ in self.others]
+        for i in range(m):
+            for j in range(i + 1):
+                both = alone[i] if i == j else self._second([a + b for a, b in zip(unit[i], unit[j], strict=True)])
+                for k in range(len(self.others)):
+                    value = both[k] if i == j else (both[k] - alone[i][k] - alone[j][k]) / 2
+                    forms[k][i][j] = forms[k][j][i] = value
+        return forms
+
+    def _second(self, direction: Sequence[Scalar]) -> list[Scalar]:
+        return [s.coefficient(2) for s in self.follow(direction, 3)]
+
+
+def inverse(rows: list[list[Scalar]]) -> Any:
+    """The inverse of a square matrix over GF(p) or balls; raises ZeroDivisionError."""
+    if not rows:
+        return None
+    if isinstance(rows[0][0], nmod):
+        return nmod_mat([[int(v) for v in row] for row in rows], rows[0][0].modulus()).inv()
+    return arb_mat(rows).inv()
+
+
+def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
+    """The inverse of a matrix times a vector."""
+    if isinstance(matrix, Solved):
+        found_by_parts: list[Scalar] = [nmod(v, matrix.p) for v in matrix.solve([int(v) for v in vector])]
+        return found_by_parts
+    over_field = isinstance(matrix, nmod_mat)
+    column = nmod_mat([[int(v)] for v in vector], matrix.modulus()) if over_field else arb_mat([[v] for v in vector])
+    found = matrix * column
+    return [found[i, 0] for i in range(len(vector))]
+
+
+def is_zero(value: Scalar) -> bool:
+    """0 over GF(p), or what a ball does not tell from 0."""
+    return bool(value.contains(0)) if isinstance(value, arb) else bool(value == 0)

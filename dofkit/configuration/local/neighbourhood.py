@@ -1,0 +1,282 @@
+"""What holds at a distance: the set near a point looked at in floating point and confirmed to high precision."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from flint import arb, arb_mat, ctx
+
+from dofkit.base.deadline import check
+from dofkit.configuration.local.critical_set import Split
+from dofkit.configuration.local.long_paths import fails_afar
+from dofkit.configuration.local.manifold import Manifold
+from dofkit.exact.points.balls import BallPoint, OutsideDomainError, jacobian
+from dofkit.exact.ring.program import values
+from dofkit.expressions.tree import Expr
+
+#: How far a curve of independent relations is followed, in the columns' scales, at the most and at the least.
+FAR, NEAR, STEPS = 0.5, 2.0**-24, 8
+#: The least cosine between steps, and what a correction may add to one.
+STRAIGHT = 0.9
+#: What counts as not 0 there, relative to the relation's gradient; with more relations floats have to do (`wide`).
+SURE, MANY = 2.0**-150, 60
+#: Bits that large numbers which cancel may cost: a million sizes from the origin, squared, and more.
+LOST = 90
+#: Bits, and what is not 0, where a curve begins at exact coordinates.
+DEEP, DEEP_SURE = 1024, 2.0**-900
+#: Bits in which relations are evaluated before they are rounded.
+WIDE = 256
+#: The step of a difference of gradients, and rounds of Newton's method on the critical set.
+DIFFERENCE, ROUNDS = 2.0**-80, 8
+FAULTS = (ValueError, ZeroDivisionError, OverflowError, OutsideDomainError, np.linalg.LinAlgError)
+
+
+class Neighbourhood:
+    """The relations around a manifold's point in scaled coordinates u: column = start + scale u."""
+
+    def __init__(self, ball: Manifold) -> None:
+        self.ball = ball
+        self.ring = ball.ring
+        self.place = [i for i, c in enumerate(ball.columns) if c >= 0]
+        self.number = {i: a for a, i in enumerate(self.place)}
+        self.dependent = [self.number[c] for c in ball.frame.dependent]
+        self.columns = [ball.columns[i] for i in self.place]
+        self.keys = [ball.ring.vars[c].key for c in self.columns]
+        self.scales = np.array([ball.scales[i] for i in self.place])
+        self.middle: dict[Expr, arb] = {s: arb(v).mid() for s, v in ball.base.symbols.items()}
+        _, j = self.floats(np.zeros(len(self.columns)), ball.nodes, weighed=False)
+        norms = np.linalg.norm(j, axis=1)
+        self.norms = np.where(norms > 0, norms, 1.0)
+        self.norm_of = dict(zip(ball.nodes, self.norms, strict=True))
+
+    def floats(self, u: np.ndarray, nodes: Sequence[int], weighed: bool = True) -> tuple[np.ndarray, np.ndarray]:
+        """The relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
+        with ctx.workprec(WIDE):
+            point = BallPoint(self.exactly(u), 0)
+            at = values(self.ring, point)
+            f = np.array([float(at[n].mid()) for n in nodes], dtype=float)
+            rows = jacobian(self.ring, at, point, nodes, self.columns, arb(0))
+            j = np.array([[float(v.mid()) for v in row] for row in rows], dtype=float)
+        j = j.reshape(len(nodes), len(self.columns)) * self.scales
+        if weighed:
+            norms = np.array([self.norm_of[n] for n in nodes])
+            f, j = f / norms, j / norms[:, None]
+        return f, j
+
+    def exactly(self, u: np.ndarray) -> dict[Expr, arb]:
+        """The symbols at u."""
+        moved = {
+            k: self.middle[k] + arb(float(s)) * arb(float(v)) for k, s, v in zip(self.keys, self.scales, u, strict=True)
+        }
+        return {**self.middle, **{k: v.mid() for k, v in moved.items()}}
+
+    def newton(self, symbols: dict[Expr, arb], nodes: Sequence[int], moved: Sequence[int]) -> dict[Expr, arb] | None:
+        """``nodes`` solved for the columns numbered ``moved``, to high precision; None where it does not converge."""
+        columns = [self.columns[i] for i in moved]
+        last = arb(1)
+        for _ in range(8):
+            check()
+            point = BallPoint(symbols, 0)
+            at = values(self.ring, point)
+            j = arb_mat([[v.mid() for v in row] for row in jacobian(self.ring, at, point, nodes, columns, arb(0))])
+            step = j.solve(arb_mat([[at[n].mid()] for n in nodes]))
+            symbols = dict(symbols)
+            last = arb(0)
+            for a, i in enumerate(moved):
+                symbols[self.keys[i]] = (symbols[self.keys[i]] - step[a, 0]).mid()
+                last = max(last, abs(step[a, 0].mid()) / float(self.scales[i]))
+            if last < arb(2) ** (LOST - ctx.prec):
+                return symbols
+        return None
+
+    def onto(self, symbols: dict[Expr, arb]) -> dict[Expr, arb] | None:
+        """The point of M with the same free columns."""
+        if not self.ball.rows:
+            return symbols
+        return self.newton(symbols, self.ball.rows, self.dependent)
+
+    def of_free(self, c: int) -> tuple[Expr, float]:
+        """The symbol and the scale of the free column number ``c``."""
+        i = self.number[self.ball.frame.free[c]]
+        return self.keys[i], float(self.scales[i])
+
+    def gradients(self, symbols: Mapping[Expr, arb], parts: Split) -> list[arb]:
+        """The derivatives of dependent relations on M by its coordinates, for each equation of N."""
+        ball = self.ball
+        point = BallPoint(symbols, 0)
+        at = values(self.ring, point)
+        free = [ball.columns[c] for c in ball.frame.free]
+        solved = [self.columns[i] for i in self.dependent]
+        used = sorted({i for i, _ in parts.equations})
+        f = jacobian(self.ring, at, point, [ball.others[i] for i in used], solved + free, arb(0))
+        r = len(solved)
+        if r:
+            g = jacobian(self.ring, at, point, ball.rows, solved + free, arb(0))
+            a = arb_mat([[row[c].mid() for row in g] for c in range(r)])
+            multipliers = a.solve(arb_mat([[line[c].mid() for line in f] for c in range(r)]))
+            f = [
+                [v - sum((multipliers[k, i] * g[k][c] for k in range(r)), arb(0)) for c, v in enumerate(line)]
+                for i, line in enumerate(f)
+            ]
+        return [f[used.index(i)][r + j].mid() for i, j in parts.equations]
+
+    def residual(self, symbols: Mapping[Expr, arb], nodes: Sequence[int]) -> float:
+        """The largest of the relations, relative to their gradients."""
+        at = values(self.ring, BallPoint(symbols, 0))
+        return max((abs(float(at[n].mid())) / self.norm_of[n] for n in nodes), default=0.0)
+
+
+def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool | None:
+    """Are the dependent relations 0, to high precision, at a point of M some way along a curve?
+
+    ``deep``: the curve begins at exact coordinates, so that what is flat there shows to an order of several hundreds.
+    None where the curve could not be followed far enough to see.
+    """
+    try:
+        if len(ball.rows) > MANY:
+            return not fails_afar(ball, direction)
+        here = Neighbourhood(ball)
+        reach = FAR
+        while reach > NEAR:
+            u = _walk(here, direction, reach)
+            if u is not None:
+                with ctx.workprec(DEEP if deep else ctx.prec):
+                    return _holds_at(here, u, DEEP_SURE if deep else SURE)
+            reach /= 4
+    except FAULTS:
+        return None
+    return None
+
+
+def _holds_at(here: Neighbourhood, u: np.ndarray, sure: float) -> bool | None:
+    ball = here.ball
+    rows, columns = independent(here.floats(u, ball.rows)[1], 0.0) if ball.rows else ([], [])
+    if len(rows) < len(ball.rows):
+        return None
+    symbols = here.newton(here.exactly(u), [ball.rows[r] for r in rows], columns)
+    return None if symbols is None else here.residual(symbols, ball.others) <= sure
+
+
+def holds_on_critical(ball: Manifold, parts: Split, direction: Sequence[float]) -> bool:
+    """Are the dependent relations 0, to high precision, at a point of the critical set N some way along a curve?
+
+    False also where the curve could not be followed far enough to see.
+    """
+    try:
+        here = Neighbourhood(ball)
+        if len(ball.rows) > MANY:
+            return False
+        reach = FAR
+        while reach > NEAR:
+            symbols = _onto_critical(here, parts, direction, reach)
+            if symbols is not None:
+                return here.residual(symbols, ball.others) <= SURE
+            reach /= 8
+    except FAULTS:
+        return False
+    return False
+
+
+def _onto_critical(
+    here: Neighbourhood, parts: Split, direction: Sequence[float], reach: float
+) -> dict[Expr, arb] | None:
+    """The point of N whose free coordinates have moved by ``reach``: Newton's method on the gradients."""
+    symbols = dict(here.middle)
+    for value, c in zip(direction, parts.free, strict=True):
+        if here.ball.frame.free[c] not in here.number:
+            continue
+        key, scale = here.of_free(c)
+        symbols[key] = symbols[key] + arb(value * reach * scale)
+    found = here.onto(symbols)
+    last = arb(1)
+    for _ in range(ROUNDS if parts.solved else 0):
+        check()
+        if found is None:
+            return None
+        before, (last, found) = last, _round(here, parts, found)
+        if last < arb(DIFFERENCE):
+            return found
+        if last > before:
+            return None
+    return None if parts.solved else found
+
+
+def _round(here: Neighbourhood, parts: Split, symbols: dict[Expr, arb]) -> tuple[arb, dict[Expr, arb] | None]:
+    """A step of Newton's method, with differences for second derivatives: its size, and the point of M it leads to."""
+    wrong = here.gradients(symbols, parts)
+    columns = []
+    for c in parts.solved:
+        key, scale = here.of_free(c)
+        step = arb(DIFFERENCE * scale)
+        moved = here.onto({**symbols, key: symbols[key] + step})
+        if moved is None:
+            return arb(1), None
+        columns.append([(b - a) / step for a, b in zip(wrong, here.gradients(moved, parts), strict=True)])
+    change = arb_mat(columns).transpose().solve(arb_mat([[w] for w in wrong]))
+    size = arb(0)
+    for i, c in enumerate(parts.solved):
+        key, scale = here.of_free(c)
+        symbols = {**symbols, key: (symbols[key] - change[i, 0]).mid()}
+        size = max(size, abs(change[i, 0].mid()) / scale)
+    return size, here.onto(symbols)
+
+
+def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> np.ndarray | None:
+    """The point of M at about the distance ``reach`` along a curve; None where steps are too rough to stay on it."""
+    ball = here.ball
+    u, ahead = np.zeros(len(here.place)), np.zeros(len(here.place))
+    for value, c in zip(direction, ball.frame.free, strict=True):
+        if c in here.number:
+            ahead[here.number[c]] = value
+    if not ball.rows:
+        return u + reach * ahead
+    _, j = here.floats(u, ball.rows)
+    if here.dependent:
+        ahead[here.dependent] = -np.linalg.solve(j[:, here.dependent], j @ ahead)
+    for _ in range(STEPS):
+        tangent = ahead - np.linalg.lstsq(j, j @ ahead, rcond=None)[0]
+        size = float(np.linalg.norm(tangent))
+        if not size > 0:
+            return None
+        tangent = tangent / size
+        if tangent @ ahead < STRAIGHT * np.linalg.norm(ahead):
+            return None
+        moved = u + (reach / STEPS) * tangent
+        corrected = _back(here, moved)
+        if corrected is None or np.linalg.norm(corrected - moved) > (1 - STRAIGHT) * reach / STEPS:
+            return None
+        u, ahead = corrected, tangent
+        _, j = here.floats(u, ball.rows)
+    return u
+
+
+def _back(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
+    """Newton's method with minimal steps in floating point."""
+    for _ in range(8):
+        f, j = here.floats(u, here.ball.rows)
+        step = np.linalg.lstsq(j, f, rcond=None)[0]
+        u = u - step
+        if float(np.max(np.abs(step))) < 1e-12:
+            return u
+    return None
+
+
+def damped(j: np.ndarray, f: np.ndarray, power: int = 1) -> np.ndarray:
+    """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
+    left, singular, right = np.linalg.svd(j, full_matrices=False)
+    factors = singular / (singular * singular + float(np.linalg.norm(f)) ** power + 1e-300)
+    return np.asarray(-(right.T @ (factors * (left.T @ f))))
+
+
+def independent(j: np.ndarray, least: float) -> tuple[list[int], list[int]]:
+    """As many rows and columns as there are singular values above ``least``, well conditioned (complete pivoting)."""
+    wanted = int(np.sum(np.linalg.svd(j, compute_uv=False) > least))
+    work, rows, columns = j.copy(), [], []
+    for _ in range(wanted):
+        r, c = np.unravel_index(int(np.argmax(np.abs(work))), work.shape)
+        rows.append(int(r))
+        columns.append(int(c))
+        work = work - np.outer(work[:, c], work[r]) / work[r, c]
+        work[r], work[:, c] = 0.0, 0.0
+    return rows, columns

@@ -1,0 +1,165 @@
+"""The cone of second-order flexes {v: Q_1(v) = ... = Q_k(v) = 0} of quadratic forms.
+
+The tangent cone of a set lies in it, so its dimension bounds that of the set, whether it is looked at over the complex
+numbers (where the bound is a rank) or over the reals (where a definite combination leaves 0 alone).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import combinations_with_replacement
+
+import numpy as np
+from flint import arb, nmod, nmod_mat
+
+from dofkit.base.deadline import check
+from dofkit.exact.ring.ring import Scalar
+
+Form = Sequence[Sequence[Scalar]]
+#: The most linear conditions by which the complex cone is cut: their Macaulay matrix has comb(2 c, c + 1) columns.
+MAX_CUTS = 6
+#: Steps towards a definite combination, and the relative size of an eigenvalue that counts as positive.
+STEPS, POSITIVE = 300, 1e-7
+#: Denominators with which the weights of a definite combination are rounded.
+DENOMINATORS = (1, 12, 840, 1 << 16)
+
+
+def bound(forms: Sequence[Form], rigid: int) -> int:
+    """An upper bound of the cone's dimension over the complex numbers, from forms over GF(p).
+
+    The cone has at most dimension d where a linear subspace of codimension d meets it in 0 alone. On c = m - d
+    variables that holds if and only if the forms' multiples span all polynomials of degree c + 1 (Macaulay);
+    full rank modulo p is full rank.
+    """
+    m = len(forms[0])
+    p = forms[0][0][0].modulus()
+    independent = rank([[v for row in f for v in row] for f in forms], p)
+    for cuts in range(min(m - rigid, independent, MAX_CUTS), 0, -1):
+        if _only_zero(forms, cuts, p):
+            return m - cuts
+    return m
+
+
+def rank(rows: Sequence[Sequence[nmod]], p: int) -> int:
+    """The rank of a matrix over GF(p)."""
+    return int(nmod_mat([[int(v) for v in row] for row in rows], p).rank()) if rows and rows[0] else 0
+
+
+def _only_zero(forms: Sequence[Form], c: int, p: int) -> bool:
+    """Have the forms no common zero but 0 on a random subspace of dimension c?"""
+    rng = random.Random("dofkit cone")
+    m = len(forms[0])
+    basis = nmod_mat([[rng.randrange(p) for _ in range(c)] for _ in range(m)], p)
+    monomials = {exponents: i for i, exponents in enumerate(combinations_with_replacement(range(c), c + 1))}
+    rows = []
+    for form in forms:
+        check()
+        cut = basis.transpose() * nmod_mat([[int(v) for v in row] for row in form], p) * basis
+        terms = [((i, j), int(cut[i, j]) * (1 + (i != j))) for i in range(c) for j in range(i, c)]
+        for factor in combinations_with_replacement(range(c), c - 1):
+            row = [0] * len(monomials)
+            for pair, value in terms:
+                row[monomials[tuple(sorted((*factor, *pair)))]] += value
+            rows.append([v % p for v in row])
+    return bool(nmod_mat(rows, p).rank() == len(monomials))
+
+
+def definite_combination(forms: Sequence[Form], rank_wanted: int) -> bool:
+    """Is a combination of the forms, over balls, definite of the given rank? True is a proof.
+
+    In linkages: a stress whose form is definite on the flexes (prestress stability, Connelly and Whiteley 1996).
+    """
+    m = len(forms[0])
+    for weights in _candidates(forms, rank_wanted):
+        weighted = list(zip(weights, forms, strict=True))
+        total = [[sum((f[i][j] * w for w, f in weighted), arb(0)) for j in range(m)] for i in range(m)]
+        positive, negative = signature_of(total)
+        if not (positive and negative) and positive + negative == rank_wanted:
+            return True
+    return False
+
+
+def _candidates(forms: Sequence[Form], rank_wanted: int) -> list[list[arb]]:
+    """Weights whose combination may be definite: the forms alone, and what a search over the quotient finds."""
+    k = len(forms)
+    found = [[arb(int(i == j)) for i in range(k)] for j in range(k)]
+    weights = _search(forms, rank_wanted)
+    if weights is not None:
+        size = float(np.max(np.abs(weights)))
+        for d in DENOMINATORS:
+            rounded = [Fraction(round(float(w) / size * d), d) for w in weights]
+            found.append([arb(r.numerator) / r.denominator for r in rounded])
+    return found
+
+
+def _search(forms: Sequence[Form], rank_wanted: int) -> np.ndarray | None:
+    """Weights w whose combination B(w) is positive definite on all but the common kernel; None where none is near.
+
+    w is the point nearest to 0 of the convex hull of the vectors (v.B_i v): where it is not 0 its B(w) is positive
+    on every v (Gilbert's algorithm, with the least eigenvector as the next v).
+    """
+    floats = np.array([[[0.0 if v.contains(0) else float(v.mid()) for v in row] for row in f] for f in forms])
+    sizes = np.abs(floats).max(axis=(1, 2))
+    if not sizes.max() > 0:
+        return None
+    floats = floats / np.where(sizes > 0, sizes, 1.0)[:, None, None]
+    _, singular, right = np.linalg.svd(floats.reshape(-1, floats.shape[2]))
+    quotient = right[: int(np.sum(singular > POSITIVE * singular[0]))].T
+    if quotient.shape[1] != rank_wanted:
+        return None
+    cut = np.einsum("ia,kij,jb->kab", quotient, floats, quotient)
+    w = np.trace(cut, axis1=1, axis2=2) / rank_wanted
+    for _ in range(STEPS):
+        least, vectors = np.linalg.eigh(np.einsum("k,kab->ab", w, cut))
+        if least[0] > POSITIVE * max(1.0, float(np.linalg.norm(w))):
+            return np.asarray(w / np.where(sizes > 0, sizes, 1.0))
+        q = np.einsum("a,kab,b->k", vectors[:, 0], cut, vectors[:, 0])
+        apart = w - q
+        length = float(apart @ apart)
+        if length == 0:
+            return None
+        w = w - min(1.0, max(0.0, float(w @ apart) / length)) * apart
+        if float(np.linalg.norm(w)) < POSITIVE:
+            return None
+    return None
+
+
+def signature_of(form: Form) -> tuple[int, int]:
+    """Certified numbers of positive and negative squares (Lagrange's reduction with pivots that exclude 0)."""
+    n = len(form)
+    work = [list(row) for row in form]
+    left = set(range(n))
+    positive = negative = 0
+    while left:
+        pivot = _pivot(work, left)
+        if pivot is None:
+            break
+        i, j = pivot
+        if i != j:
+            for k in range(n):
+                work[i][k] = work[i][k] + work[j][k]
+            for k in range(n):
+                work[k][i] = work[k][i] + work[k][j]
+        value = work[i][i]
+        if value.contains(0):
+            break
+        positive, negative = (positive + 1, negative) if value > 0 else (positive, negative + 1)
+        left.discard(i)
+        for a in left:
+            factor = work[a][i] / value
+            for b in left:
+                work[a][b] = work[a][b] - factor * work[i][b]
+    return positive, negative
+
+
+def _pivot(work: list[list[arb]], left: set[int]) -> tuple[int, int] | None:
+    """A diagonal entry that is not 0, the largest; else an off-diagonal one."""
+    best, size = None, arb(0)
+    for i in left:
+        if not work[i][i].contains(0) and work[i][i].abs_lower() > size:
+            best, size = (i, i), work[i][i].abs_lower()
+    if best is not None:
+        return best
+    return next(((i, j) for i in left for j in left if i != j and not work[i][j].contains(0)), None)

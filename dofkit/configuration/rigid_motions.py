@@ -1,0 +1,110 @@
+"""Motions of the whole as one rigid body."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.ring.program import gradient, values
+from dofkit.expressions import tree as ex
+from dofkit.relations.ambient import free_point
+from dofkit.relations.chart import Chart, Displacement, displacement_fields
+
+#: Random real points that are tried.
+TRIES = 8
+
+
+def rigid_motions(chart: Chart, point: FieldPoint) -> int:
+    """The dimension, at the point, of the displacements of everything as one body that keep all relations."""
+    vectors = rigid_fields(chart, point)
+    return rank_of(vectors, point.p) if vectors else 0
+
+
+def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:
+    """The displacements of everything as one body that keep all relations, at the point, over the columns.
+
+    A displacement counts only if every relation is unchanged by it at a random point of the ambient space.
+    """
+    fields = displacement_fields(chart)
+    away = free_point(chart, 11) if fields else None
+    if away is None:
+        return []
+    slopes = _slopes(chart, away)
+    kept = [f for f in fields if _keeps(chart, away, f, slopes)]
+    return [_at(chart, point, f) for f in kept]
+
+
+def rigid_motions_real(chart: Chart, value: Callable[[int], float]) -> int:
+    """The same at a real point; ``value`` of a generator index."""
+    fields = displacements_real(chart, value)
+    return int(np.linalg.matrix_rank(fields, tol=1e-9)) if fields.size else 0
+
+
+def displacements_real(chart: Chart, value: Callable[[int], float]) -> Any:
+    """The displacement fields that keep all relations, at a real point, as rows over the columns."""
+    fields = displacement_fields(chart)
+    away = _away(chart) if fields else None
+    if away is None:
+        return np.zeros((0, 0))
+    rows = []
+    slopes = _slopes(chart, away)
+    for field in fields:
+        if not _keeps(chart, away, field, slopes):
+            continue
+        row = [0.0] * len(chart.columns)
+        for column, terms in field.items():
+            row[column] = sum(f * (1.0 if o is None else value(chart.columns[o])) for f, o in terms)
+        rows.append(row)
+    return np.array(rows)
+
+
+def _away(chart: Chart) -> FieldPoint | BallPoint | None:
+    """A random point of the ambient space: over GF(p), or of balls where only those may be asked."""
+    if "field" in chart.engines:
+        return free_point(chart, 11)
+    search = RealSearch(chart.ring, (), (), chart.positive)
+    for seed in range(TRIES):
+        point = BallPoint(search.start(seed, {}), seed)
+        try:
+            values(chart.ring, point)
+        except (OutsideDomainError, ZeroDivisionError):
+            continue
+        return point
+    return None
+
+
+def _at(chart: Chart, point: FieldPoint | BallPoint, field: Displacement) -> list[Any]:
+    zero = point.number(ex.ZERO.args[0])
+    vector = [zero] * len(chart.columns)
+    at = values(chart.ring, point)
+    for column, terms in field.items():
+        for factor, other in terms:
+            index = -1 if other is None else chart.columns[other]
+            value = zero + 1 if other is None else at[chart.ring.var_node[index]] if index >= 0 else zero
+            vector[column] = vector[column] + value * factor
+    return vector
+
+
+def _slopes(chart: Chart, point: FieldPoint | BallPoint) -> list[dict[int, Any]]:
+    """The derivatives of every relation by the generators."""
+    at = values(chart.ring, point)
+    one = point.number(ex.ONE.args[0])
+    return [gradient(chart.ring, at, point, [(node, one)]) for node in chart.nodes]
+
+
+def _keeps(
+    chart: Chart, point: FieldPoint | BallPoint, field: Displacement, slopes: Sequence[Mapping[int, Any]]
+) -> bool:
+    vector = _at(chart, point, field)
+    one = point.number(ex.ONE.args[0])
+    of = {c: vector[i] for i, c in enumerate(chart.columns) if c >= 0}
+    for g in slopes:
+        change = sum((v * of[c] for c, v in g.items() if c in of), one * 0)
+        if change != 0 if isinstance(point, FieldPoint) else not change.contains(0):
+            return False
+    return True

@@ -1,0 +1,1 @@
+"""Exclusion by boxes: interval arithmetic and contraction."""

@@ -1,0 +1,157 @@
+"""What is independent in a matrix of balls: a pivot whose ball excludes 0 is a proof, what is left holds 0."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from flint import arb, arb_mat
+
+from dofkit.exact.matrices.singular_values import independent_part
+
+#: Up to this many multiplications, rows are eliminated in their order; past it, those that floating point chose first.
+ORDERED = 20_000
+Balls = Sequence[Sequence[arb]]
+
+
+class Part(NamedTuple):
+    """``rows`` (the first that are independent) and ``columns`` of a regular part.
+
+    ``gap``: the smallest pivot by the largest number that is left, each as a fraction of its row.
+    """
+
+    rank: int
+    gap: float
+    rows: list[int]
+    columns: list[int]
+
+
+def middles(matrix: Balls) -> np.ndarray:
+    """The balls' middles in floating point."""
+    return np.array([[float(v.mid()) for v in row] for row in matrix])
+
+
+def ball_part(matrix: Balls) -> Part:
+    """A part of the matrix that is certified regular, such that the rest holds 0 after elimination."""
+    if not matrix or not matrix[0]:
+        return Part(0, math.inf, [], [])
+    if len(matrix) * len(matrix[0]) * min(len(matrix), len(matrix[0])) <= ORDERED:
+        return _in_order(matrix)
+    return _chosen_first(matrix)
+
+
+def _in_order(matrix: Balls) -> Part:
+    kept: list[tuple[list[arb], int]] = []
+    rows: list[int] = []
+    small, left = math.inf, 0.0
+    for r, row in enumerate(matrix):
+        rest = _reduced(row, kept)
+        c = _pivot(rest)
+        if c < 0:
+            left = max(left, _largest(rest) / _scale(row))
+        else:
+            kept.append((rest, c))
+            rows.append(r)
+            small = min(small, float(rest[c].abs_lower()) / _scale(row))
+    return Part(len(rows), _ratio(small, left), rows, [c for _, c in kept])
+
+
+def _reduced(row: Sequence[arb], kept: Sequence[tuple[list[arb], int]]) -> list[arb]:
+    rest = list(row)
+    for pivot_row, c in kept:
+        if rest[c] != 0:
+            factor = rest[c] / pivot_row[c]
+            rest = [a - factor * b for a, b in zip(rest, pivot_row, strict=True)]
+            rest[c] = arb(0)
+    return rest
+
+
+def _pivot(row: Sequence[arb]) -> int:
+    """The column of the largest entry that is certainly not 0; -1 where all hold 0."""
+    best, size = -1, arb(0)
+    for c, v in enumerate(row):
+        if not v.contains(0) and (low := v.abs_lower()) > size:
+            best, size = c, low
+    return best
+
+
+def _scale(row: Sequence[arb]) -> float:
+    """The size of a row's largest entry; 1 for a row of zeros."""
+    return max((float(v.abs_lower()) for v in row), default=0.0) or 1.0
+
+
+def _largest(row: Sequence[arb]) -> float:
+    return max((float(v.abs_upper()) for v in row), default=0.0)
+
+
+def _ratio(small: float, left: float) -> float:
+    return math.inf if left == 0 or math.isinf(small) else small / left
+
+
+def _chosen_first(matrix: Balls) -> Part:
+    """Rows that floating point finds independent, then those that the balls add."""
+    _, _, rows, columns = independent_part(middles(matrix))
+    while True:
+        others = [r for r in range(len(matrix)) if r not in set(rows)]
+        rest = _complement(matrix, rows, columns, others)
+        if rest is None:
+            return _in_order(matrix)
+        found = next(((r, c) for r, row in zip(others, rest, strict=True) if (c := _pivot(row)) >= 0), None)
+        if found is None:
+            left = max((_largest(row) / _scale(matrix[r]) for r, row in zip(others, rest, strict=True)), default=0.0)
+            return Part(len(rows), _ratio(_smallest(matrix, rows), left), rows, columns)
+        rows, columns = sorted([*rows, found[0]]), [*columns, found[1]]
+
+
+def _complement(
+    matrix: Balls, rows: Sequence[int], columns: Sequence[int], others: Sequence[int]
+) -> list[list[arb]] | None:
+    """The other rows less what the chosen ones say of them (Schur's complement); None where these are not regular."""
+    if not others or not rows:
+        return [list(matrix[r]) for r in others]
+    weights = combinations_of(matrix, rows, columns, others)
+    if weights is None:
+        return None
+    whole = arb_mat([list(matrix[r]) for r in rows])
+    rest = arb_mat([list(matrix[r]) for r in others]) - weights * whole
+    return [[rest[i, j] for j in range(rest.ncols())] for i in range(rest.nrows())]
+
+
+def _smallest(matrix: Balls, rows: Sequence[int]) -> float:
+    """The smallest singular value of some rows, each scaled to length 1."""
+    chosen = middles([matrix[r] for r in rows])
+    if not chosen.size:
+        return math.inf
+    norms = np.linalg.norm(chosen, axis=1, keepdims=True)
+    return float(np.linalg.svd(chosen / np.where(norms > 0, norms, 1.0), compute_uv=False)[-1])
+
+
+def combinations_of(
+    matrix: Balls, rows: Sequence[int], columns: Sequence[int], others: Sequence[int]
+) -> arb_mat | None:
+    """W with matrix[others] = W matrix[rows] on some columns; None where that part is not certified regular."""
+    try:
+        square = arb_mat([[matrix[r][c] for r in rows] for c in columns])
+        right = arb_mat([[matrix[r][c] for r in others] for c in columns])
+        return square.solve(right).transpose()
+    except ZeroDivisionError:
+        return None
+
+
+def dependencies(matrix: Balls, part: Part) -> list[list[int]]:
+    """Which rows depend on which of the independent ones, as a matrix over GF(2)."""
+    place = {r: i for i, r in enumerate(part.rows)}
+    others = [r for r in range(len(matrix)) if r not in place]
+    weights = combinations_of(matrix, part.rows, part.columns, others) if part.rows and others else None
+    of = {r: i for i, r in enumerate(others)}
+    pattern = []
+    for r in range(len(matrix)):
+        entry = [0] * max(part.rank, 1)
+        if r in place:
+            entry[place[r]] = 1
+        elif weights is not None:
+            entry = [int(not weights[of[r], i].contains(0)) for i in range(part.rank)]
+        pattern.append(entry)
+    return pattern

@@ -1,0 +1,230 @@
+"""Sparse matrices over GF(p): independent rows in order, what the others depend on, and columns to solve for.
+
+Rows are taken one after another and reduced by those before them; a pivot is the entry whose column occurs in the
+fewest rows, so a chain or a tree fills in nothing and a grid little more than its width.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
+from typing import Any
+
+from dofkit.base.deadline import check
+
+SparseRow = dict[int, int]
+#: For every row that depends on rows before it a minimal set of those; told where it is asked for.
+Supports = Callable[[], Mapping[int, Sequence[int]]]
+
+#: Rows between two looks at the clock.
+LOOK = 64
+
+
+def sparse(rows: Iterable[Sequence[Any]]) -> list[SparseRow]:
+    """Dense rows without their zeros."""
+    return [{c: int(v) for c, v in enumerate(row) if v != 0} for row in rows]
+
+
+def transposed(rows: Sequence[Mapping[int, int]], columns: int) -> list[SparseRow]:
+    """The columns as rows."""
+    found: list[SparseRow] = [{} for _ in range(columns)]
+    for i, row in enumerate(rows):
+        for c, v in row.items():
+            found[c][i] = v
+    return found
+
+
+@dataclass(frozen=True)
+class Echelon:
+    """``independent``: the first independent rows in order; ``supports``: for every other row those it is a sum of.
+
+    ``supports`` is empty where it was not asked for.
+    """
+
+    independent: tuple[int, ...]
+    supports: dict[int, tuple[int, ...]]
+
+    @property
+    def rank(self) -> int:
+        return len(self.independent)
+
+
+def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -> Echelon:
+    """The greedy basis of the rows over GF(p)."""
+    weight = Counter(c for row in rows for c in row)
+    alone = _private(rows)
+    found = _Reduction(p, weight)
+    independent = []
+    dependent: dict[int, tuple[int, ...]] = {}
+    for i, row in enumerate(rows):
+        if i % LOOK == 0:
+            check()
+        if i in alone:
+            independent.append(i)
+            continue
+        rest, used = found.reduced(row)
+        if rest:
+            found.add(i, rest, used)
+            independent.append(i)
+        elif supports:
+            dependent[i] = tuple(sorted(found.support(used)))
+    return Echelon(tuple(independent), dependent)
+
+
+def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
+    """A basis of the sums of rows that are 0, row -> factor each: for every dependent row it and those before it.
+
+    >>> vanishing([{0: 1}, {0: 1, 1: 1}, {1: 2}], 7)
+    [{2: 1, 1: 5, 0: 2}]
+    """
+    alone = _private(rows)
+    reduction = _Reduction(p, Counter(c for row in rows for c in row))
+    found = []
+    for i, row in enumerate(rows):
+        if i % LOOK == 0:
+            check()
+        if i in alone:
+            continue
+        rest, used = reduction.reduced(row)
+        if rest:
+            reduction.add(i, rest, used)
+        else:
+            found.append({i: 1} | {k: -v % p for k, v in reduction.support(used).items()})
+    return found
+
+
+def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
+    """The rank over GF(p)."""
+    return echelon(rows, p).rank
+
+
+def last_columns(rows: Sequence[Mapping[int, int]], columns: int, p: int) -> tuple[int, ...]:
+    """Columns to solve the rows for: a basis of the column space, the last ones where there is a choice."""
+    turned = transposed(rows, columns)[::-1]
+    return tuple(sorted(columns - 1 - k for k in echelon(turned, p).independent))
+
+
+def _private(rows: Sequence[Mapping[int, int]]) -> set[int]:
+    """Rows that can be taken away one after another, each with a column that no row left has: independent of the rest.
+
+    A tree or a chain goes entirely; what stays is the core, where every column occurs twice.
+    """
+    having: dict[int, set[int]] = {}
+    for i, row in enumerate(rows):
+        for c in row:
+            having.setdefault(c, set()).add(i)
+    single = [c for c, owners in having.items() if len(owners) == 1]
+    gone: set[int] = set()
+    while single:
+        left = having[single.pop()]
+        if not left:
+            continue
+        number = next(iter(left))
+        gone.add(number)
+        for c in rows[number]:
+            having[c].discard(number)
+            if len(having[c]) == 1:
+                single.append(c)
+    return gone
+
+
+class _Reduction:
+    """Pivot rows with a 1 in their pivot column, each free of the pivots before it."""
+
+    def __init__(self, p: int, weight: Mapping[int, int]) -> None:
+        self.p, self._weight = p, weight
+        self._rows: list[list[tuple[int, int]]] = []
+        self._sources: list[tuple[int, int, SparseRow]] = []
+        self._of: dict[int, int] = {}
+
+    def reduced(self, row: Mapping[int, int]) -> tuple[SparseRow, SparseRow]:
+        """What is left of a row, and the multiples of pivot rows that were taken from it."""
+        p, of, work, used = self.p, self._of, dict(row), SparseRow()
+        pending = [of[c] for c in work if c in of]
+        heapify(pending)
+        seen = set(pending)
+        while pending:
+            number = heappop(pending)
+            pivot = self._rows[number]
+            factor = work.get(pivot[0][0])
+            if not factor:
+                continue
+            used[number] = factor
+            for c, v in pivot:
+                old = work.get(c)
+                if old is None:
+                    work[c] = -factor * v % p
+                    k = of.get(c)
+                    if k is not None and k not in seen:
+                        seen.add(k)
+                        heappush(pending, k)
+                else:
+                    new = (old - factor * v) % p
+                    if new:
+                        work[c] = new
+                    else:
+                        del work[c]
+        return work, used
+
+    def add(self, row: int, rest: SparseRow, used: SparseRow) -> None:
+        """A new pivot row: ``rest`` is the row less ``used`` multiples of earlier ones, then scaled."""
+        column = min(rest, key=lambda c: (self._weight[c], c))
+        inverse = pow(rest[column], -1, self.p)
+        self._of[column] = len(self._rows)
+        self._rows.append([(column, 1), *((c, v * inverse % self.p) for c, v in rest.items() if c != column)])
+        self._sources.append((row, inverse, used))
+
+    def solved(self, right: Sequence[int]) -> list[int]:
+        """The solution of as many equations as there are columns, all of them pivots, with this right side."""
+        p, reduced = self.p, list[int]()
+        for row, inverse, used in self._sources:
+            taken = sum(factor * reduced[k] for k, factor in used.items())
+            reduced.append((right[row] - taken) * inverse % p)
+        found = [0] * len(reduced)
+        for number in reversed(range(len(reduced))):
+            (column, _), *others = self._rows[number]
+            found[column] = (reduced[number] - sum(v * found[c] for c, v in others)) % p
+        return found
+
+    def support(self, used: Mapping[int, int]) -> SparseRow:
+        """A sum of pivot rows as one of rows, row -> factor: each is its row less earlier ones, unfolded backwards."""
+        left, found = dict(used), SparseRow()
+        pending = [-k for k in left]
+        heapify(pending)
+        while pending:
+            number = -heappop(pending)
+            row, inverse, earlier = self._sources[number]
+            factor = left.pop(number) * inverse % self.p
+            if not factor:
+                continue
+            found[row] = factor
+            for k, v in earlier.items():
+                if k not in left:
+                    left[k] = 0
+                    heappush(pending, -k)
+                left[k] = (left[k] - factor * v) % self.p
+        return found
+
+
+class Solved:
+    """A square matrix over GF(p) without its zeros, factored once to be solved often; rows are equations.
+
+    Raises ZeroDivisionError where it is singular.
+    """
+
+    def __init__(self, rows: Sequence[Mapping[int, int]], p: int) -> None:
+        self.p = p
+        self._found = _Reduction(p, Counter(c for row in rows for c in row))
+        for i, row in enumerate(rows):
+            if i % LOOK == 0:
+                check()
+            rest, used = self._found.reduced(row)
+            if not rest:
+                raise ZeroDivisionError("the matrix is singular")
+            self._found.add(i, rest, used)
+
+    def solve(self, right: Sequence[int]) -> list[int]:
+        """The x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
+        return self._found.solved(right)

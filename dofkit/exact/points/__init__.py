@@ -1,0 +1,1 @@
+"""Points over GF(p), the rationals, balls and series, at which programs run."""

@@ -1,0 +1,222 @@
+"""Random points over GF(p): zero here is zero of the function, with error at most degree/p a point.
+
+Primes have 61 bits and are drawn at random (a fixed prime is a trap: x^(p-1) - 1), with p = 1 modulo the
+orders of the roots of unity that the scene mentions. sin and cos of a basic angle are a random point of
+the unit circle; exp, log, inverse and unknown functions are independent; roots are roots modulo p.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from fractions import Fraction
+from functools import cache
+from math import gcd, lcm
+
+from flint import fmpz, nmod, nmod_poly
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.exact.ring.program import value_of
+from dofkit.exact.ring.ring import Ring, Scalar, Var
+from dofkit.expressions import tree as ex
+
+PRIME_BITS = 61
+#: Tries for a prime modulo which every root of a number exists.
+PRIME_TRIES = 4000
+#: Primes that are tried where roots of roots must exist: each does modulo every other prime or so.
+NESTED_TRIES = 12
+
+
+_bits: ContextVar[int] = ContextVar("prime_bits", default=PRIME_BITS)
+
+
+@contextmanager
+def primes_of(bits: int) -> Iterator[None]:
+    """Draw primes of so many bits within: how often small ones err can be measured so. Below 5 there is none."""
+    token = _bits.set(bits)
+    try:
+        yield
+    finally:
+        _bits.reset(token)
+
+
+class NoPointError(Exception):
+    """No point was found at this draw (a radicand is no square, a division by zero)."""
+
+
+def circle_order(rings: Iterable[Ring]) -> int:
+    """The common denominator D of all angles pi/D."""
+    keys = (var.key for ring in rings for var in ring.vars if var.kind in ("cos", "sin"))
+    return lcm(1, *(denominator for rest, denominator in keys if rest == ex.PI))
+
+
+def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
+    """(integer, degree) of every root of a number."""
+    found = set()
+    for ring in rings:
+        for var in ring.vars:
+            if var.kind == "root" and isinstance(var.key[0], ex.Expr):
+                found.add((int(var.key[0].args[0]), var.degree))
+    return tuple(sorted(found))
+
+
+def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int) -> int:
+    """A random prime p = 1 modulo 8 and the order, modulo which the given roots of numbers exist."""
+    return _prime(order, roots, seed, _bits.get())
+
+
+@cache
+def _prime(order: int, roots: tuple[tuple[int, int], ...], seed: int, bits: int) -> int:
+    rng = random.Random(f"dofkit prime {order} {roots} {seed}")
+    step = lcm(8, 2 * order)
+    for _ in range(PRIME_TRIES):
+        p = step * (rng.getrandbits(bits) // step) + 1
+        if p.bit_length() < bits - 1 or not fmpz(p).is_probable_prime():
+            continue
+        if all(_has_root(value, degree, p) for value, degree in roots):
+            return p
+    raise NoPointError("no prime has all the roots of numbers that occur")
+
+
+def _has_root(value: int, degree: int, p: int) -> bool:
+    return pow(value, (p - 1) // gcd(degree, p - 1), p) == 1
+
+
+class FieldPoint:
+    """Values in GF(p) for every generator; those not ``given`` are drawn at random and kept."""
+
+    def __init__(self, p: int, rng: random.Random, order: int = 1) -> None:
+        self.p = p
+        self.rng = rng
+        self.order = order
+        self.given: dict[tuple[str, object], Scalar] = {}
+        self._zeta: Scalar = None
+        self._imaginary: Scalar = None
+
+    def set(self, var: Var, value: Scalar) -> None:
+        """Give a generator its value."""
+        self.given[var.kind, var.key] = value
+
+    def copy(self) -> FieldPoint:
+        """A point with the same values so far; what is drawn later differs."""
+        other = FieldPoint(self.p, self.rng, self.order)
+        other.given = dict(self.given)
+        other._zeta, other._imaginary = self._zeta, self._imaginary
+        return other
+
+    def number(self, value: Fraction) -> Scalar:
+        if value.denominator == 1:
+            return nmod(value.numerator, self.p)
+        return nmod(value.numerator, self.p) / nmod(value.denominator, self.p)
+
+    def random(self) -> Scalar:
+        return nmod(self.rng.randrange(2, self.p - 1), self.p)
+
+    def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
+        found = self.given.get((var.kind, var.key))
+        if found is None:
+            found = self.given[var.kind, var.key] = self._draw(var, args)
+        return found
+
+    def _draw(self, var: Var, args: Sequence[Scalar]) -> Scalar:
+        if var.kind in ("cos", "sin"):
+            self._draw_angle(var, args)
+            return self.given[var.kind, var.key]
+        if var.kind == "root":
+            return self._root(var, args[0])
+        if var.kind == "sign":
+            return nmod(self.rng.choice((1, self.p - 1)), self.p)
+        if args and var.kind != "call" and args[0] == (1 if var.kind == "log" else 0):
+            return nmod(1 if var.kind == "exp" else 0, self.p)
+        return self.random()
+
+    def _draw_angle(self, var: Var, args: Sequence[Scalar]) -> None:
+        rest, denominator = var.key
+        if rest == ex.PI:
+            cos, sin = self._root_of_unity(denominator)
+        elif args[0] == 0:
+            cos, sin = nmod(1, self.p), nmod(0, self.p)
+        else:
+            w = self.random()
+            below = 1 + w * w
+            cos, sin = (1 - w * w) / below, 2 * w / below
+        self.given["cos", var.key] = cos
+        self.given["sin", var.key] = sin
+
+    def _setup_unity(self) -> None:
+        if self._zeta is None:
+            n = lcm(4, 2 * self.order)
+            factors = [int(q) for q, _ in fmpz(n).factor()]
+            while True:
+                zeta = self.random() ** ((self.p - 1) // n)
+                if all(zeta ** (n // q) != 1 for q in factors):
+                    break
+            self._zeta = zeta ** (n // (2 * self.order))
+            self._imaginary = zeta ** (n // 4)
+
+    def _root_of_unity(self, denominator: int) -> tuple[Scalar, Scalar]:
+        """cos and sin of pi/denominator, through one primitive root of unity for all."""
+        self._setup_unity()
+        zeta = self._zeta ** (self.order // denominator)
+        inverse = 1 / zeta
+        return (zeta + inverse) / 2, (zeta - inverse) / (2 * self._imaginary)
+
+    def _root(self, var: Var, value: Scalar) -> Scalar:
+        if isinstance(var.key[0], ex.Expr) and var.degree == 2:
+            cyclotomic = self._root_in_circle(int(var.key[0].args[0]))
+            if cyclotomic is not None:
+                return cyclotomic
+        if var.degree == 2:
+            try:
+                root = value.sqrt()
+            except DomainError as error:
+                raise NoPointError("no square root") from error
+            return root if self.rng.random() < 0.5 else -root
+        roots = nmod_poly([-value, *([0] * (var.degree - 1)), 1], self.p).roots()
+        if not roots:
+            raise NoPointError("no root")
+        return self.rng.choice(roots)[0]
+
+    def _root_in_circle(self, prime: int) -> Scalar | None:
+        """sqrt(prime) through the roots of unity, where those contain it (Gauss's quadratic sum)."""
+        if prime == 2 and self.order % 4 == 0:
+            self._setup_unity()
+            eighth = self._zeta ** (self.order // 4)
+            return eighth + 1 / eighth
+        if prime < 3 or self.order % prime:
+            return None
+        self._setup_unity()
+        zeta = self._zeta ** (2 * self.order // prime)
+        total = nmod(0, self.p)
+        for a in range(1, prime):
+            total += zeta**a if pow(a, (prime - 1) // 2, prime) == 1 else -(zeta**a)
+        return total if prime % 4 == 1 else total / self._imaginary
+
+
+def field_point(rings: Sequence[Ring], seed: int, given: Mapping[Var, Scalar] | None = None) -> FieldPoint:
+    """A fresh random point for programs that share their symbols, modulo a prime where roots of roots exist."""
+    order, roots = circle_order(rings), number_roots(rings)
+    nested = [(ring, var) for ring in rings for var in ring.vars if _nested(ring, var)]
+    for attempt in range(NESTED_TRIES if nested else 1):
+        p = prime_for(order, roots, seed % 3 + 3 * attempt)
+        point = FieldPoint(p, random.Random(f"dofkit point {seed}"), order)
+        for var, value in (given or {}).items():
+            point.set(var, value)
+        if all(_exists(ring, var, point) for ring, var in nested):
+            break
+    return point
+
+
+def _nested(ring: Ring, var: Var) -> bool:
+    """A root of a number that is no integer itself."""
+    return var.kind == "root" and not isinstance(var.key[0], ex.Expr) and not ring.var_expr[var.index].symbols
+
+
+def _exists(ring: Ring, var: Var, point: FieldPoint) -> bool:
+    try:
+        value_of(ring, point, ring.var_node[var.index])
+    except (NoPointError, ZeroDivisionError):
+        return False
+    return True

@@ -1,0 +1,178 @@
+"""Codistributions at a point: rows of one-forms, a frame to solve them in, ranks and kernels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from flint import arb, arb_mat, nmod, nmod_mat
+
+from dofkit.base.deadline import check
+from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
+from dofkit.exact.points.series import Series
+from dofkit.exact.ring.ring import Ring, Scalar
+
+
+@dataclass(frozen=True)
+class Rows:
+    """One-forms over a ring: ``entries[a]`` maps a column to the node of its coefficient.
+
+    ``columns`` are the generator indices of the symbols (coordinates, then time where it enters); a column whose
+    symbol occurs in no coefficient has index -1.
+    """
+
+    ring: Ring
+    entries: tuple[dict[int, int], ...]
+    columns: tuple[int, ...]
+
+    def matrix(self, at: Sequence[Scalar], zero: Scalar) -> list[list[Scalar]]:
+        """The coefficients at a point, rows x columns."""
+        n = len(self.columns)
+        return [[at[row[c]] if c in row else zero for c in range(n)] for row in self.entries]
+
+
+def zero_of(sample: Scalar) -> Scalar:
+    """0 in the numbers of ``sample``."""
+    return sample * 0
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A choice of independent rows and of dependent columns, regular at a point."""
+
+    rows: tuple[int, ...]
+    dependent: tuple[int, ...]
+    free: tuple[int, ...]
+
+
+def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Frame:
+    """The first independent rows in order, and columns solved for (the last ones where there is a choice)."""
+    if not matrix or not n:
+        return Frame((), (), tuple(range(n)))
+    rows = pivots(nmod_mat([[int(v) for v in column] for column in zip(*matrix, strict=True)], p))
+    chosen = [[int(v) for v in reversed(matrix[r])] for r in rows]
+    dependent = sorted(n - 1 - c for c in pivots(nmod_mat(chosen, p))) if chosen else []
+    return Frame(tuple(rows), tuple(dependent), tuple(c for c in range(n) if c not in set(dependent)))
+
+
+def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Frame:
+    """The same for rows without their zeros."""
+    kept = echelon(rows, p).independent
+    dependent = last_columns([rows[i] for i in kept], n, p)
+    solved = set(dependent)
+    return Frame(kept, dependent, tuple(c for c in range(n) if c not in solved))
+
+
+def pivots(matrix: nmod_mat) -> list[int]:
+    """The pivot columns of a matrix over GF(p)."""
+    reduced, rank = matrix.rref()
+    found, column = [], 0
+    for r in range(rank):
+        while not reduced[r, column]:
+            column += 1
+        found.append(column)
+        column += 1
+    return found
+
+
+def field_rank(rows: Sequence[Sequence[Any]], p: int) -> int:
+    """The rank of a matrix over GF(p)."""
+    if not rows or not rows[0]:
+        return 0
+    return int(nmod_mat([[int(v) for v in row] for row in rows], p).rank())
+
+
+def certified_rank(rows: Sequence[Sequence[arb]]) -> int:
+    """A lower bound of a ball matrix's rank that is proved: elimination with pivots whose balls exclude 0."""
+    work = [list(row) for row in rows]
+    rank, n = 0, len(work[0]) if work else 0
+    used: set[int] = set()
+    for c in range(n):
+        best, size = -1, arb(0)
+        for r, row in enumerate(work):
+            if r not in used and not row[c].contains(0):
+                low = row[c].abs_lower()
+                if best < 0 or low > size:
+                    best, size = r, low
+        if best < 0:
+            continue
+        used.add(best)
+        rank += 1
+        pivot = work[best]
+        for r, row in enumerate(work):
+            if r not in used:
+                factor = row[c] / pivot[c]
+                work[r] = [a - factor * b for a, b in zip(row, pivot, strict=True)]
+                work[r][c] = arb(0)
+    return rank
+
+
+def kernel(matrix: list[list[Scalar]], frame: Frame, zero: Scalar) -> list[list[Scalar]]:
+    """Vectors that span the kernel of the frame's rows: one for each free column."""
+    n, r = len(frame.dependent) + len(frame.free), len(frame.rows)
+    solved = solve([[matrix[a][c] for c in frame.dependent] for a in frame.rows],
+                   [[-matrix[a][c] for c in frame.free] for a in frame.rows])  # fmt: skip
+    found = []
+    for j, f in enumerate(frame.free):
+        vector = [zero] * n
+        vector[f] = zero + 1
+        for i in range(r):
+            vector[frame.dependent[i]] = solved[i][j]
+        found.append(vector)
+    return found
+
+
+def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
+    """a^-1 b for scalars or series, by elimination with invertible pivots; raises ZeroDivisionError."""
+    n = len(a)
+    if n and isinstance(a[0][0], nmod) and b[0]:
+        p = a[0][0].modulus()
+        left, right = (nmod_mat([[int(v) for v in row] for row in side], p) for side in (a, b))
+        found = left.solve(right)
+        return [[found[i, j] for j in range(len(b[0]))] for i in range(n)]
+    if n and isinstance(a[0][0], arb) and b[0]:
+        balls = arb_mat(a).solve(arb_mat(b))
+        return [[balls[i, j] for j in range(len(b[0]))] for i in range(n)]
+    return _eliminate([list(row) + list(right) for row, right in zip(a, b, strict=True)], n)
+
+
+def _eliminate(work: list[list[Any]], n: int) -> list[list[Any]]:
+    for c in range(n):
+        check()
+        pivot = next((r for r in range(c, n) if _invertible(work[r][c])), None)
+        if pivot is None:
+            raise ZeroDivisionError("no pivot")
+        work[c], work[pivot] = work[pivot], work[c]
+        inverse = 1 / work[c][c]
+        work[c] = [*work[c][: c + 1], *(v * inverse for v in work[c][c + 1 :])]
+        for r in range(n):
+            if r != c:
+                factor = work[r][c]
+                if not (isinstance(factor, Series) and factor.poly.degree() < 0):
+                    work[r][c + 1 :] = [v - factor * w for v, w in zip(work[r][c + 1 :], work[c][c + 1 :], strict=True)]
+    return [row[n:] for row in work]
+
+
+def _invertible(value: Any) -> bool:
+    return value.invertible if isinstance(value, Series) else bool(value != 0)
+
+
+def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
+    """The rank over GF(p), or a certified lower bound with balls, by the kind of ``sample``."""
+    if not vectors:
+        return 0
+    if isinstance(sample, nmod):
+        return field_rank(vectors, sample.modulus())
+    return certified_rank(vectors)
+
+
+def pairing(row: Sequence[Scalar], vectors: Sequence[Sequence[Scalar]]) -> list[Scalar]:
+    """The values of a form on vectors."""
+    found = []
+    for vector in vectors:
+        total = row[0] * vector[0] if row else 0
+        for a, v in zip(row[1:], vector[1:], strict=True):
+            total = total + a * v
+        found.append(total)
+    return found

@@ -1,0 +1,234 @@
+"""Truncated power series in one variable, over GF(p) and over balls, and programs run on them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import factorial
+from typing import Any
+
+from flint import arb, arb_poly, nmod, nmod_poly
+
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Point, Ring, Scalar, Var
+
+#: An unknown function's composition uses this many of its derivatives by several arguments at most.
+MAX_JET = 400
+
+
+class Series:
+    """A power series modulo s^order; ``poly`` is an nmod_poly or an arb_poly."""
+
+    __slots__ = ("order", "poly")
+
+    def __init__(self, poly: Any, order: int) -> None:
+        self.poly = poly
+        self.order = order
+
+    def __add__(self, other: Any) -> Series:
+        return Series(self.poly + (other.poly if isinstance(other, Series) else other), self.order)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Series:
+        return Series(self.poly - (other.poly if isinstance(other, Series) else other), self.order)
+
+    def __rsub__(self, other: Any) -> Series:
+        return Series(other - self.poly, self.order)
+
+    def __neg__(self) -> Series:
+        return Series(-self.poly, self.order)
+
+    def __mul__(self, other: Any) -> Series:
+        if isinstance(other, Series):
+            return Series(_mul_low(self.poly, other.poly, self.order), self.order)
+        return Series(self.poly * other, self.order)
+
+    __rmul__ = __mul__
+
+    def __pow__(self, n: int) -> Series:
+        total = self
+        for _ in range(n - 1):
+            total = total * self
+        return total
+
+    def inverse(self) -> Series:
+        """1/self; raises ZeroDivisionError where the constant term is 0."""
+        if not self.invertible:
+            raise ZeroDivisionError("a series without constant term has no inverse")
+        if isinstance(self.poly, nmod_poly):
+            return Series(self.poly.inverse_series_trunc(self.order), self.order)
+        first = 1 / self.poly[0]
+        found = [first]
+        for k in range(1, self.order):
+            found.append(-first * sum((self.poly[j] * found[k - j] for j in range(1, k + 1)), arb(0)))
+        return Series(arb_poly(found), self.order)
+
+    def __truediv__(self, other: Any) -> Series:
+        if isinstance(other, Series):
+            return Series(_mul_low(self.poly, other.inverse().poly, self.order), self.order)
+        return Series(self.poly * (1 / other), self.order)
+
+    def __rtruediv__(self, other: Any) -> Series:
+        return Series(self.inverse().poly * other, self.order)
+
+    @property
+    def invertible(self) -> bool:
+        """True where the constant term is certainly not 0."""
+        head = self.poly[0]
+        return not head.contains(0) if isinstance(head, arb) else head != 0
+
+    def coefficient(self, k: int) -> Scalar:
+        return self.poly[k]
+
+    def truncated(self, order: int) -> Series:
+        """Modulo s^order."""
+        return Series(_truncate(self.poly, order), order)
+
+    def derivative(self) -> Series:
+        return Series(self.poly.derivative(), self.order)
+
+    def integral(self, constant: Scalar) -> Series:
+        """The antiderivative with the given constant term, to the same order."""
+        poly = self.poly.integral()
+        return Series(_truncate(poly, self.order) + constant, self.order)
+
+
+def _mul_low(a: Any, b: Any, order: int) -> Any:
+    return a.mul_low(b, order) if isinstance(a, nmod_poly) else _truncate(a * b, order)
+
+
+def _truncate(poly: Any, order: int) -> Any:
+    if isinstance(poly, nmod_poly):
+        return poly.truncate(order) if poly.length() > order else poly
+    coefficients = poly.coeffs()
+    return poly if len(coefficients) <= order else arb_poly(coefficients[:order])
+
+
+class SeriesPoint:
+    """Symbols given as series; every other generator follows its differential equation.
+
+    ``base`` supplies the values at s = 0 and must have been run there once.
+    """
+
+    def __init__(self, base: Any, symbols: Mapping[int, Series], order: int, like: Any) -> None:
+        self.base = base
+        self.symbols = symbols
+        self.order = order
+        self.like = like
+        self._circles: dict[tuple[str, object], Series] = {}
+
+    def constant(self, value: Scalar) -> Series:
+        return Series(self.like * 0 + value, self.order)
+
+    def number(self, value: Fraction) -> Series:
+        return self.constant(self.base.number(value))
+
+    def generator(self, var: Var, args: Sequence[Series]) -> Series:
+        if var.kind == "symbol":
+            found = self.symbols.get(var.index)
+            return self.constant(self.base.generator(var, ())) if found is None else found
+        head = self.base.generator(var, [a.coefficient(0) for a in args])
+        if var.kind in ("pi", "sign"):
+            return self.constant(head)
+        if all(a.poly.degree() < 1 for a in args):
+            return self.constant(head)
+        return self._transcendental(var, args, head)
+
+    def _transcendental(self, var: Var, args: Sequence[Series], head: Scalar) -> Series:
+        u = args[0]
+        if var.kind == "exp":
+            return self._recurrence(u, head)
+        if var.kind in ("cos", "sin"):
+            return self._circle(var, u, head)
+        if var.kind == "log":
+            return (u.derivative() / u).integral(head)
+        if var.kind == "root":
+            return self._root(u, head, var.degree)
+        if var.kind == "atan":
+            return (u.derivative() / (u * u + 1)).integral(head)
+        if var.kind == "asin":
+            return (u.derivative() / args[1]).integral(head)
+        if var.kind == "atan2":
+            x = args[1]
+            return ((x * u.derivative() - u * x.derivative()) / (x * x + u * u)).integral(head)
+        return self._call(var, args)
+
+    def _recurrence(self, u: Series, head: Scalar) -> Series:
+        """e' = u' e."""
+        slope, found = u.derivative().poly, [head]
+        for k in range(1, self.order):
+            total = sum((slope[j] * found[k - 1 - j] for j in range(k)), head * 0)
+            found.append(total / k)
+        return self._series(found)
+
+    def _circle(self, var: Var, u: Series, head: Scalar) -> Series:
+        """c' = -u' s and s' = u' c; both are found at once."""
+        known = self._circles.get((var.kind, var.key))
+        if known is not None:
+            return known
+        kind = "sin" if var.kind == "cos" else "cos"
+        partner = self.base.generator(Var(var.partner, kind, var.key, var.args, var.index), [u.coefficient(0)])
+        slope, own, other = u.derivative().poly.coeffs(), [head], [partner]
+        sign = -1 if var.kind == "cos" else 1
+        for k in range(1, self.order):
+            a = b = head * 0
+            for j in range(min(k, len(slope))):
+                a = a + slope[j] * other[k - 1 - j]
+                b = b + slope[j] * own[k - 1 - j]
+            own.append(a * sign / k)
+            other.append(-b * sign / k)
+        self._circles[kind, var.key] = self._series(other)
+        return self._series(own)
+
+    def _root(self, u: Series, head: Scalar, degree: int) -> Series:
+        """r' u degree = u' r, solved coefficient by coefficient."""
+        found, first = [head], u.coefficient(0)
+        for k in range(1, self.order):
+            total = head * 0
+            for j in range(1, k + 1):
+                total = total + u.coefficient(j) * found[k - j] * (j - degree * (k - j))
+            found.append(total / (first * (degree * k)))
+        return self._series(found)
+
+    def _call(self, var: Var, args: Sequence[Series]) -> Series:
+        """Taylor's formula with the base's values of the derivatives."""
+        name, orders, key = var.key
+        heads = [a.coefficient(0) for a in args]
+        moved = [a - h for a, h in zip(args, heads, strict=True)]
+        total = self.constant(heads[0] * 0)
+        for extra in _multi_indices(len(args), self.order - 1):
+            raised = tuple(o + e for o, e in zip(orders, extra, strict=True))
+            term = self.constant(self.base.generator(Var(-1, "call", (name, raised, key), var.args), heads))
+            for power, m in zip(extra, moved, strict=True):
+                if power:
+                    term = term * (m**power) * self.base.number(Fraction(1, factorial(power)))
+            total = total + term
+        return total
+
+    def _series(self, coefficients: list[Scalar]) -> Series:
+        if isinstance(self.like, nmod_poly):
+            return Series(nmod_poly([int(c) for c in coefficients], self.like.modulus()), self.order)
+        return Series(arb_poly(coefficients), self.order)
+
+
+def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
+    if n == 1:
+        return [(k,) for k in range(total + 1)]
+    found = [(k, *rest) for k in range(total + 1) for rest in _multi_indices(n - 1, total - k)]
+    return found[:MAX_JET]
+
+
+def series_values(ring: Ring, point: SeriesPoint) -> list[Series]:
+    """Every instruction of the program as a series."""
+    return values(ring, point)
+
+
+def zero_poly(base: Point, sample: Scalar) -> Any:
+    """The zero polynomial over the numbers that ``sample`` belongs to."""
+    return nmod_poly([0], sample.modulus()) if isinstance(sample, nmod) else arb_poly([])
+
+
+def monomial(like: Any) -> Any:
+    """The polynomial s, of the kind of ``like``."""
+    return nmod_poly([0, 1], like.modulus()) if isinstance(like, nmod_poly) else arb_poly([0, 1])

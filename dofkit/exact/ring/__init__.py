@@ -1,0 +1,1 @@
+"""The canonical ring: expressions over independent generators, and programs that evaluate them."""

@@ -1,0 +1,193 @@
+"""The canonical ring: a program's values as quotients of polynomials in its generators.
+
+Modulo cos^2 + sin^2 = 1, root^d = radicand and sign^2 = 1; a polynomial that reduces to 0 here is 0
+identically, which is a proof. Everything is bounded: past `MAX_TERMS` terms the answer is `TooLargeError`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from flint import Ordering, fmpq, fmpq_mpoly_ctx
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.base.deadline import check
+from dofkit.exact.ring.program import reachable
+from dofkit.exact.ring.ring import ADD, MUL, NUM, POW, Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+
+MAX_TERMS = 3000
+MAX_POWER = 80
+#: Polynomials are factored up to this many terms times degrees.
+FACTORED = 4000
+#: And up to this product of the two highest degrees: x^30 + y^24 - x^15 y^12 = 1 takes minutes.
+FACTORED_DEGREES = 400
+
+Poly = Any
+Quotient = tuple[Poly, Poly]
+
+
+class TooLargeError(Exception):
+    """The canonical form grew past its bound, or needs a root of a quotient."""
+
+
+class Canon:
+    """Canonical forms of the nodes of one ring."""
+
+    def __init__(self, ring: Ring) -> None:
+        self.ring = ring
+        names = [f"v{i}" for i in reversed(range(len(ring.vars)))]
+        self.ctx = fmpq_mpoly_ctx.get(tuple(names) or ("v",), Ordering.lex)
+        gens = self.ctx.gens()
+        self.gens: list[Poly] = list(reversed(gens)) if names else []
+        self.one = self.ctx.constant(1)
+        self._memo: dict[int, Quotient] = {}
+        self._relations: list[Poly] | None = None
+
+    def quotient(self, node: int) -> Quotient:
+        """(numerator, denominator) of a node, both reduced."""
+        for i in reversed(reachable(self.ring, [node], through_generators=False)):
+            if i not in self._memo:
+                self._memo[i] = self._compute(i)
+        return self._memo[node]
+
+    def _compute(self, node: int) -> Quotient:
+        op, payload = self.ring.code[node]
+        if op == NUM:
+            return self.ctx.constant(fmpq(payload.numerator, payload.denominator)), self.one
+        if op == ADD:
+            total = self._memo[payload[0]]
+            for i in payload[1:]:
+                total = self._sum(total, self._memo[i])
+            return total
+        if op == MUL:
+            total = self._memo[payload[0]]
+            for i in payload[1:]:
+                other = self._memo[i]
+                total = (self._times(total[0], other[0]), self._times(total[1], other[1]))
+            return total
+        if op == POW:
+            return self._power(*payload)
+        return self.gens[payload], self.one
+
+    def _sum(self, a: Quotient, b: Quotient) -> Quotient:
+        if a[1] == b[1]:
+            return a[0] + b[0], a[1]
+        return self._times(a[0], b[1]) + self._times(b[0], a[1]), self._times(a[1], b[1])
+
+    def _times(self, a: Poly, b: Poly) -> Poly:
+        if len(a) * len(b) > 4 * MAX_TERMS:
+            raise TooLargeError
+        return self.reduce(a * b)
+
+    def _power(self, base: int, exponent: int) -> Quotient:
+        top, bottom = self._memo[base]
+        if exponent < 0:
+            if top == 0:
+                raise ZeroDivisionError("division by zero")
+            top, bottom, exponent = bottom, top, -exponent
+        if exponent > MAX_POWER:
+            raise TooLargeError
+        power = (self.one, self.one)
+        for _ in range(exponent):
+            power = (self._times(power[0], top), self._times(power[1], bottom))
+        return power
+
+    def reduce(self, poly: Poly) -> Poly:
+        """Modulo the generators' algebraic relations."""
+        check()
+        for place, degree, relation in self._divisors:
+            if len(poly) > MAX_TERMS:
+                raise TooLargeError
+            if poly.degrees()[place] >= degree:
+                _, poly = divmod(poly, relation)
+        return poly
+
+    @cached_property
+    def _divisors(self) -> list[tuple[int, int, Poly]]:
+        """The relations with their leading generators' places and degrees."""
+        found = []
+        for relation in self.relations:
+            leading = relation.monomial(0)
+            place = next(i for i, k in enumerate(leading) if k)
+            found.append((place, int(leading[place]), relation))
+        return found
+
+    @property
+    def relations(self) -> list[Poly]:
+        """cos^2 + sin^2 - 1, root^d - radicand, sign^2 - 1; later generators first."""
+        if self._relations is None:
+            self._relations = []
+            found = []
+            for var in reversed(self.ring.vars):
+                g = self.gens[var.index]
+                if var.kind == "sin":
+                    found.append(g**2 + self.gens[var.partner] ** 2 - 1)
+                elif var.kind == "sign":
+                    found.append(g**2 - 1)
+                elif var.kind == "root":
+                    top, bottom = self.quotient(var.args[0])
+                    if not bottom.is_constant():
+                        continue
+                    found.append(g**var.degree - top / bottom.leading_coefficient())
+            self._relations = found
+        return self._relations
+
+    def is_zero(self, node: int) -> bool:
+        """True where the node is identically zero, proved; False where the canonical form is not 0."""
+        return bool(self.quotient(node)[0] == 0)
+
+    def to_expr(self, poly: Poly) -> Expr:
+        """A polynomial in the generators as an expression."""
+        shown = [self.ring.var_expr[var.index] for var in reversed(self.ring.vars)]
+        terms = []
+        for exponents, coefficient in poly.to_dict().items():
+            factors = [ex.power(shown[i], ex.num(int(k))) for i, k in enumerate(exponents) if k]
+            number = Fraction(int(coefficient.p), int(coefficient.q))
+            terms.append(ex.mul(ex.num(number), *factors))
+        return ex.add(*terms) if terms else ex.ZERO
+
+    def factors(self, poly: Poly) -> list[tuple[Poly, int]]:
+        """Irreducible factors over the rationals, with multiplicities; constants left out.
+
+        Raises TooLargeError past `FACTORED` terms times degrees, or `FACTORED_DEGREES`.
+        """
+        if len(poly) * max(1, int(poly.total_degree())) > FACTORED or not soon_factored(poly):
+            raise TooLargeError
+        return [(f, int(k)) for f, k in poly.factor()[1] if not f.is_constant()]
+
+    def generators_in(self, poly: Poly) -> list[int]:
+        """The indices of the generators that occur."""
+        n = len(self.ring.vars)
+        return [n - 1 - i for i, k in enumerate(poly.degrees()) if k] if n else []
+
+
+def soon_factored(poly: Poly) -> bool:
+    """Are the degrees low enough for flint's factorisation, which hears no deadline?"""
+    *_, second, first = 0, 0, *sorted(int(k) for k in poly.degrees())
+    return first * second <= FACTORED_DEGREES
+
+
+def canonical(ring: Ring) -> Canon:
+    """The canonical forms of a finished ring (later generators do not enter)."""
+    return Canon(ring)
+
+
+def is_identically_zero(expression: Expr, positive: frozenset[Expr] = frozenset()) -> bool | None:
+    """True: proved zero. False: not zero in the ring. None: too large to say."""
+    ring = Ring([expression], positive)
+    try:
+        node = ring.node(expression)
+        return Canon(ring).is_zero(node)
+    except (TooLargeError, DomainError):
+        return None
+
+
+def substitute_all(expressions: Mapping[str, Expr], mapping: Mapping[Expr, Expr]) -> dict[str, Expr]:
+    """A substitution in every value of a mapping, zeros left out."""
+    replaced = {name: ex.substitute(e, mapping) for name, e in expressions.items()}
+    return {name: e for name, e in replaced.items() if not e.is_zero}

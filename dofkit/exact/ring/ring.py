@@ -1,0 +1,320 @@
+"""Expressions lowered to rational arithmetic over independent generators.
+
+A `Ring` turns expressions into one shared straight-line program. What is not rational arithmetic
+becomes a *generator* (`Var`): sin and cos of the angles that the arguments have in common, exp, log,
+roots, inverse functions, unknown functions, pi. Arguments are split over a rational basis first
+(``sin(theta + 2 phi)`` is a polynomial in the sines and cosines of theta and phi), so that most
+identities hold in the ring; then *zero in the ring implies zero of the function*. A relation among
+generators that is missed can only make a false non-zero, which the balls find out.
+
+The program runs over any numbers with ``+ - * /``: a `Point` supplies the generators' values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd
+from typing import Any, Protocol
+
+from dofkit.exact.ring.angles import MAX_MULTIPLE, exact_turn, multiple, of_inverse, rotated, turn_of_twelfths
+from dofkit.exact.ring.inverses import inverse_function, log, over_primes, split_logs
+from dofkit.exact.ring.radicals import root, sign
+from dofkit.expressions import tree as ex
+from dofkit.expressions.terms import linear_terms, sorted_sum
+from dofkit.expressions.tree import Expr
+
+#: A value of whatever the program runs over: an element of GF(p), a ball, a float, a truncated series.
+Scalar = Any
+
+NUM, VAR, ADD, MUL, POW = range(5)
+
+
+@dataclass(frozen=True)
+class Var:
+    """A generator.
+
+    ``kind``: symbol, cos, sin, exp, log, root (``degree``-th), asin, atan, atan2, sign, call or pi;
+    ``key`` identifies it; ``args`` are the nodes of its arguments; ``partner`` is the cos of a sin and
+    the sin of a cos.
+    """
+
+    index: int
+    kind: str
+    key: Any
+    args: tuple[int, ...] = ()
+    partner: int = -1
+    degree: int = 1
+
+
+class Point(Protocol):
+    """Supplies the values of generators, each asked for once its arguments are known."""
+
+    def number(self, value: Fraction) -> Scalar: ...
+    def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar: ...
+
+
+def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
+    """For every basic angle or exponent, the common denominator of its multiples."""
+    denominators: dict[tuple[str, Expr], int] = {}
+    seen: set[Expr] = set()
+    for e in expressions:
+        for node in ex.nodes(e):
+            if node in seen or node.op not in ("fn", "pow"):
+                continue
+            seen.add(node)
+            family = _family(node)
+            if family:
+                argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
+                for rest, factor in linear_terms(over_primes(ex.substitute(argument, alias))).items():
+                    factor = exact_turn(factor)[1] if rest == ex.PI and family == "cis" else factor
+                    old = denominators.get((family, rest), 1)
+                    denominators[family, rest] = old * factor.denominator // gcd(old, factor.denominator)
+    return denominators
+
+
+def _has_functions(e: Expr) -> bool:
+    return e.op in ("fn", "pow", "call") or any(_has_functions(child) for child in ex.children(e))
+
+
+def _family(node: Expr) -> str | None:
+    if node.op == "pow":
+        return None if node.args[1].op == "num" else "exp"
+    if node.args[0] in ("sin", "cos", "tan", "cot", "sec", "csc"):
+        return "cis"
+    return "exp" if node.args[0] in ("exp", "sinh", "cosh", "tanh") else None
+
+
+class Ring:
+    """The program and its generators.
+
+    ``expressions`` are all that will be asked for (their angles fix the basis). ``positive`` symbols are
+    their own absolute value. ``alias`` replaces symbols in the arguments of functions: where a finite
+    constraint says theta = w t, cos(theta) and cos(w t) are one generator.
+    """
+
+    def __init__(
+        self,
+        expressions: Iterable[Expr] = (),
+        positive: frozenset[Expr] = frozenset(),
+        alias: Mapping[Expr, Expr] | None = None,
+    ) -> None:
+        self.related = False
+        self.positive = positive
+        self.alias = alias or {}
+        self.var_expr: list[Expr] = []
+        self.code: list[tuple[int, Any]] = []
+        self.vars: list[Var] = []
+        self.var_node: list[int] = []
+        given = [e for e in expressions if _has_functions(e)]
+        self._denominators = _angle_arguments(given, self.alias)
+        self._split = split_logs(given, positive)
+        self._memo: dict[Expr, int] = {}
+        self._orders: dict[tuple[int, ...], list[int]] = {}
+        self._interned: dict[tuple[int, Any], int] = {}
+        self._var_of: dict[tuple[Any, ...], int] = {}
+        self._building: dict[str, Callable[[Expr], int]] = {
+            "num": lambda e: self.emit(NUM, e.args[0]),
+            "sym": self.symbol,
+            "const": self._constant,
+            "add": lambda e: self.emit(ADD, tuple(self.node(t) for t in e.args)),
+            "mul": lambda e: self.emit(MUL, tuple(self.node(t) for t in e.args)),
+            "pow": self._power,
+            "fn": self._function,
+            "call": self._call,
+        }
+
+    # -- the program ------------------------------------------------------------------------
+
+    def node(self, e: Expr) -> int:
+        """The number of the instruction that computes ``e``."""
+        found = self._memo.get(e)
+        if found is None:
+            found = self._memo[e] = self._building[e.op](e)
+        return found
+
+    def emit(self, op: int, payload: Any) -> int:
+        key = (op, payload)
+        found = self._interned.get(key)
+        if found is None:
+            found = self._interned[key] = len(self.code)
+            self.code.append(key)
+        return found
+
+    def order(self, roots: tuple[int, ...]) -> list[int]:
+        """Every instruction that the roots depend on, the last first: worked out once, for gradients at many points."""
+        found = self._orders.get(roots)
+        if found is None:
+            found = self._orders[roots] = reachable(self, roots)
+        return found
+
+    def negative(self, node: int) -> int:
+        """The node of minus a node."""
+        return self.emit(MUL, (self.emit(NUM, Fraction(-1)), node))
+
+    def replaced(self, node: int, mapping: Mapping[int, int]) -> int:
+        """A node with generators (by index) replaced by nodes; arguments of other generators are left."""
+        new: dict[int, int] = {}
+        for i in reversed(reachable(self, [node], through_generators=False)):
+            op, payload = self.code[i]
+            if op in (ADD, MUL):
+                new[i] = self.emit(op, tuple(new[j] for j in payload))
+            elif op == POW:
+                new[i] = self.emit(POW, (new[payload[0]], payload[1]))
+            else:
+                new[i] = mapping.get(payload, i) if op == VAR else i
+        return new[node]
+
+    def generator(self, kind: str, key: Any, shown: Expr, args: tuple[int, ...] = (), degree: int = 1) -> int:
+        """The node of a generator, made at first use; ``shown`` is it as an expression."""
+        found = self._var_of.get((kind, key))
+        if found is None:
+            found = len(self.vars)
+            self._var_of[kind, key] = found
+            self.vars.append(Var(found, kind, key, args, -1, degree))
+            self.var_expr.append(shown)
+            self.var_node.append(self.emit(VAR, found))
+        return self.var_node[found]
+
+    def symbol(self, e: Expr) -> int:
+        """The node of a symbol."""
+        return self.generator("symbol", e, e)
+
+    def var_index(self, e: Expr) -> int | None:
+        """The generator of a symbol, if it occurs."""
+        return self._var_of.get(("symbol", e))
+
+    def number(self, value: Fraction | int) -> int:
+        return self.emit(NUM, Fraction(value))
+
+    def total(self, *parts: int) -> int:
+        return self.emit(ADD, parts)
+
+    def product(self, *parts: int) -> int:
+        return self.emit(MUL, parts)
+
+    def power_node(self, base: int, exponent: int) -> int:
+        """The node of an integer power of a node."""
+        if exponent == 1:
+            return base
+        return self.number(1) if exponent == 0 else self.emit(POW, (base, exponent))
+
+    # -- what is not rational ---------------------------------------------------------------
+
+    def _constant(self, e: Expr) -> int:
+        if e.args[0] == "E":
+            return self.node(Expr("fn", ("exp", ex.ONE)))
+        return self.generator("pi", "pi", ex.PI)
+
+    def _power(self, e: Expr) -> int:
+        base, exponent = e.args
+        if exponent.op != "num":
+            return self._exp(exponent * ex.fn("log", base))
+        value: Fraction = exponent.args[0]
+        if value.denominator == 1:
+            return self.power_node(self.node(base), int(value))
+        return self.power_node(root(self, base, value.denominator), value.numerator)
+
+    def _function(self, e: Expr) -> int:
+        name, u = e.args[0], e.args[1]
+        if name in ("sin", "cos", "tan", "cot", "sec", "csc"):
+            cos, sin = self._cis(u)
+            inverse = {"tan": (sin, cos), "cot": (cos, sin), "sec": (None, cos), "csc": (None, sin)}
+            if name in ("sin", "cos"):
+                return sin if name == "sin" else cos
+            top, bottom = inverse[name]
+            below = self.power_node(bottom, -1)
+            return below if top is None else self.product(top, below)
+        if name in ("sinh", "cosh", "tanh"):
+            return self._hyperbolic(name, u)
+        if name == "exp":
+            return self._exp(u)
+        if name == "abs":
+            return self.product(sign(self, u), self.node(u))
+        return log(self, u, self._split) if name == "log" else inverse_function(self, name, e)
+
+    def _hyperbolic(self, name: str, u: Expr) -> int:
+        up, down = self._exp(u), self._exp(-u)
+        minus = self.product(self.number(-1), down)
+        if name == "tanh":
+            return self.product(self.total(up, minus), self.power_node(self.total(up, down), -1))
+        return self.product(self.number(Fraction(1, 2)), self.total(up, down if name == "cosh" else minus))
+
+    def _exp(self, u: Expr) -> int:
+        """exp of a sum as the product of powers of the basic exponentials; exp(r log x) = x^r."""
+        u = over_primes(ex.substitute(u, self.alias))
+        parts = []
+        for rest, factor in linear_terms(u).items():
+            if rest.op == "fn" and rest.args[0] == "log":
+                parts.append(self.node(ex.power(rest.args[1], ex.num(factor))))
+                continue
+            denominator = self._denominators.get(("exp", rest), factor.denominator)
+            if abs(factor * denominator) > MAX_MULTIPLE:
+                self.related = True
+                size = abs(factor)
+                rest, factor, denominator = Expr("mul", (ex.num(size), rest)), factor / size, 1
+            basic = ex.num(Fraction(1, denominator)) * rest
+            generator = self.generator("exp", (rest, denominator), Expr("fn", ("exp", basic)), (self.node(basic),))
+            parts.append(self.power_node(generator, int(factor * denominator)))
+        return self.product(*parts) if parts else self.number(1)
+
+    def _cis(self, u: Expr) -> tuple[int, int]:
+        """(cos u, sin u) as polynomials in those of the basic angles."""
+        u = ex.substitute(u, self.alias)
+        total = (self.number(1), self.number(0))
+        for rest, factor in linear_terms(u).items():
+            if rest == ex.PI:
+                known, factor = exact_turn(factor)
+                total = rotated(self, total, turn_of_twelfths(self, known))
+            if factor:
+                cos, sin, n = self._basic_angle(rest, factor)
+                total = rotated(self, total, multiple(self, (cos, sin), n))
+        return total
+
+    def _basic_angle(self, rest: Expr, factor: Fraction) -> tuple[int, int, int]:
+        denominator = self._denominators.get(("cis", rest), factor.denominator)
+        if abs(factor * denominator) > MAX_MULTIPLE:
+            self.related = True
+            size = abs(factor)
+            rest, factor, denominator = Expr("mul", (ex.num(size), rest)), factor / size, 1
+        if denominator == 1 and rest.op == "fn" and rest.args[0] in ("asin", "acos", "atan", "atan2"):
+            return (*of_inverse(self, rest), int(factor))
+        basic = ex.num(Fraction(1, denominator)) * rest
+        argument = self.node(basic)
+        cos = self.generator("cos", (rest, denominator), ex.fn("cos", basic), (argument,))
+        sin = self.generator("sin", (rest, denominator), ex.fn("sin", basic), (argument,))
+        first, second = self.code[cos][1], self.code[sin][1]
+        if self.vars[first].partner < 0:
+            self.vars[first] = Var(first, "cos", (rest, denominator), (argument,), second)
+            self.vars[second] = Var(second, "sin", (rest, denominator), (argument,), first)
+        return cos, sin, int(factor * denominator)
+
+    def _call(self, e: Expr) -> int:
+        name, orders, arguments = e.args
+        key = (name, orders, tuple(sorted_sum(a) for a in arguments))
+        return self.generator("call", key, e, tuple(self.node(a) for a in arguments))
+
+
+def reachable(ring: Ring, roots: Iterable[int], through_generators: bool = True) -> list[int]:
+    """Every instruction that the roots depend on, the last first.
+
+    Without ``through_generators`` the walk stops at generators: what they depend on is left out.
+    """
+    seen: set[int] = set()
+    stack = list(roots)
+    while stack:
+        node = stack.pop()
+        if node in seen:
+            continue
+        seen.add(node)
+        op, payload = ring.code[node]
+        if op in (ADD, MUL):
+            stack.extend(payload)
+        elif op == POW:
+            stack.append(payload[0])
+        elif op == VAR and through_generators:
+            stack.extend(ring.vars[payload].args)
+            if ring.vars[payload].partner >= 0:
+                stack.append(ring.var_node[ring.vars[payload].partner])
+    return sorted(seen, reverse=True)

@@ -1,0 +1,1 @@
+"""Polynomial systems: triangular solving modulo p, ideals."""

@@ -1,0 +1,1 @@
+"""Is a number or an expression zero, and can non-zero be trusted?"""

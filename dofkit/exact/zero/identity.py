@@ -1,0 +1,119 @@
+"""Is an expression identically zero?"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import ctx
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.base.verdicts import Verdict
+from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch, fixed_bits
+from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero.constants import proved_zero
+from dofkit.exact.zero.independence import independent_generators
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+
+#: Bits of the balls that must hold 0 before anything is taken for 0.
+PRECISIONS = (256, 1024)
+
+
+def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Is the expression zero identically, as far as can be told? See `told_zero` for how sure that is."""
+    return bool(told_zero(e, positive)[0])
+
+
+def told_zero(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
+    """(zero?, how sure); None only where one engine alone cannot tell.
+
+    Zero in the canonical ring is a proof, and so is zero of every coefficient there (`proved_zero`); so is not zero
+    there where the generators are independent, or where a ball at some real point excludes 0. What is 0 at random
+    points over GF(p) is probably zero; what no ball tells from 0 is so numerically.
+    """
+    if e.op == "num":
+        return e.is_zero, "proved"
+    ring = Ring([e], positive)
+    node = ring.node(e)
+    if engines != BOTH:
+        return _told_by_one(ring, node, positive, engines)
+    canon = Canon(ring)
+    try:
+        if canon.is_zero(node):
+            return True, "proved"
+        if independent_generators(ring):
+            return False, "proved"
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        pass
+    if excludes_zero(ring, node, positive):
+        return False, "proved"
+    if _coefficients_vanish(canon, node):
+        return True, "proved"
+    return True, "probable" if _zero_at_points(ring, node) else "numeric"
+
+
+def _coefficients_vanish(canon: Canon, node: int) -> bool:
+    """Is every coefficient, a number, proved to be 0, by the monomials of what varies?"""
+    shown = list(reversed(canon.ring.var_expr))
+    groups: dict[tuple[int, ...], list[Expr]] = {}
+    try:
+        for exponents, value in canon.quotient(node)[0].to_dict().items():
+            moving = tuple(int(k) if shown[i].symbols else 0 for i, k in enumerate(exponents))
+            fixed = [ex.power(shown[i], ex.num(int(k))) for i, k in enumerate(exponents) if k and not moving[i]]
+            groups.setdefault(moving, []).append(ex.mul(ex.num(Fraction(int(value.p), int(value.q))), *fixed))
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return False
+    return all(proved_zero(ex.add(*terms)) for terms in groups.values())
+
+
+def _told_by_one(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
+    """Zero over GF(p) is probable, non-zero only for independent generators; a ball proves non-zero only."""
+    if "balls" in engines:
+        return (False, "proved") if excludes_zero(ring, node, positive) else (True, "numeric")
+    zero = _zero_at_points(ring, node)
+    if zero:
+        return True, "probable"
+    return (False, "probable") if zero is False and independent_generators(ring) else (None, "undecided")
+
+
+def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:
+    """A ball at some real point excludes 0 as the value of an expression."""
+    ring = Ring([e], positive)
+    return excludes_zero(ring, ring.node(e), positive)
+
+
+def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
+    """A ball at some real point excludes 0 as the value of a node."""
+    search = RealSearch(ring, (), (), positive)
+    bits = fixed_bits()
+    for precision in PRECISIONS if bits is None else (bits,):
+        with ctx.workprec(precision):
+            if any(_excluded_at(ring, node, BallPoint(search.start(seed, {}), seed)) for seed in range(8)):
+                return True
+    return False
+
+
+def _excluded_at(ring: Ring, node: int, point: BallPoint) -> bool:
+    try:
+        return not values(ring, point)[node].contains(0)
+    except (OutsideDomainError, ZeroDivisionError):
+        return False
+
+
+def _zero_at_points(ring: Ring, node: int) -> bool | None:
+    """Zero at random points over GF(p)? None where too few were found."""
+    seen = 0
+    for seed in range(60):
+        try:
+            if values(ring, field_point([ring], seed))[node] != 0:
+                return False
+        except (ZeroDivisionError, NoPointError):
+            continue
+        seen += 1
+        if seen == 3:
+            return True
+    return None

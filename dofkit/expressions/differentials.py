@@ -1,0 +1,69 @@
+"""Differentials and velocities: dq = qdot dt.
+
+A relation homogeneous of degree k in (dq, dt) is divided by dt^k; one that adds differentials to finite terms
+says nothing. Second derivatives have to stand linearly: then the relation may integrate once.
+"""
+
+from __future__ import annotations
+
+from dofkit.base.errors import TextError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+
+
+def differential_degree(e: Expr) -> int | None:
+    """The degree in (dq, dt), None for the number 0. Raises TextError where terms differ."""
+    if e.is_zero:
+        return None
+    if not any(s.args[0] in ("differential", "dt") for s in e.symbols):
+        return 0
+    if e.op == "sym":
+        return 1
+    if e.op == "add":
+        degrees = {differential_degree(term) for term in e.args} - {None}
+        if len(degrees) > 1:
+            raise TextError(
+                "differentials and finite terms are added together",
+                hint="divide every term by dt (write qdot), or multiply every term by a differential",
+            )
+        return degrees.pop() if degrees else None
+    if e.op == "mul":
+        return sum(differential_degree(factor) or 0 for factor in e.args)
+    if e.op == "pow" and e.args[1].op == "num":
+        degree = (differential_degree(e.args[0]) or 0) * e.args[1].args[0]
+        if degree.denominator == 1:
+            return int(degree)
+    raise TextError("a differential stands inside a function", hint="differentials are only added, multiplied, divided")
+
+
+def in_velocities(e: Expr) -> tuple[Expr, bool]:
+    """``e`` in velocities instead of differentials, and whether it had a dt to divide by."""
+    degree = differential_degree(e)
+    if not degree and not any(s.args[0] in ("differential", "dt") for s in e.symbols):
+        return e, False
+    mapping = {s: ex.velocity(s.args[1]) for s in e.symbols if s.args[0] == "differential"}
+    mapping |= {s: ex.ONE for s in e.symbols if s.args[0] == "dt"}
+    return ex.substitute(e, mapping), bool(degree)
+
+
+NOT_LINEAR = "a second derivative does not stand linearly"
+SOLVE_FOR_IT = "write the constraint solved for the second derivative, or put it into the equations of motion"
+
+
+def accelerations_of(e: Expr) -> list[Expr]:
+    """The second derivatives in an expression, by name."""
+    return sorted((s for s in e.symbols if s.args[0] == "acceleration"), key=lambda s: str(s.args[1]))
+
+
+def linear_in_accelerations(e: Expr, sense: str) -> None:
+    """Raise TextError for a relation that holds second derivatives otherwise than as a sum of them with factors."""
+    moving = accelerations_of(e)
+    if not moving:
+        return
+    if sense != "=":
+        raise TextError(
+            "an inequality in second derivatives limits no position and no velocity",
+            hint="leave it out, or put it into the equations of motion",
+        )
+    if any(accelerations_of(ex.diff(e, s)) for s in moving):
+        raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)

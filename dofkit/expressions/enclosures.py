@@ -1,0 +1,100 @@
+"""Values of constant expressions: exact where they are rational, else as certified intervals."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from dofkit.expressions.tree import HALF, Expr
+
+if TYPE_CHECKING:
+    from flint import arb
+
+#: Bits of the interval arithmetic.
+BITS = 256
+
+
+def is_constant(e: Expr) -> bool:
+    """True where no symbol and no unknown function occurs."""
+    return not e.symbols and not has_call(e)
+
+
+def has_call(e: Expr) -> bool:
+    """True where an unknown function occurs."""
+    if e.op in ("num", "sym", "const"):
+        return False
+    if e.op == "call":
+        return True
+    return any(has_call(child) for child in (e.args[1:] if e.op == "fn" else e.args))
+
+
+def interval(e: Expr, values: Mapping[Expr, Fraction] | None = None, bits: int = BITS) -> arb | None:
+    """A ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
+    from flint import arb, ctx, fmpq
+
+    def ball(value: Fraction) -> arb:
+        return arb(fmpq(value.numerator, value.denominator))
+
+    def go(node: Expr) -> arb:
+        if node.op == "num":
+            return ball(node.args[0])
+        if node.op == "const":
+            return arb.pi() if node.args[0] == "pi" else arb.const_e()
+        if node.op == "sym":
+            return ball((values or {})[node])
+        if node.op == "add":
+            return sum((go(part) for part in node.args), arb(0))
+        if node.op == "mul":
+            return math.prod((go(part) for part in node.args), start=arb(1))
+        if node.op == "pow":
+            base, exponent = node.args
+            return go(base).sqrt() if exponent == HALF else go(base) ** go(exponent)
+        if node.op == "fn":
+            return _function(node.args[0])(*(go(part) for part in node.args[1:]))
+        raise KeyError(node)
+
+    before = ctx.prec
+    ctx.prec = bits
+    try:
+        found = go(e)
+    except (KeyError, ZeroDivisionError, RecursionError, OverflowError):
+        return None
+    finally:
+        ctx.prec = before
+    return found if found.is_finite() else None
+
+
+def _function(name: str) -> Callable[..., arb]:
+    from flint import arb
+
+    table: dict[str, Callable[..., arb]] = {"abs": abs, "atan2": arb.atan2}
+    found: Callable[..., arb] = table[name] if name in table else getattr(arb, name)
+    return found
+
+
+def differs_from_zero(e: Expr) -> bool:
+    """True where ``e`` is certainly not 0, at random positive values of its parameters; False else."""
+    if e.op == "num":
+        return bool(e.args[0])
+    if has_call(e):
+        return False
+    draw = random.Random(20)
+    values = {symbol: Fraction(draw.randrange(10**6, 10**7), 10**6) for symbol in sorted(e.symbols, key=repr)}
+    found = interval(e, values)
+    return found is not None and not found.contains(0)
+
+
+def approximate(e: Expr) -> float | None:
+    """A constant expression as a float."""
+    if e.op == "num":
+        try:
+            return float(e.args[0])
+        except OverflowError:
+            return None
+    if not is_constant(e):
+        return None
+    found = interval(e)
+    return None if found is None else float(found.mid())

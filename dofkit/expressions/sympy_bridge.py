@@ -1,0 +1,178 @@
+"""Between expressions and SymPy, node by node: no text is read on the way, in either direction.
+
+A coordinate q is the dynamic symbol q(t), its velocity and acceleration are the derivatives of that by t.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+from dofkit.base.errors import DofkitError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+
+_ELEMENTARY = {
+    "sin": "sin", "cos": "cos", "tan": "tan", "cot": "cot", "sec": "sec", "csc": "csc", "asin": "asin", "acos": "acos",
+    "atan": "atan", "atan2": "atan2", "sinh": "sinh", "cosh": "cosh", "tanh": "tanh", "exp": "exp", "log": "log",
+    "abs": "Abs",
+}  # fmt: skip
+_BACK = {sympy: own for own, sympy in _ELEMENTARY.items()}
+
+
+class UntranslatableError(DofkitError):
+    """A SymPy expression that has no counterpart in the grammar of scenes."""
+
+
+class Bridge:
+    """Translates expressions in given coordinates; ``positive`` parameters are positive in SymPy too."""
+
+    def __init__(self, coordinates: Iterable[str], positive: frozenset[Expr] = frozenset()) -> None:
+        import sympy
+        from sympy.physics.mechanics import dynamicsymbols
+
+        self._sympy = sympy
+        self.time = dynamicsymbols._t
+        self.positions: dict[str, Any] = {}
+        for name in coordinates:
+            self.positions[name] = sympy.Function(name, real=True)(self.time)
+        self._names = {q: name for name, q in self.positions.items()}
+        self._positive = positive
+        self._memo: dict[Expr, Any] = {}
+        self._back: dict[Any, Expr] = {}
+        self._parameters: dict[Any, Expr] = {}
+
+    # to SymPy
+
+    def velocity(self, name: str, order: int = 1) -> Any:
+        """The ``order``-th derivative of a coordinate by time."""
+        return self.positions[name].diff(self.time, order)
+
+    def sympy(self, e: Expr) -> Any:
+        """``e`` in SymPy. Raises KeyError for coordinates that were not given."""
+        for node in ex.nodes(e):
+            if node not in self._memo:
+                self._memo[node] = self._made(node)
+        return self._memo[e]
+
+    def _made(self, e: Expr) -> Any:
+        sp = self._sympy
+        if e.op == "num":
+            return sp.Rational(e.args[0].numerator, e.args[0].denominator)
+        if e.op == "sym":
+            return self._symbol(e)
+        if e.op == "const":
+            return sp.pi if e.args[0] == "pi" else sp.E
+        parts = [self._memo[child] for child in ex.children(e)]
+        if e.op == "add":
+            return sp.Add(*parts)
+        if e.op == "mul":
+            return sp.Mul(*parts)
+        if e.op == "pow":
+            return sp.Pow(*parts)
+        if e.op == "fn":
+            return getattr(sp, _ELEMENTARY[e.args[0]])(*parts)
+        return self._call(e.args[0], e.args[1], parts)
+
+    def _symbol(self, e: Expr) -> Any:
+        kind, name = e.args
+        if kind == "time":
+            return self.time
+        if kind == "parameter":
+            made = (
+                self._sympy.Symbol(name, positive=True) if e in self._positive else self._sympy.Symbol(name, real=True)
+            )
+            self._parameters[made] = e
+            return made
+        orders = {"coordinate": 0, "velocity": 1, "differential": 1, "acceleration": 2}
+        return self._sympy.Integer(1) if kind == "dt" else self.velocity(name, orders[kind])
+
+    def _call(self, name: str, orders: tuple[int, ...], arguments: list[Any]) -> Any:
+        sp = self._sympy
+        function = sp.Function(name, real=True)
+        if not any(orders):
+            return function(*arguments)
+        places = [sp.Dummy(f"xi_{i}", real=True) for i in range(len(arguments))]
+        steps = [(place, order) for place, order in zip(places, orders, strict=True) if order]
+        return sp.Subs(sp.Derivative(function(*places), *steps), places, arguments)
+
+    # and back
+
+    def expr(self, e: Any) -> Expr:
+        """A SymPy expression as one of ours. Raises UntranslatableError where that is not possible."""
+        found = self._back.get(e)
+        if found is None:
+            found = self._back[e] = self._read(e)
+        return found
+
+    def _read(self, e: Any) -> Expr:
+        sp = self._sympy
+        if e.is_Rational:
+            return ex.num(Fraction(int(e.p), int(e.q)))
+        if e.is_Symbol:
+            return ex.TIME if e == self.time else self._parameter(e)
+        if e in self._names:
+            return ex.coordinate(self._names[e])
+        if e == sp.pi or e == sp.E:
+            return ex.PI if e == sp.pi else ex.E
+        for kind, read in _READ.items():
+            if isinstance(e, getattr(sp, kind)):
+                return read(self, e)
+        if isinstance(e, sp.core.function.AppliedUndef):
+            return ex.call(str(e.func.__name__), map(self.expr, e.args))
+        own = _BACK.get(type(e).__name__)
+        if own is None:
+            raise UntranslatableError(f"SymPy's {type(e).__name__} cannot be written here")
+        return ex.fn(own, *map(self.expr, e.args))
+
+    def _parameter(self, e: Any) -> Expr:
+        return self._parameters.get(e) or ex.parameter(str(e.name))
+
+    def derivative(self, e: Any) -> Expr:
+        """A velocity, an acceleration, or the derivative of an unknown function at its own arguments."""
+        base, steps = e.expr, {variable: int(order) for variable, order in e.variable_count}
+        if steps == {base: 1}:
+            return ex.ONE
+        if base in self._names:
+            order = steps.pop(self.time, 0)
+            kinds: dict[int, ex.Kind] = {1: "velocity", 2: "acceleration"}
+            if steps or order not in kinds:
+                raise UntranslatableError("a derivative of higher order than the second")
+            return ex.sym(kinds[order], self._names[base])
+        if not isinstance(base, self._sympy.core.function.AppliedUndef):
+            raise UntranslatableError("a derivative that was not worked out")
+        return ex.call(str(base.func.__name__), map(self.expr, base.args), self._orders(base, steps))
+
+    def _orders(self, base: Any, steps: Mapping[Any, int]) -> tuple[int, ...]:
+        """How often a call is differentiated by each argument; a variable in two arguments is no such derivative."""
+        for variable in steps:
+            if sum(a == variable or a.has(variable) for a in base.args) != 1 or variable not in base.args:
+                raise UntranslatableError("a derivative by what several arguments hold")
+        return tuple(steps.get(a, 0) for a in base.args)
+
+    def substituted(self, e: Any) -> Expr:
+        """A derivative of an unknown function at other arguments than it was taken by."""
+        inner = e.expr
+        if not isinstance(inner, self._sympy.Derivative):
+            raise UntranslatableError("a substitution that was not carried out")
+        given = dict(zip(e.variables, e.point, strict=True))
+        steps = {variable: int(order) for variable, order in inner.variable_count}
+        arguments = [self.expr(given.get(a, a)) for a in inner.expr.args]
+        return ex.call(str(inner.expr.func.__name__), arguments, self._orders(inner.expr, steps))
+
+
+def _sign(bridge: Bridge, e: Any) -> Expr:
+    argument = bridge.expr(e.args[0])
+    return argument / ex.fn("abs", argument)
+
+
+_READ: dict[str, Callable[[Bridge, Any], Expr]] = {
+    "Add": lambda b, e: ex.add(*map(b.expr, e.args)),
+    "Mul": lambda b, e: ex.mul(*map(b.expr, e.args)),
+    "exp": lambda b, e: ex.fn("exp", b.expr(e.args[0])),
+    "Pow": lambda b, e: ex.power(b.expr(e.base), b.expr(e.exp)),
+    "Derivative": Bridge.derivative,
+    "Subs": Bridge.substituted,
+    "sign": _sign,
+}  # fmt: skip

@@ -1,0 +1,70 @@
+"""Sums as combinations of their terms, and keys that do not depend on the order of terms."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import gcd
+
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+
+#: Products of sums are multiplied out in arguments up to this many terms.
+EXPAND_TERMS = 64
+
+
+def expand(e: Expr) -> Expr:
+    """``e`` with products of sums and small powers of sums multiplied out."""
+    if e.op == "add":
+        return ex.add(*(expand(term) for term in e.args))
+    if e.op == "mul":
+        total: list[Expr] = [ex.ONE]
+        for factor in (expand(f) for f in e.args):
+            terms = factor.args if factor.op == "add" else (factor,)
+            if len(total) * len(terms) > EXPAND_TERMS:
+                return e
+            total = [ex.mul(a, b) for a in total for b in terms]
+        return ex.add(*total)
+    if e.op == "pow" and e.args[1].op == "num" and e.args[0].op == "add":
+        exponent = e.args[1].args[0]
+        if exponent.denominator == 1 and 2 <= exponent <= 4:
+            return expand(Expr("mul", (e.args[0],) * int(exponent)))
+    return e
+
+
+def linear_terms(e: Expr) -> dict[Expr, Fraction]:
+    """``e`` as a combination of its terms with rational coefficients; the number's term is `ONE`."""
+    total = expand(e)
+    terms: dict[Expr, Fraction] = {}
+    for term in total.args if total.op == "add" else (total,):
+        factor, rest = (term.args[0], ex.ONE) if term.op == "num" else number_and_rest(term)
+        if factor:
+            rest = sorted_product(rest)
+            terms[rest] = terms.get(rest, Fraction(0)) + factor
+    return terms
+
+
+def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
+    if term.op == "mul" and term.args[0].op == "num":
+        rest = term.args[1:]
+        return term.args[0].args[0], rest[0] if len(rest) == 1 else Expr("mul", rest)
+    return Fraction(1), term
+
+
+def sorted_product(e: Expr) -> Expr:
+    return Expr("mul", tuple(sorted(e.args, key=repr))) if e.op == "mul" else e
+
+
+def sorted_sum(e: Expr) -> tuple[tuple[str, Fraction], ...]:
+    """A key that does not depend on the order of terms."""
+    return tuple(sorted((repr(rest), factor) for rest, factor in linear_terms(e).items()))
+
+
+def content(e: Expr) -> tuple[Fraction, Expr]:
+    """A sum as positive rational content times the rest."""
+    factors = [number_and_rest(t)[0] if t.op != "num" else t.args[0] for t in e.args]
+    top = gcd(*(abs(f.numerator) for f in factors))
+    bottom = 1
+    for f in factors:
+        bottom = bottom * f.denominator // gcd(bottom, f.denominator)
+    content = Fraction(top, bottom)
+    return content, ex.mul(ex.num(1 / content), e)

@@ -1,0 +1,226 @@
+"""Names: what a text may mention, what each word means, and which names may be declared."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+from dofkit.base.errors import TextError
+from dofkit.expressions.text.characters import DOT, TWO_DOTS, check_name_characters, spelled
+from dofkit.expressions.text.limits import MAX_NAME
+from dofkit.expressions.tree import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity
+
+SYNONYMS: dict[str, str] = {
+    "arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctan2": "atan2", "ln": "log", "cosec": "csc",
+}  # fmt: skip
+ELEMENTARY: dict[str, str] = {**{name: name for name in FUNCTIONS}, "sqrt": "sqrt", **SYNONYMS}
+OPERATORS = ("diff", "partial")
+_RESERVED: dict[str, str] = {
+    "t": "time", "dt": "the differential of time", "ground": "the fixed world", "pi": "the number 3.14...",
+}  # fmt: skip
+
+MeaningKind = Literal["value", "motion", "function", "call", "operator"]
+
+
+class Meaning(NamedTuple):
+    """What a word stands for.
+
+    ``value``: a number, coordinate, parameter or time. ``motion``: a velocity, acceleration or
+    differential. ``function``: elementary, by name. ``call``: an unknown function, ``order``
+    times differentiated by time where dots stand over it, or -1 for its differential.
+    ``operator``: `diff` or `partial`.
+    """
+
+    kind: MeaningKind
+    expr: Expr | None = None
+    name: str = ""
+    order: int = 0
+
+
+@dataclass(frozen=True)
+class Names:
+    """The names that a text may use; the rest is an error.
+
+    ``coordinates``: each q brings dq, qdot, q', qddot. ``parameters``: name -> its symbol or the
+    exact value it was given. ``functions``: unknown functions -> number of arguments.
+    ``arguments``: their declared argument names, so that ``h`` alone means ``h(s)``. The three
+    switches refuse time, velocities (differentials too) and accelerations.
+    """
+
+    coordinates: frozenset[str] = frozenset()
+    parameters: Mapping[str, Expr] = field(default_factory=dict)
+    functions: Mapping[str, int] = field(default_factory=dict)
+    arguments: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    allow_time: bool = True
+    allow_velocities: bool = True
+    allow_accelerations: bool = False
+
+    @cached_property
+    def lookup(self) -> Lookup:
+        """The words' meanings, worked out once and then remembered."""
+        return Lookup(self)
+
+
+class UnknownNameError(TextError):
+    """A word that is not declared; its message shows it between backquotes."""
+
+    @property
+    def name(self) -> str:
+        """The word as it was written."""
+        return self.message.split("`")[1]
+
+    def __reduce__(self) -> tuple[type[UnknownNameError], tuple[str, int | None, str | None]]:
+        return (UnknownNameError, (self.message, self.column, self.hint))
+
+
+_NUMBERED = re.compile(r"(.*[A-Za-z])(_?)(\d+)", re.ASCII)
+_SUFFIXED = re.compile(r"(.+?)_?(d?dot)(_.*)?", re.ASCII)
+_MARKED = re.compile(f"([^{DOT}{TWO_DOTS}]+)([{DOT}{TWO_DOTS}]+)([_0-9][^{DOT}{TWO_DOTS}]*)?")
+#: How many words are remembered at most; a word that fits nothing is remembered too.
+_MEMORY = 20_000
+
+
+def unmarked(name: str) -> str:
+    """``name`` spelled out, in small letters and without `_`."""
+    return spelled(name).replace("_", "").lower()
+
+
+class Lookup:
+    """Words -> meanings for one `Names`."""
+
+    def __init__(self, names: Names) -> None:
+        self.names = names
+        self._declared = _declared(names)
+        self._words: dict[str, Meaning | None] = {}
+        self.longest = 5 + max((len(name) for name in self._declared), default=0)
+
+    def meaning(self, word: str) -> Meaning | None:
+        """What the whole word stands for, or None. Greek letters and their spelled names are the same."""
+        try:
+            return self._words[word]
+        except KeyError:
+            found = self._find(spelled(word))
+            if len(self._words) < _MEMORY:
+                self._words[word] = found
+            return found
+
+    @cached_property
+    def declared(self) -> list[str]:
+        """All declared names, as declared."""
+        names = self.names
+        return [*sorted(names.coordinates), *names.parameters, *names.functions]
+
+    @cached_property
+    def unmarked(self) -> dict[str, str]:
+        """Names without `_` and capitals -> the name: what people mistake for one another."""
+        known = (*ELEMENTARY, *reversed(self.declared))
+        return {unmarked(name): name for name in known}
+
+    def _find(self, word: str) -> Meaning | None:
+        found = self._declared.get(word)
+        if found is None:
+            found = _fixed(word)
+        if found is None and (DOT in word or TWO_DOTS in word):
+            return self._dotted(word)
+        if found is None:
+            found = self._derived(word)
+        if found is None and word == "E":
+            found = Meaning("value", E)
+        return found
+
+    def _dotted(self, word: str) -> Meaning | None:
+        match = _MARKED.fullmatch(word)
+        if match is None:
+            return None
+        order = sum(1 if mark == DOT else 2 for mark in match[2])
+        return self._moved(match[1] + (match[3] or ""), order)
+
+    def _derived(self, word: str) -> Meaning | None:
+        """`dq`, `qdot`, `q_dot`, `qdot_A`, `qddot` of a declared q."""
+        if word[0] == "d":
+            found = self._moved(word[1:], -1)
+            if found is not None:
+                return found
+        match = _SUFFIXED.fullmatch(word) if "dot" in word else None
+        if match is None:
+            return None
+        return self._moved(match[1] + (match[3] or ""), 1 if match[2] == "dot" else 2)
+
+    def _moved(self, word: str, order: int) -> Meaning | None:
+        """The ``order``-th derivative by time of the declared ``word``; -1 for its differential."""
+        base = self._declared.get(word)
+        if base is None:
+            return None
+        if base.kind == "call" and order < 3:
+            return base._replace(order=order)
+        expr = base.expr
+        if base.kind != "value" or expr is None or expr.op != "sym" or expr.args[0] != "coordinate":
+            return None
+        moved = derivative(expr.args[1], order)
+        return None if moved is None else Meaning("motion", moved)
+
+
+def derivative(name: str, order: int) -> Expr | None:
+    """The coordinate ``name``, its velocity or acceleration, or (-1) its differential."""
+    if order == -1:
+        return differential(name)
+    if order == 0:
+        return coordinate(name)
+    if order == 1:
+        return velocity(name)
+    return sym("acceleration", name) if order == 2 else None
+
+
+def _fixed(word: str) -> Meaning | None:
+    if word in ELEMENTARY:
+        return Meaning("function", name=ELEMENTARY[word])
+    if word == "t":
+        return Meaning("value", TIME)
+    if word == "dt":
+        return Meaning("motion", DT)
+    if word == "pi":
+        return Meaning("value", PI)
+    return Meaning("operator", name=word) if word in OPERATORS else None
+
+
+def _declared(names: Names) -> dict[str, Meaning]:
+    """Spelled name -> meaning; `x1` and `x_1` are one name unless both are declared."""
+    found: dict[str, Meaning] = {}
+    for name in names.functions:
+        found[spelled(name)] = Meaning("call", name=name)
+    for name, expr in names.parameters.items():
+        found[spelled(name)] = Meaning("value", expr)
+    for name in sorted(names.coordinates):
+        found[spelled(name)] = Meaning("value", coordinate(name))
+    twins: dict[str, Meaning] = {}
+    for word, meaning in found.items():
+        match = _NUMBERED.fullmatch(word)
+        if match is not None:
+            twin = f"{match[1]}{'' if match[2] else '_'}{match[3]}"
+            if twin not in found and _fixed(twin) is None:
+                twins[twin] = meaning
+    return {**twins, **found}
+
+
+def valid_name(name: str) -> str | None:
+    """None if ``name`` may be declared as a coordinate, parameter or function, else why not."""
+    if not isinstance(name, str):
+        return f"a name is text, not {type(name).__name__}"
+    if not name:
+        return "the name is empty"
+    if len(name) > MAX_NAME:
+        return f"the name has {len(name)} letters; at most {MAX_NAME} are read"
+    odd = check_name_characters(name)
+    if odd is not None:
+        return odd
+    if name[0].isdigit() or name[0] == "_":
+        return f"the name `{name}` begins with `{name[0]}`; a name begins with a letter"
+    word = spelled(name)
+    if word in _RESERVED:
+        return f"`{name}` is reserved: it means {_RESERVED[word]}"
+    if word in ELEMENTARY or word in OPERATORS:
+        return f"`{name}` is reserved: it is the name of a function"
+    return None

@@ -1,0 +1,231 @@
+"""Tokens: plain characters -> numbers, meanings of words, and signs, each with its place."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import NamedTuple, NoReturn
+
+from dofkit.base.errors import TextError
+from dofkit.expressions.text.characters import DOT, FRACTIONS, GREEK_LETTERS, SUPERSCRIPTS, TWO_DOTS, fold
+from dofkit.expressions.text.latex import FRACTION_MARK, unlatex
+from dofkit.expressions.text.limits import MAX_CHARACTERS, MAX_DIGITS, MAX_EXPONENT, MAX_NODES, MAX_TEXT_BITS
+from dofkit.expressions.text.names import Lookup, Meaning
+from dofkit.expressions.text.words import read_word
+from dofkit.expressions.tree import Expr, num, sym
+
+
+class Token(NamedTuple):
+    """``kind``: number, superscript, prime, the kind of a `Meaning`, or the sign itself.
+
+    ``start`` and ``end`` are places in the folded text; ``end`` of one token is ``start`` of the
+    next where no space stands between.
+    """
+
+    kind: str
+    start: int
+    end: int
+    expr: Expr | None = None
+    name: str = ""
+    amount: int = 0
+
+
+class Tokens(NamedTuple):
+    """The tokens, closed by one of kind ``end``, the folded text, and the column of each of its characters."""
+
+    tokens: list[Token]
+    text: str
+    columns: Sequence[int]
+
+
+_WORD = rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}{DOT}{TWO_DOTS}]*"
+_TOKEN = re.compile(
+    rf"""[ \t]*(?:(?P<word>{_WORD})
+    |(?P<number>(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)
+    |(?P<wrong>!=|=>|=<|<>|===|<<|>>|//|->|=!|:=|\*\*\*)
+    |(?P<relation><=|>=|==?|[<>])
+    |(?P<sign>\*\*|[-+*/^(),\[\]{{}}|√\\])
+    |(?P<prime>'+)
+    |(?P<superscript>[{"".join(SUPERSCRIPTS)}]+)
+    |(?P<fraction>[{"".join(FRACTIONS)}])
+    |(?P<end>$))""",
+    re.ASCII | re.VERBOSE,
+)
+_SQUARE = r"\s*(?:²|(?:\^|\*\*)\s*(?:2|\{\s*2\s*\}))"
+_SECOND = re.compile(rf"d{_SQUARE}\s*(?P<name>{_WORD})\s*/\s*dt{_SQUARE}", re.ASCII)
+_NUMBER = re.compile(r"(\d*)\.?(\d*)(?:[eE]([+-]?\d+))?", re.ASCII)
+_ALIKE = {"**": "^", "==": "=", "[": "(", "{": "(", "]": ")", "}": ")", FRACTION_MARK: "frac", "√": "root"}
+
+_STRANGE: dict[str, tuple[str, str]] = {
+    ";": ("one relation stands in a text", "give each relation its own text"),
+    "\n": ("one relation stands in a text", "give each line its own text"),
+    "\r": ("one relation stands in a text", "give each line its own text"),
+    "#": ("a comment cannot stand in a text", "delete `#` and what follows"),
+    "!": ("there is no factorial here", "write the number"),
+    "%": ("`%` is not read", "write a quotient with `/`"),
+    ".": ("a point stands only inside a number", "write a product with `*`"),
+    ":": ("`:` is not read", "write a quotient with `/`, an equation with `=`"),
+    '"': ("quotes cannot stand in a text", "delete them"),
+    "`": ("quotes cannot stand in a text", "delete them"),
+    "$": ("`$` is not read", "delete it and write plain text"),
+    "&": ("`&` is not read", "write one relation per text"),
+    "~": ("`~` is not read", "write `=`"),
+    "@": ("`@` is not read", "write a product with `*`"),
+    "?": ("`?` is not read", "write what holds"),
+    "_": ("a name cannot begin with `_`", "begin it with a letter; a subscript stands right after its letter: `x_1`"),
+    DOT: ("a dot stands above nothing", "put it right after the letter, or write `xdot`"),
+    TWO_DOTS: ("two dots stand above nothing", "put them right after the letter, or write `xddot`"),
+}
+_WRONG: dict[str, tuple[str, str]] = {
+    "!=": ("`!=` is no constraint that is known here", "write what holds: `=`, `<=`, `>=`, `<` or `>`"),
+    "=>": ("`=>` is not read", "did you mean `>=`?"),
+    "=<": ("`=<` is not read", "did you mean `<=`?"),
+    "<>": ("`<>` is no constraint that is known here", "write what holds: `=`, `<=`, `>=`, `<` or `>`"),
+    "//": ("`//` is not read", "write a quotient with `/`"),
+    ":=": ("`:=` is not read", "write `=`"),
+}
+
+
+def tokenize(text: str, lookup: Lookup) -> Tokens:
+    """The tokens of ``text``; TextError at the first thing that is none."""
+    if not isinstance(text, str):
+        raise TextError(f"a text is needed, not {type(text).__name__}", 1, "put it in quotes")
+    if len(text) > MAX_CHARACTERS:
+        message = f"the text has {len(text)} characters; at most {MAX_CHARACTERS} are read"
+        raise TextError(message, MAX_CHARACTERS + 1, "split it into several texts")
+    plain, columns = unlatex(fold(text.rstrip()))
+    return Tokens(_scan(plain, columns, lookup), plain, columns)
+
+
+def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
+    found: list[Token] = []
+    position = len(text) - len(text.lstrip())
+    match_at = _TOKEN.match
+    while True:
+        match = match_at(text, position)
+        if match is None:
+            _stop(text, position, columns)
+        kind = match.lastgroup or ""
+        start, end = match.span(kind)
+        second = _SECOND.match(text, start) if kind == "word" and match[kind][0] == "d" else None
+        if second is not None:
+            found.append(_second_derivative(second, lookup, columns))
+            end = second.end()
+        elif kind == "word":
+            called = text[end : end + 1] == "("
+            for meaning, a, b in read_word(match[kind], lookup, columns[start], called):
+                found.append(_word_token(meaning, start + a, start + b, text))
+        elif kind == "sign" or kind == "relation":
+            sign = match[kind]
+            sign = _ALIKE.get(sign, sign)
+            found.append(Token("relation" if kind == "relation" else sign, start, end, None, sign))
+        else:
+            if kind == "prime" and (not found or found[-1].end != start):
+                hint = "text needs no quotes; a prime stands right after a name: `x'`"
+                raise TextError("a quote cannot stand here", columns[start], hint)
+            found.append(_other(kind, match[kind], start, end, columns, text, lookup))
+            if kind == "end":
+                _check_size(found, columns)
+                return found
+        if len(found) > MAX_NODES:
+            message = f"the text has more than {MAX_NODES} numbers, names and signs"
+            raise TextError(message, columns[start], "split it into several texts")
+        position = end
+
+
+def _check_size(found: list[Token], columns: Sequence[int]) -> None:
+    """Refuse numbers that are small each and, multiplied, large."""
+    total = 0
+    for token in found:
+        if token.kind == "number" and token.expr is not None:
+            value: Fraction = token.expr.args[0]
+            total += value.numerator.bit_length() + value.denominator.bit_length() - 2
+            if total > MAX_TEXT_BITS:
+                message = "the numbers in this text have too many digits together"
+                raise TextError(message, columns[token.start], "split it into several texts, or choose other units")
+
+
+def _word_token(meaning: Meaning | None, start: int, end: int, text: str) -> Token:
+    if meaning is None:
+        return Token("number", start, end, num(int(text[start:end])))
+    return Token(meaning.kind, start, end, meaning.expr, meaning.name, meaning.order)
+
+
+def _second_derivative(match: re.Match[str], lookup: Lookup, columns: Sequence[int]) -> Token:
+    """`d^2x/dt^2`, the acceleration of x."""
+    name = match["name"]
+    for meaning, _, _ in read_word(name, lookup, columns[match.start("name")], False)[:1]:
+        if meaning is not None and meaning.kind == "call":
+            return Token("call", match.start(), match.end(), None, meaning.name, 2)
+        if meaning is not None and meaning.expr is not None and meaning.expr.args[:1] == ("coordinate",):
+            return Token("motion", match.start(), match.end(), sym("acceleration", meaning.expr.args[1]))
+    message = f"`{name}` is no coordinate, so it has no acceleration"
+    raise TextError(message, columns[match.start("name")], "declare it under coordinates")
+
+
+def _other(kind: str, found: str, start: int, end: int, columns: Sequence[int], text: str, lookup: Lookup) -> Token:
+    """A number, primes, superscript digits, or the end."""
+    column = columns[start]
+    if kind == "number":
+        _check_number(found, text, end, column, lookup)
+        return Token(kind, start, end, num(_number(found, column)))
+    if kind == "fraction":
+        return Token("number", start, end, num(Fraction(*FRACTIONS[found])), "fraction")
+    if kind == "superscript":
+        digits = "".join(SUPERSCRIPTS[c] for c in found)
+        if not digits.lstrip("+-").isdigit() or len(digits) > 4 or digits.rfind("-") > 0 or "+" in digits:
+            raise TextError(f"the superscript `{found}` is no exponent", column, "write `^` and the exponent")
+        return Token(kind, start, end, num(int(digits)), found, int(digits))
+    if kind == "wrong":
+        message, hint = _WRONG.get(found, (f"`{found}` is not read", "write `=`, `<=`, `>=`, `<`, `>` or arithmetic"))
+        raise TextError(message, column, hint)
+    return Token(kind, start, end, None, found, len(found))
+
+
+def _check_number(found: str, text: str, end: int, column: int, lookup: Lookup) -> None:
+    """Refuse what looks like a number and is read differently by different people."""
+    after = text[end : end + 1]
+    if after == "_":
+        raise TextError("`_` inside a number is not read", column, "write the digits together, without `_`")
+    if found == "0" and after in tuple("xXoObB") and text[end + 1 : end + 2].isdigit():
+        raise TextError("only decimal numbers are read", column, "write the number in decimal digits")
+    if len(found) > 1 and found[0] == "0" and found[1].isdigit():
+        raise TextError("a number does not begin with 0", column, f"write `{found.lstrip('0') or '0'}`")
+    letter = "e" if "e" in found else "E"
+    if letter in found and letter in lookup.declared:
+        head, _, tail = found.partition(letter)
+        question = f"write `{head}*10^({tail.lstrip('+')})` or `{head}*{letter}*{tail}`"
+        raise TextError(f"`{found}` may be a power of ten or hold the declared name `{letter}`", column, question)
+
+
+def _number(found: str, column: int) -> Fraction:
+    """The exact value of a decimal."""
+    match = _NUMBER.fullmatch(found)
+    if match is None:  # pragma: no cover - the token's pattern is the same
+        raise TextError(f"`{found}` is no number", column)
+    whole, rest, power = match.groups()
+    if len(whole) + len(rest) > MAX_DIGITS:
+        message = f"a number of {len(whole) + len(rest)} digits stands here; at most {MAX_DIGITS} are read"
+        raise TextError(message, column, "write fewer digits, or a fraction")
+    value = Fraction(int(whole + rest), 10 ** len(rest))
+    if power is None:
+        return value
+    if len(power) > 6 or abs(int(power)) > MAX_EXPONENT:
+        message = f"the power of ten in this number is too large; at most {MAX_EXPONENT} is read"
+        raise TextError(message, column, "choose other units")
+    return value * Fraction(10) ** int(power)
+
+
+def _stop(text: str, position: int, columns: Sequence[int]) -> NoReturn:
+    """Say what stands where no token begins."""
+    while text[position] in " \t\f\v":
+        position += 1
+    char, column = text[position], columns[position]
+    if text.startswith("...", position) or text.startswith("..", position):
+        raise TextError("dots in a row are not read", column, "write out what they stand for")
+    if char in _STRANGE:
+        message, hint = _STRANGE[char]
+        raise TextError(message, column, hint)
+    shown = f"`{char}`" if char.isprintable() else f"the control character U+{ord(char):04X}"
+    raise TextError(f"{shown} has no meaning here", column, "write arithmetic with names, numbers and `+ - * / ^`")

@@ -1,0 +1,1 @@
+"""Submissions: files and tables read, and the words in them."""

@@ -1,0 +1,219 @@
+"""Where submissions come from: files, folders of files, tables, lines of JSON; one by one, as they were handed in.
+
+What is in them is read later, by a worker: here they are only told apart.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
+from itertools import islice
+from typing import Any, BinaryIO
+
+from dofkit.homework.answers.submission import (
+    MOST_BYTES,
+    Place,
+    Submission,
+    clean,
+    of_text,
+    of_value,
+    reason,
+    refused,
+)
+from dofkit.homework.answers.tables import DELIMITERS, MOST_CHARACTERS, STUDENT, Columns, TableError, rows
+
+DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), (".csv", ".tsv")
+STDIN = "-"
+#: Files that systems leave in folders.
+_LEFT = frozenset({"thumbs.db", "desktop.ini", "__macosx"})
+
+
+@dataclass(frozen=True)
+class Handed:
+    """What was handed in at a place: the text of a document, the mapping of a table's row, or why there is neither.
+
+    ``name``: the student's name where it gives none.
+    """
+
+    name: str
+    place: Place
+    data: bytes | Mapping[str, object] | None = None
+    error: str = ""
+
+    def submissions(self) -> list[Submission]:
+        """Read it."""
+        if self.data is None:
+            return [refused(self.name, self.place, self.error)]
+        if isinstance(self.data, bytes):
+            return of_text(self.data, self.name, self.place)
+        return [of_value(self.data, self.name, self.place)]
+
+    def digest(self) -> str:
+        """What tells it from another, in 16 characters."""
+        said = self.data if isinstance(self.data, bytes) else repr((self.data, self.error)).encode("utf-8", "replace")
+        named = f"{self.name}\0{self.place}\0".encode("utf-8", "replace")
+        return hashlib.blake2b(named + said, digest_size=8).hexdigest()
+
+    @property
+    def size(self) -> int:
+        """About how many bytes it holds."""
+        return len(self.data) if isinstance(self.data, bytes) else 200
+
+
+def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], known: Columns) -> Submission:
+    """The one submission of a file or folder, or of a mapping ``{student, answers}``."""
+    if isinstance(source, Mapping):
+        return of_value(source, "")
+    path = os.fspath(source)
+    found = list(islice((one for h in handed([path], known) for one in h.submissions()), 2))
+    if len(found) == 1:
+        return found[0]
+    return refused(_stem(clean(path)), Place(clean(path)), "it holds more than one submission")
+
+
+def handed(sources: Sequence[str], known: Columns, others: Iterable[str | os.PathLike[str]] = ()) -> Iterator[Handed]:
+    """All submissions of files, folders and standard input (``-``), in the order given; those of a folder sorted.
+
+    ``others``: paths within the folders that hold no submissions, such as that of the results.
+    """
+    left_out = frozenset(os.path.realpath(path) for path in others)
+    for source in sources:
+        nothing = True
+        for one in _source(source, known, left_out):
+            yield one
+            nothing = False
+        if nothing:
+            yield _unreadable(source, "there is no submission in it")
+
+
+def _source(source: str, known: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
+    if source == STDIN:
+        return _stream(BytesIO() if sys.stdin is None else sys.stdin.buffer, "stdin", known)
+    return _folder(source, known, left_out) if os.path.isdir(source) else _file(source, known)
+
+
+def _folder(folder: str, known: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
+    """All files below a folder, sorted by their names; links are not followed."""
+    try:
+        with os.scandir(folder) as found:
+            entries = sorted((entry.name, entry.is_dir(follow_symlinks=False), entry.is_symlink()) for entry in found)
+    except OSError as error:
+        yield _unreadable(folder, reason(error))
+        return
+    for name, is_folder, is_link in entries:
+        path = os.path.join(folder, name)
+        if name.startswith(".") or name.lower() in _LEFT or os.path.realpath(path) in left_out:
+            continue
+        if is_link:
+            yield _unreadable(path, "it is a link, which is not followed")
+        elif is_folder:
+            yield from _folder(path, known, left_out)
+        else:
+            yield from _file(path, known, within=True)
+
+
+def _file(path: str, known: Columns, within: bool = False) -> Iterator[Handed]:
+    suffix = os.path.splitext(path)[1].lower()
+    try:
+        if within and (not stat.S_ISREG(os.stat(path).st_mode) or suffix not in (*DOCUMENTS, *LINES, *TABLES)):
+            yield _unreadable(path, f"it is no submission: {', '.join((*DOCUMENTS, *LINES, *TABLES))} are read")
+            return
+        with open(path, "rb") as file:
+            yield from _stream(file, path, known)
+    except (OSError, ValueError) as error:
+        yield _unreadable(path, f"it cannot be read: {reason(error)}")
+
+
+def _stream(stream: BinaryIO, file: str, known: Columns) -> Iterator[Handed]:
+    """The submissions of an open file: its suffix tells what it is, else its first line."""
+    suffix, shown = os.path.splitext(file)[1].lower(), clean(file)
+    first = stream.readline(MOST_BYTES + 1) if suffix not in DOCUMENTS else b""
+    if suffix in TABLES or (suffix not in (*DOCUMENTS, *LINES) and _is_header(first)):
+        yield from _table(_text(first, stream), shown, known)
+    elif suffix in LINES or (suffix not in DOCUMENTS and _is_line(first)):
+        yield from _lines(first, stream, shown)
+    else:
+        data = first + stream.read(MOST_BYTES + 1 - len(first))
+        yield Handed(_stem(shown), Place(shown), data)
+
+
+def _is_header(line: bytes) -> bool:
+    """Does a line begin a table?"""
+    cells = line.decode("utf-8-sig", "replace").lower()
+    for delimiter in DELIMITERS:
+        cells = cells.replace(delimiter, "\n")
+    return "\n" in cells.rstrip("\r\n") and STUDENT in [cell.strip('" \r') for cell in cells.split("\n")]
+
+
+def _is_line(line: bytes) -> bool:
+    """Is a line all of one JSON object?"""
+    text = line.removeprefix(b"\xef\xbb\xbf").strip()
+    return text.startswith(b"{") and text.endswith(b"}")
+
+
+def _lines(first: bytes, stream: BinaryIO, file: str) -> Iterator[Handed]:
+    """A submission a line; blank lines are none."""
+    number, line = 1, first.removeprefix(b"\xef\xbb\xbf")
+    while line:
+        place = Place(file, number)
+        if line.strip():
+            yield Handed(f"{_stem(file)}:{number}", place, line.strip(b"\r\n"))
+        while not line.endswith(b"\n") and (rest := stream.readline(MOST_BYTES)):
+            line = rest
+        line, number = stream.readline(MOST_BYTES + 1), number + 1
+
+
+def _text(first: bytes, stream: BinaryIO) -> Iterator[str]:
+    """The lines of a text in UTF-8, or in UTF-16 where its first bytes say so; each at most so long."""
+    wide = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}.get(first[:2])
+    source = BufferedReader(_Rest(first, stream))
+    text = TextIOWrapper(source, encoding=wide or "utf-8", errors="surrogateescape", newline="")
+    start = True
+    while line := text.readline(MOST_CHARACTERS + 1):
+        yield line.removeprefix("\ufeff") if start else line
+        start = False
+        while not line.endswith(("\n", "\r")) and (line := text.readline(MOST_CHARACTERS)):
+            pass
+
+
+class _Rest(RawIOBase):
+    """A stream again from its beginning, of which the first bytes were read already."""
+
+    def __init__(self, first: bytes, stream: BinaryIO) -> None:
+        self._first = first
+        self._stream = stream
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        """Fill a buffer; 0 at the end."""
+        found = self._first[: len(buffer)] or self._stream.read(len(buffer))
+        self._first = self._first[len(found) :]
+        buffer[: len(found)] = found
+        return len(found)
+
+
+def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
+    try:
+        for row in rows(lines, known):
+            place = Place(file, row.line)
+            if row.error is not None:
+                yield Handed(row.student, place, error=row.error)
+            else:
+                yield Handed(row.student, place, {"student": row.student, "answers": row.answers})
+    except (TableError, UnicodeError) as error:
+        yield Handed(_stem(file), Place(file, 1), error=str(error))
+
+
+def _unreadable(path: str, why: str) -> Handed:
+    return Handed(_stem(clean(path)), Place(clean(path)), error=why)
+
+
+def _stem(file: str) -> str:
+    return os.path.splitext(os.path.basename(os.path.normpath(file)))[0]

@@ -1,0 +1,203 @@
+"""Submissions: what students hand in, as mappings or as JSON or YAML texts.
+
+Nothing here raises for what a student wrote: what cannot be read is a submission that carries its error.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Integral
+from typing import Any
+
+from dofkit.base.documents import Document, read_document
+from dofkit.base.errors import Fault
+from dofkit.homework.judgement import Given
+from dofkit.scene.fields import LARGEST_EXPONENT
+
+#: A longer text of submissions is refused.
+MOST_BYTES = 8_000_000
+#: Lists within lists that are an answer.
+DEEPEST = 10
+#: Stands for what can be no answer, such as a mapping; no question reads it.
+NO_ANSWER = "{…}"
+#: Faults that an error tells.
+MOST_FAULTS = 5
+_SHAPE = "write 'student: NAME' and 'answers: {PROBLEM: {QUESTION: answer}}'"
+_STUDENT = re.compile(
+    r"""(?:^|[{,\s])["']?student["']?\s*:\s*(?:"([^"\n]{1,200})|'([^'\n]{1,200})|([^\s,}'"][^,}\n#]{0,199}))"""
+)
+_SCALAR = re.compile(r"[^,\]}\n\r]*")
+_SURROGATES = re.compile("[\ud800-\udfff]")
+
+
+@dataclass(frozen=True)
+class Place:
+    """A file, and the line in it where something stands, from 1; 0 for all of it."""
+
+    file: str = ""
+    line: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.file}, line {self.line}" if self.line else self.file
+
+    def told(self, fault: Fault) -> str:
+        """A fault within what stands here, with its line in the file."""
+        line = (fault.line or 1) + max(self.line, 1) - 1
+        where = f", line {line}" if self.line or fault.line else ""
+        column = f", column {fault.column}" if fault.column else ""
+        hint = f" ({fault.hint})" if fault.hint else ""
+        place = f"{self.file}{where}{column}".removeprefix(", ")
+        return f"{place}: {fault.message}{hint}" if place else f"{fault.message}{hint}"
+
+
+@dataclass(frozen=True)
+class Submission:
+    """``answers``: by problem, then by question. ``error``: why it could not be read, with its place."""
+
+    student: str
+    answers: Mapping[str, Mapping[str, Given]] = field(default_factory=dict)
+    error: str | None = None
+    place: Place = Place()
+
+
+_NOWHERE = Place()
+
+
+def of_text(data: bytes | str, name: str, place: Place) -> list[Submission]:
+    """The submissions of a JSON or YAML text: one, or a list of them; ``name`` is the student's where it gives none."""
+    if len(data) > MOST_BYTES:
+        return [refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")]
+    document = read_document(data, name)
+    value, faults = _mended(document)
+    if faults:
+        found = _STUDENT.search(document.text[:100_000])
+        student = clean(next(g for g in found.groups() if g is not None).strip()) if found else name
+        told = "; ".join(place.told(_ours(fault)) for fault in faults[:MOST_FAULTS])
+        return [Submission(student, error=told, place=place)]
+    if not isinstance(value, list):
+        return [of_value(value, name, place, document)]
+    if not value:
+        return [refused(name, place, "there is no submission in it", _SHAPE)]
+    return [of_value(one, name, Place(place.file, document.place((i,))[0]), document, i) for i, one in enumerate(value)]
+
+
+def of_value(
+    value: object, name: str, place: Place = _NOWHERE, document: Document | None = None, *path: str | int
+) -> Submission:
+    """The submission of a mapping; ``path``: where in the document it stands."""
+    if not isinstance(value, Mapping):
+        return refused(name, place, "a submission is a mapping with 'student' and 'answers'", _SHAPE)
+
+    def bad(message: str, *where: str | int, key: bool = False) -> Submission:
+        fault = Fault(message)
+        if document is not None:
+            line, column = document.place((*path, *where), key=key)
+            fault = Fault(message, line=line - (place.line - 1 if path else 0), column=column)
+        return Submission(student, error=place.told(fault), place=place)
+
+    student = _student(value.get("student"), name, document, path)
+    if not student or isinstance(value.get("student"), (Mapping, list, tuple, bool)):
+        student = name
+        return bad("'student' is a name or a number", "student")
+    for key in value:
+        if key not in ("student", "answers"):
+            return bad(f"unknown key '{clean(str(key))[:60]}': there are 'student' and 'answers'", key, key=True)
+    answers = {} if "answers" in value and value["answers"] is None else value.get("answers")
+    if not isinstance(answers, Mapping):
+        return bad("'answers' is a mapping of problems to mappings of questions to answers", "answers")
+    found: dict[str, dict[str, Given]] = {}
+    for problem, given in answers.items():
+        if isinstance(given, Mapping):
+            found[clean(str(problem))] = {clean(str(q)): _given(a) for q, a in given.items() if a is not None}
+        elif given is not None:
+            shown = clean(str(problem))[:60]
+            return bad(f"the answers to problem '{shown}' are a mapping of questions to answers", "answers", problem)
+    return Submission(student, found, place=place)
+
+
+def refused(name: str, place: Place, message: str, hint: str | None = None) -> Submission:
+    """A submission that could not be read."""
+    return Submission(name, error=place.told(Fault(message, hint=hint)), place=place)
+
+
+def reason(error: OSError | ValueError) -> str:
+    """Why a file cannot be read."""
+    said = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return said[:1].lower() + said[1:]
+
+
+def clean(text: str) -> str:
+    """A text that can be written as UTF-8: halves of surrogate pairs become U+FFFD."""
+    return text if text.isascii() else _SURROGATES.sub("\ufffd", text)
+
+
+def _given(answer: Any, depth: int = 0) -> Given:
+    """An answer as plain texts and exact numbers."""
+    if isinstance(answer, str):
+        return clean(answer)
+    if isinstance(answer, bool | float):
+        return answer
+    if isinstance(answer, Integral | Decimal | Fraction):
+        return _exact(answer)
+    if isinstance(answer, list | tuple) and depth < DEEPEST:
+        return tuple(_given(part, depth + 1) for part in answer)
+    return NO_ANSWER
+
+
+def _exact(number: Any) -> Given:
+    """A number, or as a text what is none or far too long to be written."""
+    if isinstance(number, Decimal) and (not number.is_finite() or abs(number.adjusted()) > LARGEST_EXPONENT):
+        return str(number)
+    found = Fraction(number)
+    size = max(found.numerator.bit_length(), found.denominator.bit_length())
+    if size > 4 * LARGEST_EXPONENT:
+        return f"1e{size // 4}"
+    return int(found) if isinstance(number, Integral) else found
+
+
+def _student(value: object, name: str, document: Document | None, path: tuple[str | int, ...]) -> str:
+    """The student's name or number; of a number every digit as written, those of 007 too."""
+    if value is None:
+        return name
+    if isinstance(value, str) or document is None:
+        return clean(str(value)).strip()
+    return _source(document, (*path, "student")) or str(value)
+
+
+def _source(document: Document, path: tuple[str | int, ...]) -> str:
+    """An unquoted scalar as it stands in the text."""
+    start, _ = document.places.get(path, (len(document.text), -1))
+    found = _SCALAR.match(document.text, start)
+    return found[0].partition(" #")[0].strip() if found else ""
+
+
+def _mended(document: Document) -> tuple[Any, tuple[Fault, ...]]:
+    """The value, with numbers beyond all bounds as the texts that they are where they stand for answers."""
+    if not document.faults or not isinstance(document.value, Mapping):
+        return document.value, document.faults
+    value, left = document.value, list(document.faults)
+    for problem, question in list(_asked(value.get("answers"))):
+        path = ("answers", problem, question)
+        if path not in document.places:
+            continue
+        at = document.place(path)
+        mine = [fault for fault in left if (fault.line, fault.column) == at]
+        if mine and isinstance(value["answers"][problem][question], int):
+            value["answers"][problem][question] = _source(document, path)
+            left = [fault for fault in left if fault not in mine]
+    return value, tuple(left)
+
+
+def _asked(answers: object) -> Iterator[tuple[str, str]]:
+    for problem, given in answers.items() if isinstance(answers, Mapping) else ():
+        yield from ((problem, question) for question in given if isinstance(given, Mapping))
+
+
+def _ours(fault: Fault) -> Fault:
+    """A fault of a document, its hint meant for submissions."""
+    scenes = fault.hint is not None and ("scene" in fault.hint or "coordinates:" in fault.hint)
+    return replace(fault, hint=_SHAPE) if scenes else fault

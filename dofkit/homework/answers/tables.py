@@ -1,0 +1,185 @@
+"""Tables of answers, as spreadsheets write them: a header ``student,PROBLEM.QUESTION,...``, then a row a student.
+
+Rows are taken one by one. A row that is broken is told with its line, and the rows after it are read all the same.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from io import StringIO
+from itertools import chain, islice
+
+from dofkit.homework.answers.submission import clean
+
+#: What columns may be separated by, the most usual first.
+DELIMITERS = ",;\t|"
+STUDENT = "student"
+#: Lines that one row may run over, and characters that it may hold.
+MOST_LINES, MOST_CHARACTERS = 200, 1_000_000
+csv.field_size_limit(MOST_CHARACTERS)
+
+#: The problem and the question of a column ``PROBLEM.QUESTION``.
+Columns = Mapping[str, tuple[str, str]]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of a table: its answers, or why there are none."""
+
+    student: str
+    line: int
+    answers: Mapping[str, Mapping[str, str]]
+    error: str | None = None
+
+
+class TableError(ValueError):
+    """A row that cannot be taken apart."""
+
+
+@dataclass(frozen=True)
+class Header:
+    """How a table is written: its delimiter, which column names the student, and what the others answer.
+
+    ``fault``: why no row of it can be graded.
+    """
+
+    delimiter: str
+    student: int
+    asked: tuple[tuple[str, str] | None, ...]
+    fault: str | None = None
+
+
+def rows(lines: Iterable[str], known: Columns) -> Iterator[Row]:
+    """The rows of a table, blank ones apart. Raises TableError where it has no header.
+
+    ``lines`` keep their ends; bytes that are no UTF-8 stand in them as lone surrogates. ``known``: the columns of the
+    assignment, which tell where a name with several dots is to be cut.
+    """
+    numbered = _Lines(lines)
+    header = _header(numbered, known)
+    for number, cells, error in _records(numbered, header.delimiter):
+        if error is None and not any(cell.strip() for cell in cells):
+            continue
+        yield _row(header, number, cells, error or header.fault)
+
+
+class _Lines:
+    """Lines with their numbers, of which some can be given back."""
+
+    def __init__(self, lines: Iterable[str]) -> None:
+        self._lines = iter(lines)
+        self.number = 0
+
+    def take(self) -> str | None:
+        """The next line; None at the end."""
+        found = next(self._lines, None)
+        self.number += found is not None
+        return found
+
+    def give_back(self, lines: list[str]) -> None:
+        """Take these lines again."""
+        self._lines = chain(lines, self._lines)
+        self.number -= len(lines)
+
+
+def _records(lines: _Lines, delimiter: str) -> Iterator[tuple[int, list[str], str | None]]:
+    """(line, cells, what is wrong) of every record; of a broken one only its first line is taken."""
+    while (line := lines.take()) is not None:
+        start = lines.number
+        if '"' not in line:
+            yield start, line.rstrip("\r\n").split(delimiter), _too_long(line)
+            continue
+        taken = [line]
+        while True:
+            cells, error = _cells("".join(taken), delimiter)
+            if error != _OPEN or len(taken) == MOST_LINES or (more := lines.take()) is None:
+                break
+            taken.append(more)
+        if error is not None:
+            lines.give_back(taken[1:])
+            cells = line.rstrip("\r\n").replace('"', "").split(delimiter)
+        yield start, cells, error
+
+
+_OPEN = "a quote is never closed"
+
+
+def _cells(text: str, delimiter: str) -> tuple[list[str], str | None]:
+    try:
+        found = list(islice(csv.reader(StringIO(text, newline=""), delimiter=delimiter, strict=True), 2))
+    except csv.Error as error:
+        said = str(error)
+        if "unexpected end" in said:
+            return [], _OPEN
+        return [], "a quote stands inside a cell" if "expected after" in said else said
+    return (found[0] if found else []), _too_long(text)
+
+
+def _too_long(text: str) -> str | None:
+    return f"the row has {len(text)} characters" if len(text) > MOST_CHARACTERS else None
+
+
+def _header(lines: _Lines, known: Columns) -> Header:
+    line = lines.take()
+    delimiter = ""
+    if line is not None and line.strip().lower().startswith("sep=") and len(line.strip()) == 5:
+        delimiter, line = line.strip()[4], lines.take()
+    while line is not None and not line.strip(" \t\r\n,;|"):
+        line = lines.take()
+    if line is None:
+        raise TableError("it is empty")
+    lines.give_back([line])
+    delimiter = delimiter or max(DELIMITERS, key=lambda d: (STUDENT in _names(line, d), line.count(d)))
+    _, cells, error = next(_records(lines, delimiter))
+    names = [cell.strip() for cell in cells]
+    while names and not names[-1]:
+        names.pop()
+    lower = [name.lower() for name in names]
+    if error is not None or STUDENT not in lower:
+        shown = clean(", ".join(names))[:80]
+        raise TableError(error or f"its header has no column '{STUDENT}' but {shown}")
+    return _asked(delimiter, names, lower.index(STUDENT), known, lines.number)
+
+
+def _names(line: str, delimiter: str) -> list[str]:
+    return [cell.strip(' "\r\n').lower() for cell in line.split(delimiter)]
+
+
+def _asked(delimiter: str, names: list[str], student: int, known: Columns, line: int) -> Header:
+    twice = next(
+        (n for i, n in enumerate(names) if n and (n in names[:i] or (i > student and n.lower() == STUDENT))), ""
+    )
+    fault = None
+    if twice:
+        fault = f"the header (line {line}) has the column '{clean(twice)[:60]}' twice"
+    elif "" in names:
+        fault = f"column {names.index('') + 1} of the header (line {line}) has no name"
+    asked = [None if i == student else known.get(name) or _split(name) for i, name in enumerate(names)]
+    return Header(delimiter, student, tuple(asked), fault)
+
+
+def _split(name: str) -> tuple[str, str]:
+    problem, _, question = clean(name).partition(".")
+    return problem.strip(), question.strip()
+
+
+def _row(header: Header, line: int, cells: list[str], error: str | None) -> Row:
+    width = len(header.asked)
+    student = clean(cells[header.student]).strip() if len(cells) > header.student else ""
+    if error is None and (len(cells) < width or any(cell.strip() for cell in cells[width:])):
+        error = f"the row has {len(cells)} cells, the header {width}"
+    if error is None and not student:
+        error = "the row names no student"
+    if error is None and any(map(_undecoded, cells)):
+        error = "the row is not in UTF-8 (save the table as UTF-8)"
+    answers: dict[str, dict[str, str]] = {}
+    for asked, cell in zip(header.asked, cells, strict=False) if error is None else ():
+        if asked is not None and cell.strip():
+            answers.setdefault(asked[0], {})[asked[1]] = cell
+    return Row(student, line, answers, error)
+
+
+def _undecoded(cell: str) -> bool:
+    return not cell.isascii() and clean(cell) != cell

@@ -1,0 +1,188 @@
+"""What the known errors are made of: how many links, curves, walls, drives and the like a scene has."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from typing import Any
+
+import networkx as nx
+
+from dofkit.homework.key.key import Key
+from dofkit.report import ConstraintEntry
+from dofkit.scene.lowering import lower
+from dofkit.system import System
+
+_STRINGS = ("string", "rope", "cable", "cord")
+_PLANE = {1: 1, 2: 3, 3: 6}
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Counts of a scene, each worked out when it is asked for; ``dof`` and ``n`` are known."""
+
+    key: Key
+
+    @cached_property
+    def dof(self) -> int:
+        """f: the dimension of the configuration space."""
+        return self.key.report.dof or 0
+
+    @cached_property
+    def n(self) -> int:
+        """The number of coordinates."""
+        return len(self.key.coordinates)
+
+    @cached_property
+    def d(self) -> int:
+        """The dimension of the world."""
+        return self.key.scene.dimension
+
+    @cached_property
+    def naive(self) -> int:
+        """N d - k with every finite equation that was written."""
+        return self.key.report.count.naive_dof
+
+    @cached_property
+    def particles(self) -> int:
+        return len(self.key.scene.particles)
+
+    @cached_property
+    def bodies(self) -> int:
+        return len(self.key.scene.bodies)
+
+    @cached_property
+    def body_freedom(self) -> int:
+        """d(d+1)/2."""
+        return _PLANE[self.d]
+
+    @cached_property
+    def system(self) -> System:
+        return lower(self.key.scene)
+
+    @cached_property
+    def entries(self) -> list[tuple[Any, ConstraintEntry]]:
+        """Every constraint as written, with what the report says of it."""
+        return list(zip(self.key.scene.constraints, self.key.report.constraints, strict=True))
+
+    @cached_property
+    def forces(self) -> list[str]:
+        """The kinds of the scene's forces."""
+        return [force.type for force in self.key.scene.forces]
+
+    @cached_property
+    def bars(self) -> nx.Graph:
+        """Particles, and the pairs of them that keep their distance."""
+        graph: nx.Graph = nx.Graph()
+        graph.add_nodes_from(p.name for p in self.key.scene.particles)
+        graph.add_edges_from((a, b) for _, a, b in self.system.links)
+        for c, _ in self.entries:
+            if c.kind() == "rigid":
+                graph.add_edges_from(combinations(c.members, 2))
+        return graph
+
+    @cached_property
+    def links(self) -> int:
+        """Bars between particles, those of rigid sets included."""
+        return int(self.bars.number_of_edges())
+
+    @cached_property
+    def rods(self) -> int:
+        """Pairs of particles joined by one bar and by nothing else."""
+        return sum(len(c) == 2 for c in nx.connected_components(self.bars))
+
+    @cached_property
+    def clusters(self) -> int:
+        """Sets of three particles or more of which each keeps its distance from each."""
+        parts = (self.bars.subgraph(c) for c in nx.connected_components(self.bars) if len(c) > 2)
+        return sum(g.number_of_edges() == len(g) * (len(g) - 1) // 2 for g in parts)
+
+    @cached_property
+    def touched(self) -> list[tuple[ConstraintEntry, frozenset[str | None]]]:
+        """Every finite constraint and the particles and bodies whose coordinates it mentions."""
+        owner = {c.name: c.owner for c in self.system.coordinates}
+        found = []
+        for (_, entry), constraint in zip(self.entries, self.system.constraints, strict=True):
+            if entry.form == "finite":
+                symbols = [s for r in constraint.relations for s in r.expr.symbols if s.args[0] == "coordinate"]
+                found.append((entry, frozenset(owner.get(str(s.args[1])) for s in symbols)))
+        return found
+
+    @cached_property
+    def surplus_surfaces(self) -> int:
+        """Surfaces beyond one for each particle that is held on a curve in space."""
+        more = 0
+        alone: dict[str | None, int] = {}
+        for entry, owners in self.touched:
+            if self.d == 3 and len(owners) == 1 and entry.type in ("equation", "on", "link"):
+                (owner,) = owners
+                alone[owner] = alone.get(owner, 0) + entry.equations
+            elif self.d == 3 and entry.type == "on":
+                more += entry.equations - len(owners)
+        names = {p.name for p in self.key.scene.particles}
+        return more + sum(count - 1 for owner, count in alone.items() if count > 1 and owner in names)
+
+    @cached_property
+    def on_curves(self) -> int:
+        """Particles that one curve holds: d - 1 equations for each."""
+        alone: dict[str | None, int] = {}
+        for entry, owners in self.touched:
+            for owner in owners:
+                if len(owners) == 1 or entry.type == "on":
+                    alone[owner] = alone.get(owner, 0) + entry.equations // max(1, len(owners))
+        names = {p.name for p in self.key.scene.particles}
+        return sum(count == self.d - 1 for owner, count in alone.items() if owner in names)
+
+    @cached_property
+    def planes(self) -> int:
+        """Equations of their own that hold one coordinate at a number, z = 0."""
+        found = 0
+        for (_, entry), constraint in zip(self.entries, self.system.constraints, strict=True):
+            for relation in constraint.relations if (entry.type, entry.form) == ("equation", "finite") else ():
+                moving = [s for s in relation.expr.symbols if s.args[0] == "coordinate"]
+                found += len(moving) == 1 and relation.expr.op in ("sym", "add") and not _powers(relation.expr)
+        return found
+
+    @cached_property
+    def walls(self) -> int:
+        """Inequalities."""
+        return sum(sum(r.sense != "=" for r in c.relations) for c in self.system.constraints)
+
+    @cached_property
+    def nonholonomic(self) -> int:
+        """Independent velocity equations that are no consequence of finite relations."""
+        return self.dof - (self.dof if self.key.report.velocity_dof is None else self.key.report.velocity_dof)
+
+    @cached_property
+    def integrable(self) -> int:
+        """Differential equations that integrate."""
+        return sum(e.equations for _, e in self.entries if e.form == "pfaffian" and e.holonomic)
+
+    @cached_property
+    def drives(self) -> int:
+        """Finite constraints that hold the time: prescribed motions."""
+        return sum(e.form == "finite" and e.scleronomic is False for _, e in self.entries)
+
+    @cached_property
+    def strings(self) -> int:
+        """Strings, by type or by name."""
+        return sum(c.kind() == "string" or any(w in e.name.lower() for w in _STRINGS) for c, e in self.entries)
+
+    @cached_property
+    def guides(self) -> int:
+        """Particles and bodies on a straight guide of their own beside which something else moves."""
+        if self.particles + self.bodies < 2 and self.n < 3:
+            return 0
+        named = sum(c.kind() in ("slot", "prismatic") for c, _ in self.entries)
+        return named + sum(len(o) == 1 and e.type in ("equation", "on") for e, o in self.touched)
+
+    @cached_property
+    def joints(self) -> int:
+        """Hinges and sliders."""
+        return sum(c.kind() in ("revolute", "prismatic") for c, _ in self.entries)
+
+
+def _powers(e: Any) -> bool:
+    parts = e.args if e.op == "add" else (e,)
+    return any(p.op in ("pow", "fn") or (p.op == "mul" and any(f.op in ("pow", "fn") for f in p.args)) for p in parts)

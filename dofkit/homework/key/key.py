@@ -1,0 +1,77 @@
+"""The answers of a scene, each worked out when it is first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+from dofkit.base.errors import DofkitError
+from dofkit.classification.passes import classify
+from dofkit.expressions.text import Names
+from dofkit.homework.key.equations_of_motion import Sought, sought_or_why
+from dofkit.report import ConstraintEntry, Report
+from dofkit.scene.scene import Scene
+from dofkit.scene.survey import survey
+
+#: A question about a set of names of a scene, whose report is known.
+Chosen = Callable[[Scene, Sequence[str], Report], bool | None]
+#: Sets of names whose answers are kept.
+MOST_KNOWN = 4096
+
+Convention = Literal["configuration", "velocity"]
+#: Seconds for what dofkit says of an assignment's scene.
+SCENE_SECONDS = 60.0
+
+
+@dataclass(frozen=True)
+class Key:
+    """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means."""
+
+    scene: Scene
+    convention: Convention = "configuration"
+
+    @cached_property
+    def report(self) -> Report:
+        """What dofkit says of the scene."""
+        return classify(self.scene)
+
+    @cached_property
+    def _known(self) -> dict[tuple[Chosen, frozenset[str]], bool | None]:
+        return {}
+
+    def known(self, what: Chosen, names: Iterable[str]) -> bool | None:
+        """``what(scene, names, report)``, worked out once for every set of names, in whatever order they come."""
+        chosen = frozenset(names)
+        if (what, chosen) not in self._known:
+            found = what(self.scene, sorted(chosen), self.report)
+            if len(self._known) == MOST_KNOWN:
+                return found
+            self._known[what, chosen] = found
+        return self._known[what, chosen]
+
+    @cached_property
+    def names(self) -> Names:
+        """What an answer's texts may mention."""
+        return survey(self.scene).world.names
+
+    @cached_property
+    def coordinates(self) -> list[str]:
+        """The scene's configuration coordinates, in order."""
+        return [c.name for c in survey(self.scene).world.table.coordinates]
+
+    @cached_property
+    def motion(self) -> Sought | DofkitError:
+        """What is right of the equations of motion, or why that is not known."""
+        return sought_or_why(self.scene)
+
+    @cached_property
+    def whole_motion(self) -> Sought | DofkitError:
+        """The same with nothing eliminated: every constraint keeps its multiplier."""
+        return sought_or_why(self.scene, whole=True)
+
+    @cached_property
+    def constraints(self) -> dict[str, ConstraintEntry]:
+        """The entries of the report by name."""
+        return {entry.name: entry for entry in self.report.constraints}

@@ -1,0 +1,76 @@
+"""Choices of names: do coordinates fix the configuration, and can constraints be dropped together?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from dofkit.classification.dependence.implication import follows
+from dofkit.classification.freedom.branches import solve
+from dofkit.classification.freedom.preparation import prepared
+from dofkit.classification.freedom.through_reference import all_of
+from dofkit.classification.passes import classify
+from dofkit.relations.normal.normal_form import Finite, Normal
+from dofkit.report import Report
+from dofkit.scene.added_equations import read_equations, with_equations
+from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.lowering import lower
+from dofkit.scene.scene import Scene
+from dofkit.scene.survey import survey
+
+
+def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
+    """Does nothing move when these coordinates are held: is what is finite in the scene, with dq = 0 for them, rigid?
+
+    None where that was not decided. Non-holonomic constraints are left out: they do not fix the configuration.
+    """
+    basis = report.integrable_part.basis if report.integrable_part is not None else []
+    if basis is None:
+        return None
+    held = [Equation(type="equation", name=f"held {name}", text=f"d{name} = 0") for name in names]
+    named = [c.model_copy(update={"name": e.name}) for c, e in zip(scene.constraints, report.constraints, strict=True)]
+    whole = _with(scene, [*named, *held])
+    if basis:
+        whole = with_equations(whole, read_equations(basis, survey(scene).world.names, constants=True), "integral")
+    system = lower(whole)
+    reduced, setting = prepared(system)
+    own = {e.name for e in report.constraints}
+    finite = [replace(r, normals=_finite(r.normals)) if r.constraint.name in own else r for r in reduced]
+    found = solve(system, finite, setting)
+    return None if found.dof is None else found.dof == 0
+
+
+def _finite(normals: Sequence[Normal]) -> tuple[Normal, ...]:
+    """The relations that hold no velocities."""
+    return tuple(n for n in normals if all(isinstance(p, Finite) for p in n.pieces))
+
+
+def can_be_dropped(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
+    """Is the set of motions the same without the constraints of these names?
+
+    They follow from the others, or, near a drawn or generic pose, all is finite and as free there without them.
+    """
+    system = lower(scene)
+    reduced, setting = prepared(system)
+    dropped = [r for r in reduced if r.constraint.name in set(names)]
+    kept = [n for r in reduced if r not in dropped for n in r.normals]
+    if any(r.inequalities for r in dropped):
+        return False
+    told = all_of(follows(n, kept, setting) for r in dropped for n in r.normals)
+    if told:
+        return True
+    entries = zip(scene.constraints, report.constraints, strict=True)
+    rest = [c.model_copy(update={"name": e.name}) for c, e in entries if e.name not in names]
+    fewer = classify(_with(scene, rest))
+    freedom = [(r.dof, r.velocity_dof) for r in (report, fewer)]
+    if any(None in pair for pair in freedom):
+        return None
+    if freedom[0] != freedom[1] or fewer.instantaneous_dof != report.instantaneous_dof:
+        return False
+    local = bool(setting.pose or setting.generic) and all(e.form == "finite" for e in report.constraints if e.bilateral)
+    return True if local else told
+
+
+def _with(scene: Scene, constraints: Sequence[object]) -> Scene:
+    """The scene with these constraints instead of its own."""
+    return scene.model_copy(update={"constraints": tuple(constraints), "expect": {}, "energies": None})

@@ -1,0 +1,110 @@
+"""A batch of submissions in a worker: read, graded, and told as lines of JSON."""
+
+from __future__ import annotations
+
+import pickle
+import time
+from collections.abc import Generator, Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from dofkit.base.workers import Json
+from dofkit.base.workers.limits import allow_processor
+from dofkit.homework.answers.sources import Handed
+from dofkit.homework.answers.submission import Submission
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.echo import Echo, echo
+from dofkit.homework.grading import ANSWER_SECONDS, Grader, Spot
+from dofkit.homework.result import Result
+
+#: Seconds after which a worker shows that it lives, where the next answer takes work.
+BEAT = 0.25
+
+
+class Line(NamedTuple):
+    """What is written of a submission: whose it is, whether it could not be graded, and the JSON."""
+
+    student: str
+    failed: bool
+    text: str
+
+    @classmethod
+    def of(cls, result: Result | Echo) -> Line:
+        """The line of a result."""
+        return cls(result.student, result.error is not None, result.model_dump_json())
+
+
+@dataclass(frozen=True)
+class Orders:
+    """How to grade: the pickled assignment, and limits in seconds of processor time.
+
+    ``seconds``: for one answer, which then needs a review; ``hard``: after which its process is ended. ``wall``: the
+    same by the clock. ``check_only``: read the answers and do not grade them.
+    """
+
+    assignment: bytes
+    max_score: float
+    check_only: bool = False
+    seconds: float = ANSWER_SECONDS
+    hard: float = 2 * ANSWER_SECONDS
+    wall: float = 60.0
+
+    @classmethod
+    def of(cls, prepared: Prepared, check_only: bool = False) -> Orders:
+        """Orders to grade an assignment."""
+        points = sum((question.points for _, question in prepared.questions()), Fraction(0))
+        return cls(pickle.dumps(prepared), float(points), check_only)
+
+    def refused(self, student: str, error: str) -> Line:
+        """The line of a submission that could not be graded."""
+        if self.check_only:
+            return Line.of(Echo(student=student, items=[], error=error))
+        return Line.of(Result(student=student, score=None, max_score=self.max_score, items=[], error=error))
+
+
+@dataclass(frozen=True)
+class Task:
+    """Submissions to grade. ``careful``: tell of every answer that it comes next."""
+
+    orders: Orders
+    handed: tuple[Handed, ...]
+    condemned: Mapping[Spot, str] = field(default_factory=dict)
+    careful: bool = False
+
+
+def graded(task: Task) -> Iterator[Json]:
+    """The answers that come next, from time to time; at the end ``{"lines": ...}``, a list for each of ``handed``."""
+    grader = _grader(task.orders)
+    grader.condemned = task.condemned
+    last, lines = time.monotonic(), list[list[Line]]()
+    for one in task.handed:
+        lines.append([])
+        allow_processor(task.orders.hard)
+        for submission in one.submissions():
+            allow_processor(task.orders.hard)
+            steps = _steps(grader, submission, task.orders.check_only)
+            while True:
+                try:
+                    spot = next(steps)
+                except StopIteration as stop:
+                    lines[-1].append(Line.of(stop.value))
+                    break
+                if task.careful or time.monotonic() - last > BEAT:
+                    yield {"next": spot}
+                    allow_processor(task.orders.hard)
+                    last = time.monotonic()
+    yield {"lines": lines}
+
+
+def _steps(grader: Grader, submission: Submission, check_only: bool) -> Generator[Spot, None, Any]:
+    if check_only:
+        return echo(grader.prepared, submission)
+    return (yield from grader.steps(submission))
+
+
+@lru_cache(maxsize=2)
+def _grader(orders: Orders) -> Grader:
+    prepared: Prepared = pickle.loads(orders.assignment)
+    return Grader(prepared, orders.seconds)

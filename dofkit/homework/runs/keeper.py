@@ -1,0 +1,99 @@
+"""Workers that grade, and what becomes of answers that break them: those alone need a review, the rest goes on."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Sequence
+from types import TracebackType
+from typing import NamedTuple
+
+from dofkit.base.workers import MEMORY, Job, Outcome, Pool
+from dofkit.base.workers.crews import StoppedError
+from dofkit.homework.answers.sources import Handed
+from dofkit.homework.grading import Spot
+from dofkit.homework.runs.batch import Line, Orders, Task, graded
+
+#: What a student reads of an answer that broke its worker, by how that ended.
+_ENDED = {
+    "overrun": "working on it took too long or too much memory.",
+    "memory": "working on it took too long or too much memory.",
+    "died": "working on it took too long or too much memory.",
+    "failed": "dofkit failed here.",
+}
+
+
+class Graded(NamedTuple):
+    """The lines of a batch, a list for everything handed in, and how many seconds it took."""
+
+    lines: list[list[Line]]
+    seconds: float
+
+
+class Keeper:
+    """Grades batches, from any thread, each in one of so many killable workers.
+
+    ``memory``: the bytes of address space that each may take.
+    """
+
+    def __init__(self, orders: Orders, workers: int, memory: int = MEMORY) -> None:
+        self.orders = orders
+        self._pool = Pool(workers, memory, modules=("dofkit.homework.runs.batch",))
+        self._condemned: dict[Spot, str] = {}
+        self._lock = threading.Lock()
+        self._stopped = False
+
+    def fork(self) -> None:
+        """Start the workers as copies of this process, where that is safe."""
+        self._pool.fork()
+
+    def graded(self, handed: Sequence[Handed]) -> Graded:
+        """The lines of everything handed in, in order, and the seconds it took. Raises StoppedError."""
+        start = time.monotonic()
+        outcome = self._run(tuple(handed), careful=False)
+        if outcome.finished:
+            lines = [[Line(*line) for line in lines] for lines in outcome.value["lines"]]
+        else:
+            lines = [self._alone(one) for one in handed]
+        return Graded(lines, time.monotonic() - start)
+
+    def _alone(self, one: Handed) -> list[Line]:
+        """One at a time, and telling of every answer before it is judged: so one that breaks the worker is found."""
+        while True:
+            outcome = self._run((one,), careful=True)
+            if outcome.finished:
+                return [Line(*line) for line in outcome.value["lines"][0]]
+            spot = outcome.value["next"] if outcome.value else None
+            with self._lock:
+                if spot is None or spot in self._condemned:
+                    return [self._lost(one, outcome)]
+                self._condemned[spot] = _ENDED[outcome.ended]
+
+    def _lost(self, one: Handed, outcome: Outcome) -> Line:
+        return self.orders.refused(one.name, f"{one.place}: it could not be graded: {_ENDED[outcome.ended]}")
+
+    def _run(self, handed: tuple[Handed, ...], careful: bool) -> Outcome:
+        with self._lock:
+            condemned = dict(self._condemned)
+        if self._stopped:
+            raise StoppedError("grading was stopped")
+        task = Task(self.orders, handed, condemned, careful)
+        outcome = self._pool.run(Job(graded, task, self.orders.wall))
+        if self._stopped:
+            raise StoppedError("grading was stopped")
+        if outcome.ended == "absent":
+            raise StoppedError(outcome.reason)
+        return outcome
+
+    def close(self) -> None:
+        """End all workers, whatever they do."""
+        self._stopped = True
+        self._pool.close()
+
+    def __enter__(self) -> Keeper:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

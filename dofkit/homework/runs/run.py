@@ -1,0 +1,152 @@
+"""``dofkit grade``: from the files that are named to the results, wherever they go."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, closing, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+from dofkit.base.workers.pool import cores
+from dofkit.homework.answers.sources import Handed, handed
+from dofkit.homework.assignment import Prepared, load_assignment
+from dofkit.homework.formats import FORMATS, Format, FormatError
+from dofkit.homework.result import Result
+from dofkit.homework.runs.batch import Line, Orders
+from dofkit.homework.runs.cluster import Cluster
+from dofkit.homework.runs.in_order import Local, Runner, Seen, in_order, once
+from dofkit.homework.runs.journal import Journal, fingerprint, ledger
+from dofkit.homework.runs.keeper import Keeper
+
+NATIVE = "native"
+
+
+@dataclass(frozen=True)
+class Options:
+    """What the command line says besides the files. ``out``: where results go, None for standard output."""
+
+    form: str = NATIVE
+    out: Path | None = None
+    workers: int | None = None
+    scheduler: str | None = None
+    check_only: bool = False
+
+    @property
+    def format(self) -> Format:
+        """The format called so. Raises FormatError."""
+        if self.form not in FORMATS:
+            raise FormatError(f"'{self.form}' is no format: there are {', '.join(FORMATS)}")
+        if self.check_only and self.form != NATIVE:
+            raise FormatError("--check-only tells how answers are read, one JSON object a line, in no other format")
+        if FORMATS[self.form].needs_path and self.out is None:
+            raise FormatError(f"the format {self.form} needs --out PATH")
+        return FORMATS[self.form]
+
+    @property
+    def written(self) -> list[Path]:
+        """The paths that are written to. Raises FormatError."""
+        if self.out is None:
+            return []
+        path = _native(self.format, self.out)
+        return [self.out, path, ledger(path)]
+
+
+def _native(form: Format, out: Path) -> Path:
+    """Where results stand in our own format, before they are written in another."""
+    return out if form.name == NATIVE else out.with_name(out.name + ".results.jsonl")
+
+
+def run(assignment: str, sources: list[str], options: Options) -> bool:
+    """Grade everything, in the order given; was every submission read?
+
+    Raises AssignmentError, FormatError, OSError for what cannot be written, and StoppedError.
+    """
+    form = options.format
+    for path in options.written:
+        if path.resolve() in [Path(given).resolve() for given in (assignment, *sources)]:
+            raise FormatError(f"--out would overwrite {path}, which is read")
+    prepared = load_assignment(assignment)
+    orders = Orders.of(prepared, options.check_only)
+    stream = handed(sources, prepared.columns(), [assignment, *options.written])
+    with _runner(orders, options) as runner, closing(Seen()) as seen:
+        one = _Run(form, prepared, orders, runner, seen)
+        if options.out is None:
+            one.to_stdout(stream)
+        else:
+            one.to_path(stream, options.out)
+        return one.failed == 0
+
+
+@contextmanager
+def _runner(orders: Orders, options: Options) -> Iterator[Runner]:
+    if options.scheduler is not None:
+        with Cluster(options.scheduler, orders) as cluster:
+            yield cluster
+        return
+    workers = options.workers or cores()
+    with Keeper(orders, workers) as keeper:
+        keeper.fork()
+        with Local(keeper, workers) as local:
+            yield local
+
+
+@dataclass
+class _Run:
+    """One run; ``failed`` counts the submissions that could not be graded."""
+
+    form: Format
+    prepared: Prepared
+    orders: Orders
+    runner: Runner
+    seen: Seen
+    failed: int = 0
+
+    def to_stdout(self, stream: Iterator[Handed]) -> None:
+        """Print results as they come."""
+        lines = (line.text for _, found in self._graded(stream, sys.stdout.isatty()) for line in found)
+        if self.form.name != NATIVE:
+            self.form.write(map(Result.model_validate_json, lines), self.prepared, sys.stdout)
+            return
+        utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
+        for text in lines:
+            print(text if utf8 else json.dumps(json.loads(text)), flush=True)
+
+    def to_path(self, stream: Iterator[Handed], out: Path) -> None:
+        """Write to a path what is not there yet; a format other than our own is made of our own at the end."""
+        path = _native(self.form, out)
+        with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only))) as journal:
+            left = journal.taken_over(stream, self.seen)
+            self.failed += journal.failed
+            for one, lines in self._graded(left, False):
+                journal.write(one, lines)
+        if self.form.name != NATIVE:
+            self.form.write(_results(path), self.prepared, out)
+            path.unlink()
+        journal.finish()
+
+    def _graded(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[Line]]]:
+        """Everything with its results, counted, and shown on a terminal how far it is."""
+        with _bar(quiet) as bar:
+            task = bar.add_task("graded", total=None)
+            for one, lines in once(self.orders, in_order(self.runner, stream), self.seen):
+                self.failed += sum(line.failed for line in lines)
+                yield one, lines
+                bar.update(task, advance=len(lines))
+
+
+def _bar(quiet: bool) -> AbstractContextManager[Progress]:
+    """A progress bar on standard error, where that is a terminal and nothing else is printed to it."""
+    console = Console(stderr=True)
+    shown = console.is_terminal and not console.is_jupyter and not quiet
+    columns = (SpinnerColumn(), BarColumn(), TextColumn("{task.completed:.0f} graded"), TimeElapsedColumn())
+    return Progress(*columns, console=console, transient=True, disable=not shown)
+
+
+def _results(path: Path) -> Iterator[Result]:
+    with path.open(encoding="utf-8", newline="\n") as lines:
+        yield from map(Result.model_validate_json, lines)

@@ -1,0 +1,1 @@
+"""Codistributions: the Lie algebra of admissible velocities, the derived flag, hidden relations, integrals."""

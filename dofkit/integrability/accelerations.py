@@ -1,0 +1,144 @@
+"""Second derivatives in a constraint: integrated once where that is possible.
+
+E = sum a_i(q, qdot, t) qddot_i + b(q, qdot, t) = 0 is integrable once where mu E = dF/dt along every motion for some
+F(q, qdot, t): a_i mu = dF/dqdot_i, and b mu = sum dF/dq_i qdot_i + dF/dt. The constraint then reads F = C,
+with a constant C that the initial state sets. What is found is proved: dF/dt - mu E is 0 in the canonical ring.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import chain
+from itertools import product as cartesian
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.base.errors import TextError
+from dofkit.exact.ring.canonical import TooLargeError
+from dofkit.exact.zero.identity import certainly_nonzero, told_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.differentials import NOT_LINEAR, SOLVE_FOR_IT, accelerations_of, in_velocities
+from dofkit.expressions.text import to_text
+from dofkit.expressions.text.derivatives import by_time
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.integrals.algebra import Algebra, GivenUpError
+from dofkit.integrability.integrals.potential import potential
+from dofkit.relations.normal.normal_form import Normal, Piece, linear_form, normalise
+from dofkit.relations.normal.zero_set import zero_set
+
+#: Factors mu that are tried.
+MAX_FACTORS = 24
+
+NOT_INTEGRABLE = "the second derivatives are not the rate of any function of positions, velocities and time"
+WHAT_TO_DO = "integrate it by hand and write the result, or put it into the equations of motion"
+
+
+@dataclass(frozen=True)
+class Once:
+    """dF/dt = ``factor`` times what was integrated; F is ``integral``."""
+
+    integral: Expr
+    factor: Expr
+
+
+def second_order(e: Expr, positive: frozenset[Expr], fresh: Iterator[str]) -> Normal:
+    """What ``e = 0`` says, its second derivatives integrated once; ``fresh`` names the constants.
+
+    A constant is a coordinate of its own that does not move, so that what the other constraints say of it is seen.
+    Raises TextError where a second derivative cannot be integrated.
+    """
+    rates, _ = in_velocities(e)
+    moving = frozenset(s for s in rates.symbols if s.args[0] != "parameter")
+    branches, notes = zero_set(rates, positive, moving)
+    found: list[tuple[Piece, ...]] = []
+    said, constants, told = list(notes), list[str](), list[str]()
+    for branch in branches:
+        parts = []
+        for g in branch:
+            if accelerations_of(g):
+                once, constant = integrated_once(g, positive), next(fresh)
+                constants.append(constant)
+                told.append(_told(once, constant))
+                g = once.integral - ex.coordinate(constant)
+            normal = normalise(g, positive, True)
+            said += normal.notes
+            parts.append(normal.branches)
+        found += [tuple(p for part in choice for p in part) for choice in cartesian(*parts)]
+    special = [f"{c} = 0 is a special case: time may then not enter, and labels can be others" for c in constants]
+    return Normal(tuple(found), tuple(dict.fromkeys((*told, *special, *said))), tuple(constants), "; ".join(told))
+
+
+def _told(once: Once, constant: str) -> str:
+    times = "" if once.factor == ex.ONE else f", after multiplying by {to_text(once.factor)}"
+    return f"integrated once{times}: {to_text(once.integral)} = {constant}; the constant is set by the initial state"
+
+
+def integrated_once(e: Expr, positive: frozenset[Expr]) -> Once:
+    """F and mu with dF/dt = mu E, proved. Raises TextError where none was found, with what stands in the way."""
+    slopes = {ex.velocity(str(s.args[1])): ex.diff(e, s) for s in accelerations_of(e)}
+    if any(accelerations_of(slope) for slope in slopes.values()):
+        raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)
+    rest = ex.substitute(e, dict.fromkeys(accelerations_of(e), ex.ZERO))
+    work = Algebra(positive)
+    try:
+        for factor in _factors(slopes):
+            found = _with_factor(work, factor, slopes, rest)
+            if found is not None and _sound(found, factor) and _proved(e, Once(found, factor), positive):
+                return Once(found, factor)
+    except (GivenUpError, TooLargeError, DomainError, RecursionError, ArithmeticError):
+        pass
+    raise TextError(NOT_INTEGRABLE, hint=WHAT_TO_DO)
+
+
+def _factors(slopes: Mapping[Expr, Expr]) -> Iterator[Expr]:
+    """1; then one over a coefficient, over products of two coordinates or velocities, and over their squares."""
+    symbols = chain.from_iterable(a.symbols | {v} for v, a in slopes.items())
+    moving = sorted({s for s in symbols if s.args[0] in ("coordinate", "velocity")}, key=repr)
+    products = [a * b for i, a in enumerate(moving) for b in moving[i:]]
+    proposed = [ex.ONE, *(1 / a for a in slopes.values()), *(1 / s for s in moving), *(1 / p for p in products)]
+    yield from dict.fromkeys(proposed[:MAX_FACTORS])
+
+
+def _with_factor(work: Algebra, factor: Expr, slopes: Mapping[Expr, Expr], rest: Expr) -> Expr | None:
+    """F, by the velocities first, then by coordinates and time; None where mu E is seen to be no rate."""
+    form = {v: work.tidy(factor * a) for v, a in slopes.items()}
+    mentioned = {s for a in form.values() for s in a.symbols if s.args[0] == "velocity"} - set(form)
+    whole = form | dict.fromkeys(sorted(mentioned, key=repr), ex.ZERO)
+    if not work.closed(whole):
+        return None
+    kinetic = potential(work, whole)
+    rate = None if kinetic is None else by_time(kinetic)
+    if kinetic is None or rate is None:
+        return None
+    carried = ex.substitute(rate, dict.fromkeys(accelerations_of(rate), ex.ZERO))
+    left = work.tidy(factor * rest - carried)
+    if left.is_zero:
+        return kinetic
+    linear = linear_form(left)
+    if linear is None:
+        return None
+    place = {ex.coordinate(name): a for name, a in linear.coefficients.items()} | {ex.TIME: linear.dt}
+    others = {s for a in place.values() for s in a.symbols if s.args[0] == "coordinate"} - set(place)
+    place |= dict.fromkeys(sorted(others, key=repr), ex.ZERO)
+    static = potential(work, place) if work.closed(place) else None
+    return None if static is None else kinetic + static
+
+
+def _sound(integral: Expr, factor: Expr) -> bool:
+    """A factor in velocities may not bring logarithms and roots: they know one sign of the velocities only."""
+    if not any(s.args[0] == "velocity" for s in factor.symbols):
+        return True
+    return all(n.op not in ("fn", "call") and (n.op != "pow" or _whole(n.args[1])) for n in ex.nodes(integral))
+
+
+def _whole(exponent: Expr) -> bool:
+    return exponent.op == "num" and bool(exponent.args[0].denominator == 1)
+
+
+def _proved(e: Expr, once: Once, positive: frozenset[Expr]) -> bool:
+    """dF/dt = mu E identically, and mu is not 0."""
+    rate = by_time(once.integral)
+    if rate is None or told_zero(rate - once.factor * e, positive) != (True, "proved"):
+        return False
+    return once.factor.op == "num" or certainly_nonzero(once.factor, positive)

@@ -1,0 +1,304 @@
+"""The growth vector of D = ker I: dimensions of D_1 = D and D_k+1 = D_k + [D, D_k] at a generic point.
+
+Along a curve of X the brackets ad_X^j B, j < k, span a subspace S_k of D_k. It is all of D_k where one more derivative,
+across the curve, finds nothing new: if D_j = S_j for j <= k near the point, then D_k+1 = S_k + [D, ad_X^(k-1) B], for
+the brackets with ad_X^j B, j < k - 1, lie in D_k already; so S_k+1 = D_k+1 if and only if [b, ad_X^(k-1) B] lies in
+S_k+1 for a random b in D. The derivative across is the curve's variation, to first order in a dual number.
+Where one curve is not enough, S_k is what several span together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from dofkit.exact.points.frames import Frame, Rows, rank_over
+from dofkit.exact.points.series import Series, SeriesPoint
+from dofkit.exact.ring.program import gradient, partials, values
+from dofkit.exact.ring.ring import Scalar, Var
+from dofkit.integrability.lie_algebra import Flow, Matrix, MatrixSeries, Span, columns_of, convolved, picked, scaled
+
+#: Curves tried before the flag is left open.
+MAX_CURVES = 24
+
+
+class Dual:
+    """f + e g with e^2 = 0, f and g series along the curve; ``du`` None stands for 0."""
+
+    __slots__ = ("du", "re")
+
+    def __init__(self, re: Series, du: Series | None) -> None:
+        self.re = re
+        self.du = du
+
+    def __add__(self, other: Any) -> Dual:
+        if not isinstance(other, Dual):
+            return Dual(self.re + other, self.du)
+        if self.du is None or other.du is None:
+            return Dual(self.re + other.re, self.du or other.du)
+        return Dual(self.re + other.re, self.du + other.du)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Dual:
+        return Dual(-self.re, None if self.du is None else -self.du)
+
+    def __sub__(self, other: Any) -> Dual:
+        return self.__add__(-other)
+
+    def __mul__(self, other: Any) -> Dual:
+        if not isinstance(other, Dual):
+            return Dual(self.re * other, None if self.du is None else self.du * other)
+        left = None if self.du is None else self.du * other.re
+        right = None if other.du is None else self.re * other.du
+        return Dual(self.re * other.re, left if right is None else right if left is None else left + right)
+
+    __rmul__ = __mul__
+
+    def __pow__(self, n: int) -> Dual:
+        total: Dual = self
+        for _ in range(n - 1):
+            total = total * self
+        return total
+
+    def inverse(self) -> Dual:
+        """1/(f + e g) = 1/f - e g/f^2."""
+        below = self.re.inverse()
+        return Dual(below, None if self.du is None else -(self.du * below * below))
+
+    def __truediv__(self, other: Any) -> Dual:
+        return self * other.inverse() if isinstance(other, Dual) else Dual(self.re / other, self.du and self.du / other)
+
+    def __rtruediv__(self, other: Any) -> Dual:
+        below: Dual = self.inverse()
+        return below.__mul__(other)
+
+
+@dataclass(frozen=True)
+class DualPoint:
+    """Symbols with their variation; every other generator's variation follows by the chain rule."""
+
+    point: SeriesPoint
+    flow: Flow
+    symbols: Mapping[int, Series]
+
+    def number(self, value: Any) -> Dual:
+        return Dual(self.point.number(value), None)
+
+    def generator(self, var: Var, args: Sequence[Dual]) -> Dual:
+        if var.kind == "symbol":
+            return Dual(self.point.generator(var, ()), self.symbols.get(var.index))
+        plain = [a.re for a in args]
+        at = self.flow.at
+        known = at[self.flow.rows.ring.var_node[var.index]] if var.index >= 0 else self.point.generator(var, plain)
+        total: Series | None = None
+        for (_, slope), argument in zip(self._slopes(var, plain), args, strict=False):
+            if argument.du is not None:
+                term = argument.du * slope
+                total = term if total is None else total + term
+        return Dual(known, total)
+
+    def _slopes(self, var: Var, plain: Sequence[Series]) -> list[tuple[int, Series]]:
+        if var.index >= 0:
+            return partials(self.flow.rows.ring, var, self.flow.at, self.point)
+        name, orders, key = var.key
+        found = []
+        for i in range(len(plain)):
+            raised = tuple(o + (i == j) for j, o in enumerate(orders))
+            found.append((i, self.point.generator(Var(-1, "call", (name, raised, key), var.args), plain)))
+        return found
+
+
+@dataclass(frozen=True)
+class Variation:
+    """What changes across the curve, for a random field b = sum beta_l B_l with constant beta.
+
+    ``coefficients[k]`` is (b . grad) V_k at the point, a matrix (columns, fields); ``slope`` is grad b there.
+    """
+
+    coefficients: MatrixSeries
+    slope: Matrix
+
+    def bracket(self, flow: Flow, k: int) -> Matrix:
+        """[b, V_k] at the point: (b . grad) V_k - (grad b) V_k."""
+        return self.coefficients[k] - self.slope * flow.pulled[k]
+
+
+def vary(flow: Flow) -> Variation:
+    """The variation in a random direction of D."""
+    start = flow.full_frame[0] * random_column(flow, len(flow.frame.free))
+    return Variation(varied(flow, start), _slope(flow, start))
+
+
+def random_column(flow: Flow, size: int) -> Matrix:
+    """Random numbers, one below the other."""
+    return flow.numbers.matrix(size, 1, [flow.base.number(flow.base.rng.randrange(1, 1 << 12)) for _ in range(size)])
+
+
+def varied(flow: Flow, start: Matrix) -> MatrixSeries:
+    """(start . grad) V_k at the point: the curve's start moved to first order, the controls kept."""
+    numbers, order = flow.numbers, flow.order
+    moved = _moved(flow, start)
+    series = [Series(numbers.polynomial([m[i, 0] for m in moved]), order) for i in range(len(flow.path))]
+    point = DualPoint(flow.point, flow, {c: series[i] for i, c in enumerate(flow.rows.columns) if c >= 0})
+    at = values(flow.rows.ring, point)
+    return _varied(flow, at, point, series)
+
+
+def _moved(flow: Flow, start: Matrix) -> MatrixSeries:
+    """The variation of the path: eta' = S eta."""
+    moved = [start]
+    for k in range(flow.order):
+        moved.append(scaled(convolved(flow.full_slope, moved, k), 1 / flow.base.number(k + 1)))
+    return moved
+
+
+def _varied(flow: Flow, at: list[Any], point: DualPoint, moved: list[Series]) -> MatrixSeries:
+    n, order, frame = len(flow.path), flow.order, flow.frame
+    ring = flow.rows.ring
+    velocity = [Dual(v, m.derivative()) for v, m in zip(flow.velocities(), moved, strict=True)]
+    slopes = [gradient(ring, at, point, [(node, velocity[c]) for c, node in row.items()]) for row in flow.kept]
+    first = flow.by_coefficient(
+        [[g[c].du if c >= 0 and c in g else None for c in flow.rows.columns] for g in slopes], n
+    )
+    rows = flow.by_coefficient([[at[row[c]].du if c in row else None for c in range(n)] for row in flow.kept], n)
+    own = [picked(m, frame.dependent, flow.numbers) for m in rows]
+    bent = flow.lifted(lambda k: -(first[k] + convolved(own, flow.slope, k)), order)
+    turned = flow.lifted(lambda k: -convolved(rows, flow.full_frame, k), order)
+    full_bent, full_turned = [flow.full(m, None) for m in bent], [flow.full(m, None) for m in turned]
+    back = [scaled(flow.back[0], flow.sample * 0)]
+    for k in range(order - 1):
+        total = convolved(back, flow.full_slope, k) + convolved(flow.back, full_bent, k)
+        back.append(scaled(total, -1 / flow.base.number(k + 1)))
+    return [convolved(back, flow.full_frame, k) + convolved(flow.back, full_turned, k) for k in range(order)]
+
+
+def _slope(flow: Flow, direction: Matrix) -> Matrix:
+    """grad b at the point, for the field b = sum beta_l B_l with constant beta: A_d grad b_d = -grad(A b)."""
+    rows, base = flow.rows, flow.base
+    at = values(rows.ring, base)
+    found = [gradient(rows.ring, at, base, [(node, direction[c, 0]) for c, node in row.items()]) for row in flow.kept]
+    zero, n = flow.sample * 0, len(flow.path)
+    right = flow.numbers.matrix(
+        len(found), n, [g.get(c, zero) if c >= 0 else zero for g in found for c in rows.columns]
+    )
+    return flow.full(-(flow.inverse * right), None)
+
+
+def growth(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[int, ...] | None:
+    """dim D, dim D + [D, D], ... with D_k+1 = D_k + [D, D_k], at ``base`` over GF(p); None where it is not certain."""
+    free, terminal = len(frame.free), span.dimension
+    if not frame.rows or free == terminal or span.flow is None:
+        return (free,)
+    seen = span.dimensions[: span.dimensions.index(terminal) + 1]
+    largest_second = min(terminal, free + free * (free - 1) // 2)
+    if len(seen) <= 2 or (len(seen) == 3 and seen[1] == largest_second):
+        return seen
+    return spanning_curves(rows, frame, base, span)[1]
+
+
+def spanning_curves(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[list[Flow], tuple[int, ...] | None]:
+    """Curves whose brackets span every D_k together, and the dimensions; None where no number of them was enough."""
+    terminal = span.dimension
+    curves: list[tuple[Flow, Variation]] = []
+    quiet = 0
+    dimensions: tuple[int, ...] = ()
+    for number in range(MAX_CURVES):
+        flow = span.flow if number == 0 and span.flow is not None else Flow(rows, frame, base)
+        flow.follow(span.dimensions.index(terminal) + 2)
+        curves.append((flow, vary(flow)))
+        before, dimensions = dimensions, _dimensions([f for f, _ in curves], terminal)
+        if _complete(curves, dimensions, terminal):
+            return [f for f, _ in curves], dimensions
+        quiet = quiet + 1 if dimensions == before else 0
+        if quiet == 2:
+            break
+    return [f for f, _ in curves], None
+
+
+def _dimensions(flows: Sequence[Flow], terminal: int) -> tuple[int, ...]:
+    """The dimensions of S_1, S_2, ... up to the Lie algebra's own."""
+    vectors: list[tuple[Scalar, ...]] = []
+    found: list[int] = []
+    for k in range(min(f.order for f in flows)):
+        vectors += [v for f in flows for v in columns_of(f.pulled[k])]
+        found.append(rank_over(vectors, flows[0].sample))
+        if found[-1] == terminal:
+            break
+    return tuple(found)
+
+
+def _complete(curves: Sequence[tuple[Flow, Variation]], dimensions: Sequence[int], terminal: int) -> bool:
+    """Does no bracket across the curves leave S_k+1, for every k before the Lie algebra is reached?"""
+    flows = [f for f, _ in curves]
+    vectors = [v for f in flows for v in columns_of(f.pulled[0])]
+    for k in range(1, len(dimensions)):
+        vectors += [v for f in flows for v in columns_of(f.pulled[k])]
+        if dimensions[k] == terminal:
+            return True
+        across = [v for f, w in curves for v in columns_of(w.bracket(f, k - 1))]
+        if rank_over([*vectors, *across], flows[0].sample) > dimensions[k]:
+            return False
+    return dimensions[-1] == terminal
+
+
+def derived_flag(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[int, ...] | None:
+    """The ranks of I, I', I'', ... down to the largest integrable part; None where they are not certain.
+
+    I' holds the forms of I whose differential vanishes modulo I, so it annihilates D + [D, D], and so on with
+    D^(j+1) = D^(j) + [D^(j), D^(j)]: brackets of random fields of D^(j) are added until they add nothing.
+    """
+    n, terminal = len(rows.columns), span.dimension
+    if span.flow is None or not frame.rows or len(frame.free) == terminal:
+        return (n - len(frame.free),)
+    flows, dimensions = spanning_curves(rows, frame, base, span)
+    if dimensions is None:
+        return None
+    found, step = [dimensions[0]], 1
+    while found[-1] < terminal:
+        larger = _derived(flows, dimensions, step)
+        if larger is None:
+            return None
+        found.append(larger)
+        if larger == terminal:
+            break
+        step = dimensions.index(larger) + 1
+    return tuple(n - d for d in found)
+
+
+def _derived(flows: Sequence[Flow], dimensions: Sequence[int], step: int) -> int | None:
+    """dim of S_step + [S_step, S_step]; None where that is none of S_step+1, S_step+2, ..."""
+    if step == 1:
+        return dimensions[1]
+    layers = [[v for f in flows for v in columns_of(f.pulled[k])] for k in range(len(dimensions))]
+    vectors = [v for layer in layers[:step] for v in layer]
+    sample = flows[0].sample
+    vectors += layers[step]
+    larger = rank_over(vectors, sample)
+    while larger < dimensions[-1]:
+        vectors.append(_random_bracket(flows, step))
+        before, larger = larger, rank_over(vectors, sample)
+        if larger == before:
+            break
+    if larger not in dimensions:
+        return None
+    within = [v for layer in layers[: dimensions.index(larger) + 1] for v in layer]
+    return larger if rank_over([*vectors, *within], sample) == larger else None
+
+
+def _random_bracket(flows: Sequence[Flow], step: int) -> tuple[Scalar, ...]:
+    """[Y, Z] at the point for random fields of S_step."""
+    weights = [[[random_column(f, f.pulled[k].ncols()) for k in range(step)] for f in flows] for _ in range(2)]
+    values_at = [_combined([f.pulled for f in flows], w) for w in weights]
+    moved = [_combined([varied(f, values_at[1 - i]) for f in flows], weights[i]) for i in range(2)]
+    return columns_of(moved[1] - moved[0])[0]
+
+
+def _combined(series: Sequence[MatrixSeries], weights: Sequence[Sequence[Matrix]]) -> Matrix:
+    """The sum of the fields with some weights."""
+    total = None
+    for layers, own in zip(series, weights, strict=True):
+        for layer, w in zip(layers, own, strict=False):
+            total = layer * w if total is None else total + layer * w
+    return total

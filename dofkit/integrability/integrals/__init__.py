@@ -1,0 +1,1 @@
+"""Finite relations that Pfaffian forms integrate to, each proved by differentiating."""

@@ -1,0 +1,237 @@
+"""Integrating factors: mu with d(mu omega) = 0.
+
+Every function here proposes; a factor counts only once mu omega is proved to be closed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import combinations
+from typing import Any
+
+from dofkit.exact.ring.canonical import Canon
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.integrals.algebra import Algebra, Poly, Quotient, size, solve
+from dofkit.integrability.integrals.antiderivative import antiderivative
+from dofkit.integrability.integrals.potential import Form
+
+#: Past so many variables only the cheap factors are tried.
+MAX_VARIABLES = 5
+MAX_PROPOSALS = 24
+#: The largest d log mu/dw looked at, in nodes.
+MAX_SIZE = 120
+_W = ex.sym("parameter", "new combination")
+
+
+def exponential(e: Expr) -> Expr:
+    """exp(e), with exp(c log u) = u^c."""
+    parts = []
+    for term in e.args if e.op == "add" else (e,):
+        factors = term.args if term.op == "mul" else (term,)
+        log = next((f for f in factors if f.op == "fn" and f.args[0] == "log"), None)
+        if log is None or any(s.args[0] != "parameter" for f in factors if f is not log for s in f.symbols):
+            parts.append(ex.fn("exp", term))
+        else:
+            parts.append(ex.power(log.args[1], ex.mul(*(f for f in factors if f is not log))))
+    return ex.mul(*parts)
+
+
+def turning(form: Form) -> dict[tuple[Expr, Expr], Expr]:
+    """d(omega) by pairs of variables: d a_j / d x_i - d a_i / d x_j."""
+    return {(s, u): ex.diff(b, s) - ex.diff(a, u) for (s, a), (u, b) in combinations(form.items(), 2)}
+
+
+def simple(work: Algebra, form: Form) -> Iterator[Expr]:
+    """The common divisor of the coefficients; then each coefficient (a cyclic coordinate's, Lie's theorem)."""
+    seen: list[Expr] = []
+    for divisor in (_content(work, form), *form.values()):
+        if not divisor.is_zero and divisor not in seen and divisor.op != "num":
+            seen.append(divisor)
+            yield 1 / divisor
+
+
+def _content(work: Algebra, form: Form) -> Expr:
+    """The common divisor of numerators over that of denominators."""
+    present = [a for a in form.values() if not a.is_zero]
+    found = work.attempt(lambda: _common(work, present))
+    return ex.ONE if found is None else found
+
+
+def _common(work: Algebra, present: list[Expr]) -> Expr:
+    canon, quotients = work.lowered(present)
+    top, bottom = quotients[0]
+    for above, below in quotients[1:]:
+        top, bottom = top.gcd(above), bottom.gcd(below)
+    return canon.to_expr(top) / canon.to_expr(bottom)
+
+
+def symmetric(work: Algebra, form: Form) -> Iterator[Expr]:
+    """1/omega(X) for a scaling or a rotation X: where X is a symmetry of omega, mu omega is closed (Lie)."""
+    variables = [s for s, a in form.items() if not a.is_zero]
+    proposals = [ex.add(*(s * form[s] for s in variables))]
+    for s, u in combinations(variables, 2):
+        proposals += [s * form[s] + k * u * form[u] for k in (1, 2, -1)] + [2 * s * form[s] + u * form[u]]
+        proposals.append(s * form[u] - u * form[s])
+    for proposal in proposals[:MAX_PROPOSALS]:
+        below = work.tidy(proposal)
+        if not below.is_zero and below.op != "num":
+            yield 1 / below
+
+
+# -- factors that depend on one combination of variables -------------------------------------------
+
+
+def combinations_of(form: Form) -> Iterator[tuple[Expr, dict[Expr, Expr]]]:
+    """A combination w of the variables, and a curve on which w is the variable ``_W``."""
+    for s in form:
+        yield s, {s: _W}
+    variables = [s for s, a in form.items() if not a.is_zero]
+    if len(variables) > 2:
+        yield ex.add(*(s * s for s in variables)), dict.fromkeys(variables[1:], ex.ZERO) | {variables[0]: ex.sqrt(_W)}
+        yield ex.add(*variables), dict.fromkeys(variables[1:], ex.ZERO) | {variables[0]: _W}
+    for s, u in combinations(variables, 2):
+        yield s * u, {s: _W, u: ex.ONE}
+        yield s / u, {s: _W, u: ex.ONE}
+        yield s * s + u * u, {s: ex.sqrt(_W), u: ex.ZERO}
+        yield s + u, {s: _W, u: ex.ZERO}
+        yield s - u, {s: _W, u: ex.ZERO}
+        yield s * s - u * u, {s: ex.sqrt(_W), u: ex.ZERO}
+
+
+def of_combination(work: Algebra, form: Form) -> Iterator[Expr]:
+    """mu(w): d log mu = p(w) dw, where p = -d(omega)/(dw ^ omega) has to depend on w alone."""
+    curls = turning(form)
+    for w, curve in combinations_of(form):
+        slope = _slope(work, form, curls, w)
+        if slope is None:
+            continue
+        mu = _integrated(work, slope, w, curve)
+        if mu is not None:
+            yield mu
+
+
+def _slope(work: Algebra, form: Form, curls: dict[tuple[Expr, Expr], Expr], w: Expr) -> Expr | None:
+    """p, from the first pair of variables that tells; None where it is seen not to depend on w alone."""
+    for (s, u), curl in curls.items():
+        wedge = ex.diff(w, s) * form[u] - ex.diff(w, u) * form[s]
+        if wedge.is_zero:
+            if not work.vanishes(curl):
+                return None
+            continue
+        if work.vanishes(wedge):
+            continue
+        slope = work.tidy(-curl / wedge)
+        return slope if size(slope) <= MAX_SIZE and _depends_on(work, slope, w, list(form)) else None
+    return None
+
+
+def _depends_on(work: Algebra, e: Expr, w: Expr, variables: list[Expr]) -> bool:
+    """de ^ dw = 0."""
+    if w.op == "sym":
+        return all(s == w or s not in e.symbols for s in variables)
+    pairs = combinations(variables, 2)
+    return all(work.vanishes(ex.diff(e, s) * ex.diff(w, u) - ex.diff(e, u) * ex.diff(w, s)) for s, u in pairs)
+
+
+def _integrated(work: Algebra, slope: Expr, w: Expr, curve: dict[Expr, Expr]) -> Expr | None:
+    """exp of the antiderivative of p(w), at w."""
+    if slope.is_zero:
+        return None
+    restricted = work.attempt(lambda: work.tidy(ex.substitute(slope, curve)))
+    log = None if restricted is None else antiderivative(work, restricted, _W)
+    return None if log is None else ex.substitute(exponential(log), {_W: w})
+
+
+# -- products of functions of one variable, in two variables ----------------------------------------
+
+
+def separable(work: Algebra, form: Form) -> Iterator[Expr]:
+    """mu = X(x) Y(y) / b for a dx + b dy, both ways.
+
+    With F = a/b: dF/dy + (Y'/Y) F = X'/X. Differentiated by x this gives Y'/Y = -F_xy/F_x.
+    Separable, linear, Bernoulli's equations are of this kind.
+    """
+    if len(form) != 2:
+        return
+    for x, y in (tuple(form), tuple(form)[::-1]):
+        if form[y].is_zero:
+            continue
+        ratio = work.tidy(form[x] / form[y])
+        if size(ratio) > MAX_SIZE:
+            return
+        by_x = work.tidy(ex.diff(ratio, x))
+        if by_x.is_zero:
+            yield 1 / (form[y] * ratio)
+            continue
+        q = work.tidy(-ex.diff(by_x, y) / by_x)
+        p = work.tidy(ex.diff(ratio, y) + q * ratio)
+        if x in q.symbols or y in p.symbols:
+            continue
+        along_x, along_y = antiderivative(work, p, x), antiderivative(work, q, y)
+        if along_x is not None and along_y is not None:
+            yield exponential(along_x) * exponential(along_y) / form[y]
+
+
+# -- products of powers of the factors that occur ---------------------------------------------------
+
+
+def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
+    """mu = prod g_k^c_k over variables, factors of coefficients, exponentials; c_k constants (Darboux)."""
+    logs = _candidates(work, form)
+    if not logs:
+        return
+    found = work.attempt(lambda: _constants(work, form, logs))
+    if found:
+        yield exponential(ex.add(*(c * g for c, g in zip(found, logs, strict=True))))
+
+
+def _candidates(work: Algebra, form: Form) -> list[Expr]:
+    """log of factors, and the exponents x and x^2/2."""
+    bases: dict[Expr, None] = dict.fromkeys(form)
+    for coefficient in form.values():
+        tidy = work.tidy(coefficient)
+        for factor in tidy.args if tidy.op == "mul" else (tidy,):
+            base = factor.args[0] if factor.op == "pow" else factor
+            if any(s in base.symbols for s in form):
+                bases[base] = None
+    variables = list(form)
+    return [ex.fn("log", b) for b in list(bases)[:10]] + variables + [s * s / 2 for s in variables]
+
+
+def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None:
+    """c with sum c_k (dg_k ^ omega) + d(omega) = 0, by comparing coefficients."""
+    rows: list[list[Expr]] = []
+    for (s, u), curl in turning(form).items():
+        wedges = [ex.diff(g, s) * form[u] - ex.diff(g, u) * form[s] for g in logs]
+        rows.append([*wedges, -curl])
+    flat = [e for row in rows for e in row]
+    canon, quotients = work.lowered(flat)
+    fixed = frozenset(i for i, e in enumerate(canon.ring.var_expr) if e.symbols.isdisjoint(form))
+    system: list[list[Quotient]] = []
+    width = len(logs) + 1
+    for start in range(0, len(quotients), width):
+        row = quotients[start : start + width]
+        below = canon.one
+        for _, bottom in row:
+            below = below * (bottom / below.gcd(bottom))
+        system.extend(_compared([canon.reduce(top * (below / bottom)) for top, bottom in row], fixed, canon))
+    found = solve(system, canon.one)
+    return None if found is None else [canon.to_expr(a) / canon.to_expr(b) for a, b in found]
+
+
+def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Quotient]]:
+    """One equation for every monomial in the generators that are not ``fixed``."""
+    count = len(canon.ring.vars)
+    parts: dict[tuple[int, ...], list[dict[tuple[int, ...], Any]]] = {}
+    for column, poly in enumerate(polys):
+        for exponents, coefficient in poly.to_dict().items():
+            inside = tuple(int(k) if count - 1 - i in fixed else 0 for i, k in enumerate(exponents))
+            outside = tuple(int(k) - j for k, j in zip(exponents, inside, strict=True))
+            parts.setdefault(outside, [{} for _ in polys])[column][inside] = coefficient
+    return [[(canon.ctx.from_dict(part), canon.one) for part in row] for row in parts.values()]
+
+
+Proposals = Callable[[Algebra, Form], Iterator[Expr]]
+#: In order of cost.
+FAMILIES: tuple[Proposals, ...] = (simple, of_combination, separable, of_powers, symmetric)

@@ -1,0 +1,202 @@
+"""Relations nonlinear in the velocities that the other constraints reduce to linear ones, or to nothing.
+
+Beside the others such a relation f(q, qdot, t) = 0 reads as a linear form, and may be integrable then; but it follows
+from finite relations only where it holds for all velocities that those leave. With I^(inf) the largest integrable part,
+f is holonomic in the system iff it vanishes on every velocity (dt = 1) in the kernel of I^(inf) at a generic
+configuration, which is the Lie algebra of the admissible velocities (Frobenius, Hermann-Nagano); for a linear f that
+says that its form lies in I^(inf).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from flint import arb
+
+from dofkit.base.deadline import OutOfTimeError
+from dofkit.base.verdicts import weakest
+from dofkit.configuration.states import States, moves, value_at, vanishes
+from dofkit.configuration.variety import Variety, find
+from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.points.balls import BallPoint, OutsideDomainError
+from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import VAR, Ring, Scalar, reachable
+from dofkit.exact.zero.independence import independent_generators
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.differential_blocks import Codistribution, ball_span, codistribution, span_at
+from dofkit.integrability.lie_algebra import Span
+from dofkit.relations.answer import Answer, Label
+from dofkit.relations.beside_others import Slot
+from dofkit.relations.blocks import Block, coordinates_of
+from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+from dofkit.relations.setting import Setting
+
+#: Velocities of the Lie algebra that are tried at a point, and states at which a reduction is checked.
+VECTORS, CHECKED = 3, 2
+
+NOT_EQUIVALENT = (
+    "a velocity was eliminated by dividing by what vanishes where the finite relations hold: "
+    "what is left of a nonlinear constraint was not decided"
+)
+NO_VELOCITY = "no velocities were found to hold it against"
+
+
+def part(slot: Slot, blocks: Sequence[Block]) -> list[int]:
+    """The numbers of the blocks that a reduced relation has to do with."""
+    names = set(coordinates_of(slot.written.piece)).union(*(coordinates_of(r.piece) for r in slot.rows))
+    return [k for k, block in enumerate(blocks) if names & set(block.coordinates)]
+
+
+def _joined(slot: Slot, blocks: Sequence[Block], numbers: Sequence[int]) -> Block:
+    names = dict.fromkeys(c for k in numbers for c in blocks[k].coordinates)
+    names |= dict.fromkeys(sorted(coordinates_of(slot.written.piece)))
+    rows = [r for k in numbers for r in blocks[k].rows]
+    finite = [r for r in rows if isinstance(r.piece, Finite)]
+    return Block(tuple(names), (*finite, *(r for r in rows if not isinstance(r.piece, Finite))))
+
+
+def verified(
+    slots: Sequence[Slot], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
+) -> list[Answer]:
+    """The answers, but undecided where a relation as written does not hold at the states that its reduction leaves."""
+    found = list(answers)
+    for slot in slots:
+        numbers = part(slot, blocks)
+        if any(not found[k].consistent for k in numbers) or _holds(slot, blocks, numbers, found, setting):
+            continue
+        for k in numbers:
+            found[k] = Answer(None, verdict="undecided", reasons=[*found[k].reasons, NOT_EQUIVALENT])
+    return found
+
+
+def _holds(
+    slot: Slot, blocks: Sequence[Block], numbers: Sequence[int], answers: Sequence[Answer], setting: Setting
+) -> bool:
+    joint, f = _joined(slot, blocks, numbers), slot.written.piece
+    if not isinstance(f, Nonlinear):
+        return True
+    hidden = [g for k in numbers for g in answers[k].hidden]
+    try:
+        states = States(joint.coordinates, joint.rows, hidden, setting, [f.expr])
+        node = states.extra[f.expr]
+        seen = [value_at(states.ring, p, node) for k in range(CHECKED) if (p := states.draw(k + 1)) is not None]
+        if not seen or not all(v is not None and vanishes(v) for v in seen):
+            seen = [value_at(states.ring, p, node) for p in states.certain(CHECKED)]
+    except (OutOfTimeError, ArithmeticError, NoPointError):
+        return False
+    return bool(seen) and all(v is not None and vanishes(v) for v in seen)
+
+
+def label(slot: Slot, blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting) -> tuple[Label, Answer]:
+    """Whether a reduced relation is a consequence of finite relations, and the answer of the blocks it touches."""
+    numbers = part(slot, blocks)
+    own = [answers[k] for k in numbers]
+    together = Answer(verdict=weakest(*(a.verdict for a in own)), hidden=[g for a in own for g in a.hidden])
+    f = slot.written.piece
+    curved = all(answers[k].curved for k in numbers if blocks[k].nonlinear)
+    impossible = any(a.consistent is False for a in answers)
+    if not isinstance(f, Nonlinear) or not curved or impossible or any(a.dof is None for a in own):
+        return Label(None, "undecided"), together
+    try:
+        told = _on_the_kernel(f.expr, _joined(slot, blocks, numbers), together.hidden, setting)
+    except (OutOfTimeError, ArithmeticError, NoPointError):
+        return Label(None, "undecided"), together
+    labels = [x for a in own for x in a.labels.values()]
+    if told.holonomic and all(x.holonomic for x in labels):
+        told = replace(told, verdict=weakest(*(x.verdict for x in labels)))
+    elif told.holonomic is False:
+        told = replace(told, reason=_why(slot, blocks, answers))
+    return told, together
+
+
+def _why(slot: Slot, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
+    """Why a relation that reads otherwise beside the others is none of positions."""
+    if not slot.rows:
+        return "It holds because of the other constraints, which are not integrable, and no finite relation gives it"
+    if not any(isinstance(row.piece, (Pfaffian, Nonlinear)) for row in slot.rows):
+        return "Beside the others it says where the system is, but by itself it relates velocities, not positions"
+    rows = {id(row) for row in slot.rows}
+    labels = [
+        a.labels.get(i)
+        for block, a in zip(blocks, answers, strict=True)
+        for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear))
+        if id(row) in rows
+    ]
+    if all(x is not None and x.holonomic for x in labels):
+        return "It is integrable modulo the others, which are not integrable, and no finite relation gives it"
+    return "Beside the others it is linear in the velocities, but not integrable"
+
+
+def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setting) -> Label:
+    """Does f vanish on the kernel of the largest integrable part?"""
+    forms = codistribution(joint, setting, hidden, [f])
+    found = find(forms.chart, setting.pose)
+    ring = forms.chart.ring
+    node = ring.node(f)
+    good = [(p, s) for p in found.samples if (s := span_at(forms, p)) is not None]
+    seen = [v for p, s in good for v in _along(forms, s.span, p, node)]
+    if seen and all(v == 0 for v in seen):
+        return Label(True, "probable")
+    rank = len(good[0][1].frame.rows) if good else None
+    if any(not v.contains(0) for v in _real_values(forms, found, rank, node)):
+        return Label(False, "proved")
+    certain = _rational(ring, node) and independent_generators(ring)
+    if not seen or not certain:
+        return Label(None, "undecided", NO_VELOCITY)
+    return Label(False, "probable" if forms.finite else "proved")
+
+
+def _real_values(forms: Codistribution, found: Variety, rank: int | None, node: int) -> Iterator[arb]:
+    """Values of f at a certified real point."""
+    real = found.real
+    if real is None or not real.certified or not real.consistent:
+        return
+    if rank is None:
+        matrix = forms.rows.matrix(values(forms.chart.ring, real.point), arb(0))
+        rank = ball_part(matrix).rank
+    span = ball_span(forms, rank, real.point)
+    if span is not None:
+        yield from _along(forms, span[0], real.point, node)
+
+
+def _along(forms: Codistribution, span: Span, point: FieldPoint | BallPoint, node: int) -> Iterator[Scalar]:
+    """Values of a node at random velocities of a span, with dt = 1 where time is a column."""
+    symbols, zero = forms.chart.symbols, point.number(ex.ZERO.args[0])
+    for _ in range(VECTORS):
+        weights = [point.number(ex.num(point.rng.randrange(1, 1 << 12)).args[0]) for _ in span.vectors]
+        vector = [sum((w * v[c] for w, v in zip(weights, span.vectors, strict=True)), zero)
+                  for c in range(len(symbols))]  # fmt: skip
+        if symbols[-1] == ex.TIME:
+            if vanishes(vector[-1]):
+                continue
+            vector = [v / vector[-1] for v in vector[:-1]]
+        moved = {ex.velocity(str(s.args[1])): v for s, v in zip(symbols, vector, strict=False)}
+        try:
+            yield values(forms.chart.ring, _moving(forms.chart.ring, point, moved), node + 1)[node]
+        except (ZeroDivisionError, NoPointError, OutsideDomainError):
+            continue
+
+
+def _moving(ring: Ring, point: FieldPoint | BallPoint, moved: dict[Expr, Scalar]) -> FieldPoint | BallPoint:
+    """The same configuration with other velocities."""
+    if isinstance(point, BallPoint):
+        ball = BallPoint({**point.symbols, **moved}, 0)
+        ball.calls = point.calls
+        return ball
+    other = point.copy()
+    for var in ring.vars:
+        if moves(ring, var.index):
+            other.given.pop((var.kind, var.key), None)
+    for s, value in moved.items():
+        other.given["symbol", s] = value
+    return other
+
+
+def _rational(ring: Ring, node: int) -> bool:
+    """Do velocities stand in no root and no function?"""
+    code = ring.code
+    used = {code[i][1] for i in reachable(ring, [node]) if code[i][0] == VAR}
+    return all(ring.vars[i].kind == "symbol" or not moves(ring, i) for i in used)

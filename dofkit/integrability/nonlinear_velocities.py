@@ -1,0 +1,150 @@
+"""Relations nonlinear in the velocities: the velocity freedom, and whether the allowed velocities bend.
+
+At a configuration the allowed velocities are a set C inside the solutions D of the linear relations. What they
+generate by brackets is what the smallest affine space around C generates: where that is all of D, the Lie algebra of D
+tells what integrates, and no relation in use is linear in disguise, because C would then lie in less.
+"""
+
+from __future__ import annotations
+
+from flint import arb
+
+from dofkit.base.verdicts import weakest
+from dofkit.configuration.local.manifold import Manifold
+from dofkit.configuration.states import States
+from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import Frame, certified_rank, kernel
+from dofkit.relations.answer import Answer, Label
+from dofkit.relations.blocks import Block
+from dofkit.relations.setting import Setting
+
+#: Derivatives of curves are taken up to this order.
+MAX_ORDER = 8
+#: Real states that are looked for, until one agrees with that over GF(p).
+SEEDS = 4
+
+NO_VELOCITIES = "no velocities were found that satisfy the constraints"
+SINGULAR = "the velocities that satisfy the constraints are singular"
+PARTS = "real velocities and those over GF(p) disagree about the rank: the set of them has several parts"
+HIDDEN = "the constraints that are nonlinear in the velocities force a relation that could not be written down"
+FLAT = "the velocities that are allowed form flat pieces, which were not written as linear forms"
+
+
+def bend(block: Block, setting: Setting, result: Answer) -> None:
+    """The velocity freedom: a Jacobian's rank by the velocities, at states of motion."""
+    if not block.nonlinear or result.velocity_dof is None:
+        return
+    states = States(block.coordinates, block.rows, result.hidden, setting)
+    point = states.draw(7)
+    if "balls" not in setting.engines:
+        _by_field_alone(states, point, result)
+        return
+    real = _real(states, point, result)
+    sample = point if point is not None else None if real is None or not real.certified else real.point
+    if real is None or sample is None:
+        _undecided(result, NO_VELOCITIES)
+        return
+    if states.kinked:
+        _undecided(result, FLAT)
+        return
+    whole, moving, finite = states.ranks(sample)
+    if not real.certified or not real.consistent:
+        _undecided(result, SINGULAR)
+    elif states.ranks(real.point) != (whole, moving, finite):
+        _undecided(result, PARTS)
+    elif whole - moving != finite:
+        _undecided(result, HIDDEN)
+    elif not _bends(states, real.point):
+        _undecided(result, FLAT)
+    else:
+        result.curved = True
+        result.velocity_dof = len(block.coordinates) - moving
+        full = certified_rank(states.by_velocity(real.point, states.moving)) == len(block.rows)
+        result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
+
+
+def _real(states: States, point: FieldPoint | None, result: Answer) -> RealPoint | None:
+    """A real state, on the same part of the set as the one over GF(p) where one is found.
+
+    Unknown functions may be chosen so that there is one.
+    """
+    calls = any(v.kind == "call" for v in states.ring.vars)
+    ranks = None if point is None else states.ranks(point)
+    best: RealPoint | None = None
+    for seed in range(SEEDS):
+        found = states.real(3 + seed)
+        if found is None and not calls:
+            break
+        if found is not None and (best is None or not best.certified):
+            best = found
+        if found is not None and found.certified and ranks in (None, states.ranks(found.point)):
+            best = found
+            break
+    if calls and best is not None:
+        result.verdict = weakest(result.verdict, "probable")
+        result.reasons.append("for an unknown function that allows real velocities")
+    return best
+
+
+def _undecided(result: Answer, why: str) -> None:
+    """Nothing is known of the freedom; of the constraints, only that real velocities satisfy them where they do."""
+    result.velocity_dof, result.dof, result.verdict = None, None, "undecided"
+    result.consistent = result.consistent if why == FLAT else None
+    result.reasons.append(why)
+    _open_labels(result, why)
+
+
+def _open_labels(result: Answer, why: str) -> None:
+    """Allowed velocities that may lie in less than the linear relations leave may make more integrable, never less."""
+    for i, label in result.labels.items():
+        if label.holonomic is False:
+            result.labels[i] = Label(None, "undecided", why)
+
+
+def _by_field_alone(states: States, point: FieldPoint | None, result: Answer) -> None:
+    """The velocity freedom over the complex numbers; whether the allowed velocities bend is left open."""
+    result.dof = None
+    _open_labels(result, "whether the allowed velocities bend takes real ones")
+    if point is None or not states.independent:
+        result.velocity_dof, result.verdict = None, "undecided"
+        return
+    whole, moving, finite = states.ranks(point)
+    result.velocity_dof = len(states.rates) - moving if whole - moving == finite else None
+    result.verdict = weakest(result.verdict, "probable" if result.velocity_dof is not None else "undecided")
+
+
+def _bends(states: States, point: BallPoint) -> bool:
+    """Does no affine space hold the allowed velocities but the one that the linear relations cut out?
+
+    The derivatives of curves through a velocity lie in the smallest affine space around them; balls prove how many are
+    independent.
+    """
+    try:
+        rows = states.by_velocity(point, states.moving)
+        wanted = len(states.velocities) - certified_rank(rows[: len(states.linear)])
+        return certified_rank(_derivatives(states, rows, point, wanted)) == wanted
+    except (OutsideDomainError, ZeroDivisionError):
+        return False
+
+
+def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted: int) -> list[list[arb]]:
+    """Tangents, and higher derivatives of curves in random directions, at the allowed velocity of a state."""
+    part = ball_part(rows)
+    columns = [-1 if c is None else c for c in states.velocities]
+    frame = Frame(
+        tuple(part.rows), tuple(part.columns), tuple(c for c in range(len(columns)) if c not in set(part.columns))
+    )
+    free, zero = len(frame.free), arb(0)
+    found: list[list[arb]] = kernel(rows, frame, zero)
+    missing = wanted - free
+    if not free or missing <= 0:
+        return found
+    manifold = Manifold(states.ring, states.moving, columns, frame, point)
+    order = min(missing + 2, MAX_ORDER)
+    for _ in range(min(free, missing) + 1):
+        direction = [arb(point.rng.randrange(64, 512)) / 256 for _ in range(free)]
+        path = manifold.line(direction, order).path
+        found += [[s.coefficient(k) for s in path] for k in range(2, order)]
+    return found

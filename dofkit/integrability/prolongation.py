@@ -1,0 +1,86 @@
+"""Hidden finite relations: where dt lies in the span of the rows, motion is confined to a locus.
+
+If lambda A = 0 for the coordinates' columns A and lambda b is not 0 for the time column b, the rows imply
+(lambda b) dt = 0, so motion through an interval of time needs a finite relation that nobody wrote
+(x + y = t with xdot + ydot = z forces z = 1). Prolongation in the sense of Cartan. The locus is where the largest
+minors of [A b] vanish; their common factor is the relation (single minors carry factors of A of their own).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations, islice
+from typing import Any
+
+from flint import arb
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.base.deadline import check
+from dofkit.exact.points.frames import Rows
+from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.minors import determinant, polynomials
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Point, Scalar
+from dofkit.expressions.tree import Expr
+
+#: Choices of columns that are looked at, and minors that are divided out of each other.
+MAX_CHOICES, MAX_MINORS, MAX_SIZE = 400, 12, 8
+
+
+def hidden_relation(rows: Rows, n: int, point: Point) -> tuple[tuple[Expr, ...], ...]:
+    """Ways in which the largest minors with the time column vanish: their common factor does, or all that is left.
+
+    No way where they grow too large.
+
+    ``n`` is the number of coordinate columns; time is column n. Which minors are not 0 is decided at a generic
+    point of the variety.
+    """
+    at = values(rows.ring, point)
+    zero = at[0] * 0
+    numbers = rows.matrix(at, zero)
+    chosen = _independent(numbers, range(n + 1))
+    size = len(chosen)
+    if size > MAX_SIZE:
+        return ()
+    canon = Canon(rows.ring)
+    common: Any = None
+    minors: list[Any] = []
+    try:
+        table = [polynomials(canon, rows.entries[r], n + 1) for r in chosen]
+        for columns in islice(combinations(range(n), size - 1), MAX_CHOICES):
+            check()
+            picked = (*columns, n)
+            if len(_independent([[numbers[r][c] for c in picked] for r in chosen], range(size))) < size:
+                continue
+            minor = determinant(canon, [[row[c] for c in picked] for row in table])
+            common = minor if common is None else common.gcd(minor)
+            minors.append(minor)
+            if len(minors) == MAX_MINORS or minor.is_constant():
+                break
+        if common is None:
+            return ()
+        left = tuple(dict.fromkeys(canon.to_expr(m / common) for m in minors))
+        return ((canon.to_expr(common),), left)
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return ()
+
+
+def _independent(matrix: Sequence[Sequence[Scalar]], columns: Sequence[int] | range) -> list[int]:
+    """The first rows, in order, that are independent on some columns; balls that hold 0 count as 0."""
+    kept: list[tuple[list[Scalar], int]] = []
+    found = []
+    for r, row in enumerate(matrix):
+        rest = [row[c] for c in columns]
+        for pivot_row, pivot in kept:
+            factor = rest[pivot] / pivot_row[pivot]
+            rest = [a - factor * b for a, b in zip(rest, pivot_row, strict=True)]
+        place = next((c for c, v in enumerate(rest) if _nonzero(v)), None)
+        if place is not None:
+            kept.append((rest, place))
+            found.append(r)
+    return found
+
+
+def _nonzero(value: Scalar) -> bool:
+    """Not 0 in GF(p); or a ball that excludes 0."""
+    return not value.contains(0) if isinstance(value, arb) else bool(value != 0)

@@ -1,0 +1,70 @@
+"""Integrability of one form by itself, with a proof in hand: few variables, closed, an identity, an integral."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero.identity import told_zero
+from dofkit.exact.zero.independence import odd_constants
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.integrals.search import integrate
+from dofkit.integrability.traits import exact
+from dofkit.relations.normal.normal_form import Pfaffian
+
+
+@dataclass(frozen=True)
+class Integrability:
+    """``proved``: the form is integrable and why is in ``reason``; ``factor`` and ``integral`` as text where found."""
+
+    proved: bool
+    reason: str = ""
+    factor: str | None = None
+    integral: str | None = None
+
+
+def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None) -> Integrability:
+    """What can be proved of one form that is integrable alone as far as is known (``alone``)."""
+    if alone is False:
+        return Integrability(False)
+    reason = proof(form, positive)
+    plain = not odd_constants(_ring(form, positive))
+    found = integrate(form, positive) if plain and (reason or alone) else None
+    if found is not None:
+        return Integrability(True, "an integral was found and checked", found.factor, found.integral)
+    return Integrability(reason is not None, reason or "")
+
+
+def _ring(form: Pfaffian, positive: frozenset[Expr]) -> Ring:
+    ring = Ring([e for _, e in form.items()], positive)
+    for _, e in form.items():
+        ring.node(e)
+    return ring
+
+
+def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
+    """Why the form integrates by itself, where that is proved; else None."""
+    if exact(form, positive) == (True, "proved"):
+        return "it is closed, so locally the differential of a function"
+    items = list(form.items())
+    symbols = {s for s, _ in items} | {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")}
+    if len(symbols) <= 2:
+        return "a form in two variables always integrates"
+    if len(items) <= 5 and _frobenius(items):
+        return "d(omega) ^ omega = 0 identically"
+    return None
+
+
+def _frobenius(items: list[tuple[Expr, Expr]]) -> bool:
+    """d(omega) ^ omega = 0 for every three variables (Frobenius)."""
+    symbols = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - {s for s, _ in items}
+    everything = [*items, *((s, ex.ZERO) for s in sorted(symbols, key=repr))]
+    for (s, a), (u, b), (w, c) in combinations(everything, 3):
+        total = a * (ex.diff(c, u) - ex.diff(b, w))
+        total += b * (ex.diff(a, w) - ex.diff(c, s))
+        total += c * (ex.diff(b, s) - ex.diff(a, u))
+        if told_zero(total, frozenset()) != (True, "proved"):
+            return False
+    return True

@@ -1,0 +1,158 @@
+"""Labels that one piece carries by itself: scleronomic, catastatic, exact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.base.verdicts import VERDICTS, Verdict, weakest
+from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.points.balls import RealSearch
+from dofkit.exact.points.field import NoPointError
+from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.solving.triangular import Solver
+from dofkit.exact.zero.identity import is_zero, told_zero
+from dofkit.exact.zero.independence import independent_generators
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.normal_form import Finite, Inequality, Pfaffian, Piece, velocities_of
+from dofkit.relations.normal.zero_set import never_vanishes
+
+Told = tuple[bool | None, Verdict]
+
+
+@dataclass(frozen=True)
+class Traits:
+    """The labels of one piece; ``catastatic`` and ``exact`` are None for what is not Pfaffian."""
+
+    scleronomic: Told
+    catastatic: Told | None = None
+    exact: Told | None = None
+
+
+def traits(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
+    """All labels that a piece carries by itself."""
+    still = scleronomic(piece, positive, engines)
+    if not isinstance(piece, Pfaffian):
+        return Traits(still)
+    return Traits(still, catastatic(piece, positive, engines), exact(piece, positive, engines))
+
+
+def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
+    """Time enters neither as t nor as dt, once factors that never vanish are taken out."""
+    if isinstance(piece, Pfaffian):
+        return _pfaffian_without_time(piece, positive, engines)
+    if isinstance(piece, Inequality):
+        return _factors_without_time(piece.expr, positive), "proved"
+    if isinstance(piece, Finite):
+        return _finite_without_time(piece.expr, positive, engines)
+    return ex.TIME not in piece.expr.symbols and _homogeneous(piece.expr), "proved"
+
+
+def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
+    """dg/dt = 0 on g = 0."""
+    if ex.TIME not in g.symbols or _factors_without_time(g, positive):
+        return True, "proved"
+    slope = ex.diff(g, ex.TIME)
+    still, sure = told_zero(slope, positive, engines)
+    if still:
+        return True, sure
+    ring = Ring([g, slope], positive)
+    node, rate = ring.node(g), ring.node(slope)
+    point = Solver(ring, [node]).draw(1) if "field" in engines else None
+    if point is not None:
+        try:
+            if values(ring, point)[rate] == 0:
+                return True, "probable"
+        except (ZeroDivisionError, NoPointError):
+            return None, "undecided"
+    if "balls" not in engines:
+        known = point is not None and independent_generators(ring)
+        return (False, "probable") if known else (None, "undecided")
+    real = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive).search()
+    if real is not None and real.certified and not values(ring, real.point)[rate].contains(0):
+        return False, "proved"
+    if "field" not in engines:
+        return (True, "numeric") if real is not None and real.certified else (None, "undecided")
+    return False, "probable" if point is not None else "undecided"
+
+
+def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
+    """True where time is left in no factor that can vanish (the numerator's, over the rationals)."""
+    if ex.TIME not in e.symbols:
+        return True
+    try:
+        ring = Ring([e], positive)
+        node = ring.node(e)
+        canon = Canon(ring)
+        factors = canon.factors(canon.quotient(node)[0])
+        shown = [canon.to_expr(f) for f, _ in factors]
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return False
+    return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
+
+
+def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> Told:
+    still, sure = told_zero(form.dt, positive, engines)
+    if not still:
+        return still, sure
+    coefficients = list(form.coefficients.values())
+    if all(ex.TIME not in e.symbols for e in coefficients):
+        return True, sure
+    turning = [a * ex.diff(b, ex.TIME) - b * ex.diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
+    told = [told_zero(e, positive, engines) for e in turning]
+    if any(zero is False for zero, _ in told):
+        return False, min((v for zero, v in told if zero is False), key=VERDICTS.index)
+    if not all(zero for zero, _ in told):
+        return None, "undecided"
+    return _common_factor_without_zeros(coefficients, positive), weakest(sure, *(v for _, v in told))
+
+
+def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[Expr]) -> bool:
+    """The direction does not turn: is the factor that carries the time free of zeros?"""
+    try:
+        ring = Ring(coefficients, positive)
+        nodes = [ring.node(e) for e in coefficients]
+        canon = Canon(ring)
+        common = canon.quotient(nodes[0])[0]
+        for node in nodes[1:]:
+            common = common.gcd(canon.quotient(node)[0])
+        shown = [canon.to_expr(f) for f, _ in canon.factors(common)]
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return False
+    return all(ex.TIME not in f.symbols or _of_time_alone(f) or never_vanishes(f, positive) for f in shown)
+
+
+def _of_time_alone(e: Expr) -> bool:
+    """A known function of time: it vanishes at single instants only, and between them the constraint is the same."""
+    return all(s.args[0] in ("time", "parameter") for s in e.symbols) and all(n.op != "call" for n in ex.nodes(e))
+
+
+def _homogeneous(e: Expr) -> bool:
+    """Homogeneous in the velocities (Euler's relation, of a degree up to 6): no dt is hidden in it."""
+    radial = ex.add(*(v * ex.diff(e, v) for v in velocities_of(e)))
+    return any(is_zero(radial - degree * e, frozenset()) for degree in range(7))
+
+
+def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
+    """No dt term."""
+    return told_zero(form.dt, positive, engines)
+
+
+def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
+    """Closed as written: d(omega) = 0 in (q, t). Not integrability: x dy - y dx integrates and is not closed."""
+    items = list(form.items())
+    symbols = dict(items)
+    others = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - set(symbols)
+    everything = [*items, *((s, ex.ZERO) for s in others)]
+    sure: Verdict = "proved"
+    for (s, a), (u, b) in combinations(everything, 2):
+        closed, verdict = told_zero(ex.diff(b, s) - ex.diff(a, u), positive, engines)
+        if not closed:
+            return closed, verdict
+        sure = weakest(sure, verdict)
+    return True, sure

@@ -1,0 +1,1 @@
+"""The command line: files in, lines and an exit status out."""

@@ -1,0 +1,133 @@
+"""The files of the command line, one after another in a worker that is watched: none of them stops those that follow.
+
+Nothing heavy is imported here: the worker does that. Where this process may be forked the worker is a copy of it, so
+that a single scene costs hardly more than without.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+import sys
+from collections.abc import Generator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+from dofkit.base.deadline import DEFAULT_SECONDS, limit
+from dofkit.base.documents.document import MOST_BYTES
+from dofkit.base.workers import Job, Json, Worker
+from dofkit.base.workers.processes import can_fork
+from dofkit.methods.table import MethodName
+
+STDIN = "stdin"
+#: Seconds for what is printed where a scene's own worker was killed.
+TELLING_SECONDS = 10.0
+
+
+@dataclass(frozen=True)
+class Given:
+    """A file as it was named, and how to tell of it.
+
+    ``data``: its bytes where they were read already; ``budget``: seconds for the scene, ``method``: how to answer;
+    ``as_json`` and then ``ascii_only``, or as text for a terminal of a width and a set of colours (None: for ours).
+    """
+
+    file: str
+    budget: float
+    method: MethodName
+    as_json: bool
+    ascii_only: bool = False
+    terminal: tuple[int, str | None] | None = None
+    data: bytes | None = None
+
+    @property
+    def name(self) -> str:
+        """The scene's name where it has none of its own."""
+        stem = os.path.splitext(os.path.basename(os.path.normpath(self.file)))[0]
+        return STDIN if self.file == "-" else stem.encode("utf-8", "replace").decode("utf-8")
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A file whose telling was cut short: what was told last, and why there is no more."""
+
+    given: Given
+    value: Json
+    reason: str
+
+
+class Told(NamedTuple):
+    """What is printed of a file, on standard output and on standard error, and whether it could not be read."""
+
+    out: str
+    err: str
+    failed: bool
+
+
+def told(files: Sequence[str], budget: float | None, method: MethodName, as_json: bool) -> Generator[Told]:
+    """What is printed of each file, in their order."""
+    fork = can_fork()
+    worker = Worker(modules=("dofkit.interface.classify_file",), fork=fork)
+    ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
+    seconds = DEFAULT_SECONDS if budget is None else budget
+    given = Given("", seconds, method, as_json, ascii_only, None if fork or as_json else _terminal())
+    try:
+        for file in files:
+            yield _one(worker, replace(given, file=file, data=_data(file)))
+    finally:
+        worker.kill()
+
+
+def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[Told]:
+    """What is printed of the equations of motion of each file, in their order."""
+    worker = Worker(modules=("dofkit.interface.lagrange_file",), fork=can_fork())
+    ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
+    try:
+        for file in files:
+            given = Given(file, DEFAULT_SECONDS, "auto", as_json, ascii_only, data=_data(file))
+            outcome = worker.run(Job("dofkit.interface.lagrange_file:told", (given, linearize), limit(given.budget)))
+            yield Told(**outcome.value) if outcome.finished else _plain(given, outcome.reason)
+    finally:
+        worker.kill()
+
+
+def _one(worker: Worker, given: Given) -> Told:
+    reading = limit(max(given.budget, DEFAULT_SECONDS))
+    outcome = worker.run(Job("dofkit.interface.classify_file:told", given, limit(given.budget), reading))
+    if not outcome.finished:
+        cut = Cut(given, outcome.value, outcome.reason)
+        outcome = worker.run(Job("dofkit.interface.classify_file:cut_short", cut, TELLING_SECONDS))
+        if not outcome.finished:
+            return _plain(given, cut.reason)
+    return Told(**outcome.value)
+
+
+def _plain(given: Given, reason: str) -> Told:
+    """Where not even a worker can tell."""
+    message = f"it could not be looked at: {reason}"
+    if not given.as_json:
+        return Told("", f"{given.name}: error: {message}\n", True)
+    error: dict[str, Any] = {"message": message, "line": None, "column": None, "hint": None, "faults": []}
+    return Told(json.dumps({"scene": given.name, "error": error}) + "\n", "", True)
+
+
+def _data(file: str) -> bytes | None:
+    """The bytes of standard input, or of a pipe: they may be long in coming, so that no clock runs for them."""
+    if file == "-":
+        return b"" if sys.stdin is None else sys.stdin.buffer.read(MOST_BYTES + 1)
+    try:
+        mode = os.stat(file).st_mode
+        if stat.S_ISREG(mode) or stat.S_ISDIR(mode):
+            return None
+        with open(file, "rb") as source:
+            return source.read(MOST_BYTES + 1)
+    except (OSError, ValueError):
+        return None
+
+
+def _terminal() -> tuple[int, str | None]:
+    from rich.console import Console
+
+    console = Console()
+    return console.width, console.color_system

@@ -1,0 +1,197 @@
+"""One question about a scene, answered by no more work than it needs: no special cases, circuits, integrals or growth.
+
+What is answered is what `classify` says too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from flint import ctx
+
+from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
+from dofkit.base.verdicts import Verdict, weakest
+from dofkit.classification.dependence.circuits import Rows, analyse
+from dofkit.classification.dependence.equivalence import Sameness, compare
+from dofkit.classification.dependence.redundancy import all_needed, redundancies
+from dofkit.classification.freedom.branches import Outcome, solve
+from dofkit.classification.freedom.preparation import prepared
+from dofkit.classification.labels.companions import Companionship
+from dofkit.classification.labels.entries import entries_of, labels_in_system
+from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.points.balls import precision
+from dofkit.expressions import tree as ex
+from dofkit.methods.table import Question
+from dofkit.mobility.frameworks import left_out
+from dofkit.mobility.graph.answers import linkage
+from dofkit.mobility.rank_at_drawing import drawn_rank
+from dofkit.relations.normal.domain import Condition
+from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.scene.added_equations import read_equations, with_equations
+from dofkit.scene.lowering import lower
+from dofkit.scene.scene import Scene
+from dofkit.scene.survey import survey
+from dofkit.system import System
+
+CONTRADICTORY = -1
+#: What the equations of an answer are called in the scene that holds them.
+ANSWER = "the answer"
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What is answered to a question, how sure, and where it is None why.
+
+    ``value``: of ``dof`` a number (-1: the constraints contradict each other), of ``integrability`` whether each
+    constraint is holonomic in the system (None: undecided), by name; of ``redundancy`` the names of what can be
+    dropped together, in the scene's order; of ``equivalence`` whether the answer says the same.
+    """
+
+    value: Any | None
+    verdict: Verdict
+    reason: str = ""
+
+
+def ask(
+    scene: Scene | System, question: Question, answer: Mapping[str, str] | None = None, budget: float | None = None
+) -> Reply:
+    """Answer one question about a scene.
+
+    ``answer``, for ``equivalence`` (of a Scene): ``{"constraint": NAME, "text": TEXT}``; does the text say the same as
+    that constraint, in the presence of the others? ``budget``: seconds, after which no new part of the work is begun.
+    Raises `SceneError` and `TextError` where something cannot be read.
+
+    >>> import dofkit
+    >>> ask(dofkit.load({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}), "dof").value
+    1
+    """
+    return asked(scene, question, answer, budget)
+
+
+def asked(
+    scene: Scene | System,
+    question: Question,
+    answer: Mapping[str, str] | None = None,
+    budget: float | None = None,
+    engines: Engines = BOTH,
+) -> Reply:
+    """`ask` by some engines only."""
+    try:
+        with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(precision()):
+            if question == "equivalence":
+                if not isinstance(scene, Scene) or answer is None:
+                    raise ValueError("equivalence is asked of a scene and an answer")
+                return _equivalence(scene, answer, engines)
+            system = scene if isinstance(scene, System) else lower(scene)
+            if engines == BOTH and question in ("dof", "redundancy"):
+                found = _by_graph(system, question) or _by_drawing(system, question)
+                if found is not None:
+                    return found
+            reduced, setting = prepared(system)
+            if question == "integrability" and all(map(_is_finite, reduced)):
+                return Reply({r.constraint.name: True for r in reduced}, "proved")
+            setting = replace(setting, grows=False, engines=engines)
+            outcome = solve(system, reduced, setting)
+            return _QUESTIONS[question](system, reduced, setting, outcome)
+    except OutOfTimeError:
+        return Reply(None, "undecided", OUT_OF_TIME)
+
+
+def _is_finite(r: Reduced) -> bool:
+    """Does a constraint consist of relations between coordinates and time? Then it is holonomic (d of dg is 0)."""
+    pieces = [p for n in r.normals for b in n.branches for p in b]
+    return bool(pieces) and not r.inequalities and all(isinstance(p, Finite | Condition) for p in pieces)
+
+
+def _by_graph(system: System, question: Question) -> Reply | None:
+    """Links whose lengths were all left out are in general position: the graph answers. None for any other system."""
+    pairs = left_out(system)
+    if pairs is None:
+        return None
+    told = linkage([pair for _, pair in pairs], system.dimension)
+    sure = told.proof("redundant").verdict
+    if question == "dof":
+        return Reply(len(system.coordinates) - told.rank, sure)
+    names = [system.constraints[pairs[k][0]].name for k in told.redundant_places]
+    return Reply(names, sure) if len({i for i, _ in pairs}) == len(pairs) else None
+
+
+def _by_drawing(system: System, question: Question) -> Reply | None:
+    """Joints and links whose rows at the drawing prove their freedom. None for any other system."""
+    known = drawn_rank(
+        system, frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
+    )
+    if known is None:
+        return None
+    if question == "dof":
+        return Reply(known.freedom, "proved")
+    gone = list(known.copies)
+    sure: Verdict = "proved" if known.independent else "probable"
+    if not known.independent:
+        gone += analyse([Rows(known.rows, known.owners, [True] * len(known.rows), known.p)]).redundant
+    return Reply([system.constraints[i].name for i in sorted(gone)], sure)
+
+
+def _dof(system: System, reduced: list[Reduced], setting: Setting, outcome: Outcome) -> Reply:
+    del system, reduced, setting
+    sure = weakest(*(a.verdict for a in outcome.answers))
+    if outcome.consistent is False:
+        return Reply(CONTRADICTORY, sure, "no motion satisfies all constraints")
+    if outcome.dof is None:
+        return Reply(None, "undecided", _why(outcome))
+    return Reply(outcome.dof, sure)
+
+
+def _why(outcome: Outcome) -> str:
+    told = (reason for a in outcome.answers if a.consistent is None or a.dof is None for reason in a.reasons)
+    return next(told, "it was not decided")
+
+
+def _integrability(system: System, reduced: list[Reduced], setting: Setting, outcome: Outcome) -> Reply:
+    names = [c.name for c in system.constraints]
+    found = labels_in_system(reduced, setting, outcome)
+    labels = {name: label for name, (label, _) in zip(names, found, strict=True)}
+    sure = weakest(*(verdict for _, verdict in found))
+    reason = ""
+    if None in labels.values():
+        entries = entries_of(reduced, setting, outcome, [], names, Companionship(setting))
+        labels = {e.name: e.holonomic for e in entries}
+        sure = weakest(*(e.verdict for e in entries))
+        reason = next((e.reason for e in entries if e.holonomic is None), "")
+    return Reply(labels, "undecided" if None in labels.values() else sure, reason)
+
+
+def _redundancy(system: System, reduced: list[Reduced], setting: Setting, outcome: Outcome) -> Reply:
+    if not outcome.consistent or outcome.velocity_dof is None:
+        return Reply(None, "undecided", _why(outcome))
+    found = redundancies(reduced, setting, outcome)
+    equations = sum(r.equations for r in reduced)
+    if equations <= len(system.coordinates) - outcome.velocity_dof:
+        found = [all_needed(r, reduced, outcome) for r in found]
+    names = [c.name for c in system.constraints]
+    left = sorted({i for r in found for i in r.undecided})
+    if left:
+        return Reply(None, "undecided", f"whether {names[left[0]]} follows from the others was not decided")
+    gone = sorted({i for r in found for i in r.redundant})
+    return Reply([names[i] for i in gone], weakest(*(a.verdict for a in outcome.answers)))
+
+
+def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:
+    read = read_equations(answer["text"], survey(scene).world.names, constants=False)
+    system = lower(with_equations(scene, read, ANSWER))
+    asked, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
+    found = compare(system, asked, own, read.constants, engines).sameness
+    if found is Sameness.UNDECIDED:
+        return Reply(None, "undecided", "it was not decided whether one follows from the other")
+    return Reply(found is Sameness.SAME, "probable", "" if found is Sameness.SAME else found.value)
+
+
+_QUESTIONS: Mapping[Question, Callable[[System, list[Reduced], Setting, Outcome], Reply]] = {
+    "dof": _dof,
+    "integrability": _integrability,
+    "redundancy": _redundancy,
+}

@@ -1,0 +1,274 @@
+"""Rational arithmetic at one configuration: the drawing, or a rational point that the equations can be solved for."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+
+from flint import fmpq, fmpq_mat, fmpz
+
+from dofkit.exact.ring.program import value_of
+from dofkit.exact.ring.ring import Ring, Scalar, Var
+from dofkit.exact.zero.independence import independent_generators
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.methods.ask import CONTRADICTORY
+from dofkit.methods.shared.as_written import Written, as_written, posed
+from dofkit.methods.shared.at_drawing import at_points
+from dofkit.methods.shared.pointwise import Looked, Matrix, Rows, drawn_value, droppable, freedom, labels, look, same
+from dofkit.methods.shared.reply import Knobs, Told, cannot
+from dofkit.methods.shared.reporting import Found
+from dofkit.scene.scene import Scene
+from dofkit.system import System
+
+#: Draws of a rational point, and points that answers are compared at.
+DRAWS, COMPARED = 8, 3
+IRRATIONAL = "a number that occurs is irrational, and only rational ones are computed with"
+KINK = "something within abs() is 0 there, where there is no gradient"
+NOWHERE = "no rational configuration is given, and none was found by solving the equations one after the other"
+
+
+class IrrationalError(ArithmeticError):
+    """A value is no rational number."""
+
+
+class ContradictionError(ArithmeticError):
+    """Linear equations have no solution."""
+
+
+class RationalPoint:
+    """Rational values of the symbols; functions of what is free are random too, on their circle if need be."""
+
+    def __init__(self, rng: random.Random, free: bool) -> None:
+        self.rng, self.free = rng, free
+        self.given: dict[object, Scalar] = {}
+
+    def number(self, value: Fraction) -> fmpq:
+        return fmpq(value.numerator, value.denominator)
+
+    def draw(self) -> fmpq:
+        return fmpq(self.rng.randrange(1, 97), self.rng.choice((3, 5, 7, 8)))
+
+    def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
+        key = var.key if var.kind == "symbol" else (var.kind, var.key)
+        if key not in self.given:
+            self._set(key, var, args)
+        return self.given[key]
+
+    def _set(self, key: object, var: Var, args: Sequence[Scalar]) -> None:
+        if var.kind in ("cos", "sin"):
+            cos, sin = self._turn(args[0])
+            self.given["cos", var.key], self.given["sin", var.key] = cos, sin
+        elif var.kind == "root":
+            self.given[key] = rational_root(args[0], var.degree)
+        elif var.kind == "sign":
+            if args[0] == 0:
+                raise IrrationalError(KINK)
+            self.given[key] = fmpq(1 if args[0] > 0 else -1)
+        elif var.kind == "symbol" or var.kind == "call" or self.free:
+            self.given[key] = self.draw()
+        elif args and args[0] == (1 if var.kind == "log" else 0):
+            self.given[key] = fmpq(1 if var.kind == "exp" else 0)
+        else:
+            raise IrrationalError(IRRATIONAL)
+
+    def _turn(self, angle: Scalar) -> tuple[fmpq, fmpq]:
+        """cos and sin: of the angle 0, or of a free one, a random rational point of the circle."""
+        if angle == 0:
+            return fmpq(1), fmpq(0)
+        if not self.free:
+            raise IrrationalError(IRRATIONAL)
+        w = self.draw()
+        below = 1 + w * w
+        return (1 - w * w) / below, 2 * w / below
+
+
+def rational_root(value: fmpq, degree: int) -> fmpq:
+    """The non-negative root of a rational number. Raises IrrationalError where it is none."""
+    parts = []
+    for part in (value.p, value.q):
+        root = fmpz(part).root(degree) if part >= 0 else fmpz(-1)
+        if root < 0 or root**degree != part:
+            raise IrrationalError(IRRATIONAL)
+        parts.append(root)
+    return fmpq(*parts)
+
+
+class Rationals:
+    """The numbers of this method."""
+
+    zero = fmpq(0)
+
+    def __init__(self, seed: int, draws: int = 1) -> None:
+        self.seed, self.draws = seed, draws
+
+    def rank(self, matrix: Matrix) -> int:
+        return fmpq_mat(matrix).rank() if matrix and matrix[0] else 0
+
+    def kernel(self, matrix: Matrix, columns: int) -> Matrix:
+        """A basis of what all rows vanish on."""
+        reduced, rank = fmpq_mat(matrix).rref() if matrix else (fmpq_mat(0, columns), 0)
+        pivots = [next(c for c in range(columns) if reduced[r, c] != 0) for r in range(rank)]
+        found = []
+        for free in sorted(set(range(columns)) - set(pivots)):
+            vector = [fmpq(0) for _ in range(columns)]
+            vector[free] = fmpq(1)
+            for r, c in enumerate(pivots):
+                vector[c] = -reduced[r, free]
+            found.append(vector)
+        return found
+
+    def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
+        del scale
+        return bool(value == 0)
+
+    def points(self, written: Written, rows: Rows, drawn: bool) -> list[RationalPoint]:
+        if drawn:
+            return [self._drawn(written)]
+        order, found = solvable(written), list[RationalPoint]()
+        if order is None and not _linear(written):
+            return []
+        for k in range(DRAWS):
+            point = RationalPoint(random.Random(f"dofkit rational {self.seed} {k}"), free=True)
+            try:
+                if order is None:
+                    solved_together(written, point)
+                else:
+                    solved(written, rows.ring, order, point)
+                value_of_all(rows, point)
+            except (IrrationalError, ZeroDivisionError):
+                continue
+            found.append(point)
+            if len(found) == self.draws:
+                break
+        return found
+
+    def _drawn(self, written: Written) -> RationalPoint:
+        point = RationalPoint(random.Random(f"dofkit rational {self.seed}"), free=False)
+        for symbol, value in (written.system.reference or {}).items():
+            point.given[symbol] = drawn_value(value, point)
+        point.given[ex.TIME] = fmpq(0)
+        return point
+
+
+def value_of_all(rows: Rows, point: RationalPoint) -> None:
+    """Run the program once, so that every generator has its value."""
+    rows.at(point, fmpq(0))
+
+
+def solvable(written: Written) -> list[tuple[int, Expr]] | None:
+    """An order in which each finite equation gives one symbol, in which it is linear, by those that are known then."""
+    left = dict(enumerate(g for _, g in written.finite))
+    movable = {*written.coordinates, *(ex.parameter(p) for p in written.system.generic)}
+    found: list[tuple[int, Expr]] = []
+    while left:
+        ready = ((i, s) for i, g in left.items() for s in _own(i, left, movable) if s not in ex.diff(g, s).symbols)
+        step = next(ready, None)
+        if step is None:
+            return None
+        found.append(step)
+        del left[step[0]]
+    return found[::-1]
+
+
+def _own(i: int, left: Mapping[int, Expr], movable: set[Expr]) -> list[Expr]:
+    """Symbols that only this equation holds of those that are left, in a fixed order."""
+    mine = sorted(left[i].symbols & movable, key=repr)
+    return [s for s in mine if not any(s in g.symbols for j, g in left.items() if j != i)]
+
+
+def solved(written: Written, ring: Ring, order: Sequence[tuple[int, Expr]], point: RationalPoint) -> None:
+    """Give values to the symbols that are solved for; raises ZeroDivisionError where one cannot be."""
+    relations = [g for _, g in written.finite]
+    for i, symbol in order:
+        slope = Ring([ex.diff(relations[i], symbol)], written.positive)
+        point.given[symbol] = fmpq(0)
+        start = value_of(ring, point, ring.node(relations[i]))
+        below = value_of(slope, point, slope.node(ex.diff(relations[i], symbol)))
+        if below == 0:
+            raise ZeroDivisionError
+        point.given[symbol] = -start / below
+
+
+def _linear(written: Written) -> bool:
+    """Are the finite equations linear in the coordinates together?"""
+    movable = set(written.coordinates)
+    slopes = (ex.diff(g, s) for _, g in written.finite for s in written.coordinates if s in g.symbols)
+    return all(movable.isdisjoint(slope.symbols) for slope in slopes)
+
+
+def solved_together(written: Written, point: RationalPoint) -> None:
+    """Solve linear equations A q = b; what is free is drawn. Raises ZeroDivisionError where there is no solution."""
+    columns = written.coordinates
+    for s in columns:
+        point.given[s] = fmpq(0)
+    rows = []
+    for _, g in written.finite:
+        slopes = [ex.diff(g, s) for s in columns]
+        ring = Ring([g, *slopes], written.positive)
+        rows.append([value_of(ring, point, ring.node(e)) for e in (*slopes, g)])
+    reduced, rank = fmpq_mat(rows).rref()
+    pivots = [next(c for c in range(len(columns) + 1) if reduced[r, c] != 0) for r in range(rank)]
+    if len(columns) in pivots:
+        raise ContradictionError("the linear equations contradict each other")
+    for c in set(range(len(columns))) - set(pivots):
+        point.given[columns[c]] = point.draw()
+    for r, c in enumerate(pivots):
+        moved = sum((reduced[r, k] * point.given[columns[k]] for k in range(c + 1, len(columns))), fmpq(0))
+        point.given[columns[c]] = -reduced[r, len(columns)] - moved
+
+
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked, Rationals] | Told:
+    numbers = Rationals(knobs.seed)
+    written = as_written(scene)
+    if written.system.tolerance is not None:
+        return cannot("the geometry is measured, and rational arithmetic takes every number for exact")
+    try:
+        found = look(written, numbers)
+    except IrrationalError as error:
+        return cannot(str(error))
+    except ContradictionError as error:
+        return Told(CONTRADICTORY, str(error))
+    if found is None:
+        return cannot(NOWHERE)
+    if any(found.samples[0].residuals):
+        return cannot("the drawing does not satisfy the equations")
+    return found, numbers
+
+
+def dof(scene: Scene, knobs: Knobs) -> Told:
+    """Coordinates less the rank of the Jacobian there, forms that pass Frobenius' test included."""
+    found = _look(scene, knobs)
+    return found if isinstance(found, Told) else Told(freedom(*found))
+
+
+def integrability(scene: Scene, knobs: Knobs) -> Told:
+    """By Frobenius' test at that point."""
+    found = _look(scene, knobs)
+    return _unless_contradictory(found) if isinstance(found, Told) else Told(labels(found[0]))
+
+
+def redundancy(scene: Scene, knobs: Knobs) -> Told:
+    """By the ranks there with and without each constraint."""
+    found = _look(scene, knobs)
+    return _unless_contradictory(found) if isinstance(found, Told) else Told(droppable(*found))
+
+
+def _unless_contradictory(told: Told) -> Told:
+    """Where nothing can hold, nothing is told of labels."""
+    return Told(None, told.reason, told.cannot)
+
+
+def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
+    """By what holds at a few rational points."""
+    return same(posed(scene, answer), Rationals(knobs.seed, COMPARED))
+
+
+def found(system: System) -> Found:
+    """What the rational point proves; where the drawing is the point, functions have their own values there."""
+    looked = _look(system, Knobs())
+    if isinstance(looked, Told):
+        return Found({}, {}, [f"Nothing is told: {looked.reason}."])
+    trusted = system.reference is not None or independent_generators(looked[0].rows.ring)
+    return at_points(*looked, "proved", trusted)

@@ -1,0 +1,51 @@
+"""The classification of a scene in a worker process: past its budget it is killed, and nothing is decided."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from dofkit.base.deadline import limit
+from dofkit.base.errors import Fault, SceneError
+from dofkit.base.workers import Job
+from dofkit.base.workers.pool import shared
+from dofkit.classification.undecided import blank, sketch, undecided
+from dofkit.methods.table import MethodName
+from dofkit.report import Report
+from dofkit.scene.scene import Scene
+from dofkit.system import System
+
+#: The function that a worker is asked for; see `dofkit.methods.jobs`.
+CLASSIFIED = "dofkit.methods.jobs:classified"
+
+
+def in_worker(scene: Scene | System, budget: float, method: MethodName) -> Report | None:
+    """The report on a scene, from a worker; None where no process can be started here.
+
+    Raises SceneError with the faults of the scene, RuntimeError where the classification itself fails.
+    """
+    outcome = shared().run(Job(CLASSIFIED, (scene, budget, method), limit(budget)))
+    found = outcome.value or {}
+    if "faults" in found:
+        raise SceneError(tuple(_fault(f) for f in found["faults"]), found["source"])
+    if outcome.ended == "absent":
+        return None
+    if outcome.ended == "failed":
+        error = RuntimeError(f"the classification failed with {outcome.reason}")
+        error.add_note(outcome.trace)
+        raise error
+    if "report" in found:
+        report = Report.model_validate(found["report"])
+        return report if outcome.finished else undecided(report, outcome.reason)
+    return sketch(scene, outcome.reason) if isinstance(scene, System) else blank(scene, outcome.reason)
+
+
+def checked(budget: float) -> float:
+    """A budget in seconds, not below 0. Raises ValueError where it is no number."""
+    if math.isnan(budget):
+        raise ValueError("the budget is a number of seconds")
+    return max(0.0, float(budget))
+
+
+def _fault(told: dict[str, Any]) -> Fault:
+    return Fault(**{**told, "where": tuple(told["where"])})

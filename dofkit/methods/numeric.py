@@ -1,0 +1,157 @@
+"""Floating point: singular values above a tolerance, at the drawing or where Newton's method ends."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from dofkit.exact.points.balls import FloatPoint, RealSearch
+from dofkit.exact.ring.ring import Scalar
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.methods.ask import CONTRADICTORY
+from dofkit.methods.shared.as_written import Written, as_written, posed
+from dofkit.methods.shared.at_drawing import at_points
+from dofkit.methods.shared.pointwise import Looked, Matrix, Rows, drawn_value, droppable, freedom, labels, look, same
+from dofkit.methods.shared.reply import Knobs, Told
+from dofkit.methods.shared.reporting import Found
+from dofkit.scene.scene import Scene
+from dofkit.system import System
+
+#: Starts of Newton's method, and points that are looked at.
+STARTS, POINTS = 10, 5
+#: A singular value is clearly not 0 above the first share of the largest, and no more than rounding below the second.
+SIGNAL, ROUNDING = 1e-6, 1e-13
+NOWHERE = "Newton's method found no configuration from {} starts"
+
+
+class Floats:
+    """The numbers of this method: what is below ``tolerance`` of the largest is 0."""
+
+    zero = 0.0
+
+    def __init__(self, tolerance: float, seed: int) -> None:
+        self.tolerance, self.seed = tolerance, seed
+
+    def rank(self, matrix: Matrix) -> int:
+        if not matrix or not matrix[0]:
+            return 0
+        return self._rank(singular_values(matrix))
+
+    def _rank(self, singular: np.ndarray) -> int:
+        return int(np.sum(singular > self.tolerance * float(singular.max(initial=0.0))))
+
+    def kernel(self, matrix: Matrix, columns: int) -> Matrix:
+        """An orthonormal basis of what the rows vanish on."""
+        if not matrix:
+            return [list(row) for row in np.eye(columns)]
+        _, singular, right = np.linalg.svd(np.array(matrix, dtype=float), full_matrices=True)
+        return [list(row) for row in right[self._rank(singular) :]]
+
+    def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
+        return bool(abs(value) <= self.tolerance * max(map(abs, scale), default=1.0))
+
+    def points(self, written: Written, rows: Rows, drawn: bool) -> list[FloatPoint]:
+        if drawn:
+            return [self._drawn(written, rows)]
+        found: list[FloatPoint] = []
+        for k in range(STARTS):
+            point = self._found(written, rows, k)
+            if point is not None:
+                found.append(point)
+            if len(found) == POINTS:
+                break
+        return found
+
+    def _drawn(self, written: Written, rows: Rows) -> FloatPoint:
+        rng = random.Random(f"dofkit floats {self.seed}")
+        symbols: dict[Expr, float] = {v.key: rng.uniform(0.5, 2) for v in rows.ring.vars if v.kind == "symbol"}
+        reference = written.system.reference or {}
+        parameters = {s for value in reference.values() for s in value.symbols}
+        symbols |= {s: rng.uniform(0.5, 2) for s in sorted(parameters, key=repr) if s not in symbols}
+        given = FloatPoint(symbols, self.seed)
+        symbols |= {s: float(drawn_value(value, given)) for s, value in reference.items()}
+        symbols[ex.TIME] = 0.0
+        return FloatPoint(symbols, self.seed)
+
+    def _found(self, written: Written, rows: Rows, k: int) -> FloatPoint | None:
+        """Where Gauss and Newton's method ends that begins at random."""
+        unknowns = [*written.coordinates, *(ex.parameter(p) for p in written.system.generic)]
+        nodes = [node for _, node in rows.finite]
+        search = RealSearch(rows.ring, nodes, unknowns, written.positive)
+        symbols = search.start(STARTS * self.seed + k, {})
+        if search.descend(symbols, self.seed) is None:
+            return None
+        rng = random.Random(f"dofkit floats {self.seed} {k}")
+        symbols |= {s: rng.uniform(-2, 2) for s in rows.columns if s not in symbols}
+        return FloatPoint(symbols, self.seed)
+
+
+def singular_values(matrix: Matrix) -> Any:
+    """From the largest to the smallest."""
+    return np.linalg.svd(np.array(matrix, dtype=float), compute_uv=False)
+
+
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked | None, Floats]:
+    numbers = Floats(knobs.tolerance, knobs.seed)
+    return look(as_written(scene), numbers), numbers
+
+
+def dof(scene: Scene, knobs: Knobs) -> Told:
+    """Coordinates less the numeric rank, forms that pass Frobenius' test included."""
+    found, numbers = _look(scene, knobs)
+    if found is None:
+        return Told(CONTRADICTORY, NOWHERE.format(STARTS))
+    return Told(freedom(found, numbers))
+
+
+def integrability(scene: Scene, knobs: Knobs) -> Told:
+    """By Frobenius' test within the tolerance, at a few points."""
+    found, _ = _look(scene, knobs)
+    return Told(None, NOWHERE.format(STARTS)) if found is None else Told(labels(found))
+
+
+def redundancy(scene: Scene, knobs: Knobs) -> Told:
+    """By the numeric ranks with and without each constraint."""
+    found, numbers = _look(scene, knobs)
+    return Told(None, NOWHERE.format(STARTS)) if found is None else Told(droppable(found, numbers))
+
+
+def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
+    """By differences within the tolerance, at a few points."""
+    return same(posed(scene, answer), Floats(knobs.tolerance, knobs.seed))
+
+
+def found(system: System) -> Found:
+    """What singular values tell that are clearly parted: none is between rounding and what is clearly not 0."""
+    looked, numbers = _look(system, Knobs())
+    if looked is None:
+        return Found({}, {}, [f"{NOWHERE.format(STARTS)}: whether there is one is not told."])
+    sample = looked.samples[0]
+    if any(not numbers.vanishes(r, [*row, 1.0]) for r, row in zip(sample.residuals, sample.finite, strict=True)):
+        return Found({}, {}, ["Nothing is told: the drawing does not satisfy the equations."])
+    sentence, clear = _gap([row[: looked.rows.n] for row in sample.rows])
+    if system.tolerance is not None or any(v.kind == "sign" for v in looked.rows.ring.vars):
+        clear = False
+    told = at_points(looked, numbers, "numeric", clear)
+    fields = told.fields if clear else {}
+    return replace(told, fields=fields, warnings=[*told.warnings, sentence])
+
+
+def _gap(matrix: Matrix) -> tuple[str, bool]:
+    """The gap between the singular values, as a sentence, and whether it is clear."""
+    if not matrix or not matrix[0]:
+        return "There are no equations.", True
+    singular = singular_values(matrix)
+    largest = float(singular[0]) or 1.0
+    shares = [float(v) / largest for v in singular]
+    kept, dropped = [v for v in shares if v > Knobs().tolerance], [v for v in shares if v <= Knobs().tolerance]
+    clear = all(v > SIGNAL for v in kept) and all(v < ROUNDING for v in dropped)
+    said = f"the smallest singular value that counts is {min(kept, default=0.0):.1e} of the largest"
+    said += f", the largest that is taken for 0 is {max(dropped):.1e}" if dropped else ", none is taken for 0"
+    verdict = "a clear gap" if clear else "no clear gap between 0 and what is not 0"
+    return f"Numeric: {said}: {verdict}.", clear

@@ -1,0 +1,77 @@
+"""What one point tells for certain, for the report of a method that looks at points."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dofkit.base.verdicts import Verdict
+from dofkit.methods.shared.pointwise import Looked, Numbers, freedom, regular
+from dofkit.methods.shared.reporting import Found, Label, many
+
+FAILS = "At a regular point the form fails Frobenius' test (its differential does not vanish on what the others allow)."
+PASSES = "At the point that was looked at the form passes Frobenius' test; elsewhere it need not."
+SINGULAR = (
+    "The form fails Frobenius' test at one point, which proves nothing: equations depend on each other there, or the "
+    "configurations may have other parts."
+)
+
+
+def at_points(looked: Looked, numbers: Numbers, sure: Verdict, trusted: bool) -> Found:
+    """Velocities at the drawing; freedom where all equations are independent there (implicit function theorem).
+
+    ``trusted``: what is not 0 at the points is not 0, as surely as ``sure`` says.
+    """
+    written = looked.rows.written
+    drawn = written.system.reference is not None
+    where = "at the drawing" if drawn else "at one configuration"
+    n, here = looked.rows.n, looked.samples[0].rows
+    rank, rows = numbers.rank([row[:n] for row in here]), len(here)
+    goes_on = numbers.rank(here) == rank
+    fields: dict[str, Any] = {}
+    told: list[str] = []
+    euler = any(r.chart == "euler" for r in written.system.rotations)
+    if written.others:
+        told.append("Inequalities and what is nonlinear in the velocities were left out.")
+    elif drawn and not goes_on:
+        told.append("At the drawing the equations stop time: no motion passes through it.")
+    elif drawn and not euler:
+        fields["instantaneous_dof"] = n - rank
+    elif drawn:
+        told.append(
+            "Angles are written in texts: they may be singular where they are drawn, and are not looked behind."
+        )
+    independent = drawn and trusted and rank == rows and not written.others
+    if independent:
+        fields |= {"consistent": True, "velocity_dof": n - rank, "redundant_equations": 0}
+        fields |= {"singular": False} if "instantaneous_dof" in fields else {}
+        fields |= {} if written.forms else {"dof": n - rank}
+        told.append(
+            f"All equations ({rows}) are independent {where}: every velocity left there ({n - rank}) belongs to a "
+            "motion (implicit function theorem)."
+        )
+    else:
+        told.append(_believed(looked, numbers, rows - rank, where))
+    return Found(fields, _labels(looked, numbers, sure, trusted), told, independent, sure)
+
+
+def _believed(looked: Looked, numbers: Numbers, dependent: int, where: str) -> str:
+    count = many(freedom(looked, numbers), "degree")
+    if dependent:
+        also = f"{many(dependent, 'equation')} depend{'s' * (dependent == 1)} on the others {where}"
+        return f"The rank {where} gives {count} of freedom, but {also}: a rank at a point is no motion."
+    return f"The rank {where} gives {count} of freedom; it takes what holds at that point to hold everywhere."
+
+
+def _labels(looked: Looked, numbers: Numbers, sure: Verdict, trusted: bool) -> dict[int, Label]:
+    written = looked.rows.written
+    generic = written.system.reference is not None or not written.finite
+    good = trusted and generic and regular(looked, numbers)
+    told: dict[int, Label] = {}
+    for (i, _), passes in zip(looked.rows.forms, looked.passing, strict=True):
+        if i in written.others:
+            continue
+        if not passes and good:
+            told[i] = Label(False, FAILS, sure)
+        elif i not in told:
+            told[i] = Label(None, PASSES if passes else SINGULAR, "undecided")
+    return told

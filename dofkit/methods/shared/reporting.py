@@ -1,0 +1,130 @@
+"""The report of one method that is no engine of dofkit's own: what it is sound for, and its other numbers as warnings.
+
+What a method would answer without being sound for it stands nowhere but in a warning, with the assumption behind it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from dofkit.base.deadline import OutOfTimeError
+from dofkit.base.verdicts import Verdict, weakest
+from dofkit.classification.undecided import sketch
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.methods.dispatch import FAILURES, module_of
+from dofkit.methods.table import METHODS, MethodName
+from dofkit.report import ConstraintEntry, Report
+from dofkit.system import Constraint, System
+
+OPEN = " Whether it follows from the others is not told."
+NONLINEAR = "It is nonlinear in the velocities as written; over the reals it may say something simpler."
+FINITE = "It is a relation between positions (and time): holonomic by definition."
+UNILATERAL = "It is an inequality: it allows both sides to move away from it, so it is not holonomic."
+
+
+@dataclass(frozen=True)
+class Label:
+    """What a method knows of one constraint's holonomy, and why; ``exact``: closed as written."""
+
+    holonomic: bool | None
+    reason: str
+    verdict: Verdict = "proved"
+    alone: bool | None = None
+    exact: bool | None = None
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a method tells: fields of the report it is sound for, labels by constraint, and sentences.
+
+    ``independent``: all equations are independent, as surely as ``verdict`` says.
+    """
+
+    fields: Mapping[str, Any]
+    labels: Mapping[int, Label]
+    warnings: Sequence[str]
+    independent: bool = False
+    verdict: Verdict = "proved"
+
+
+def report_alone(system: System, method: MethodName) -> Report:
+    """The report of a method by itself."""
+    base = sketch(system, f"{method} alone does not tell")
+    try:
+        found: Found = module_of(method).found(system)
+    except OutOfTimeError:
+        raise
+    except FAILURES as error:
+        found = Found({}, {}, [f"{method} alone came to nothing: {str(error) or type(error).__name__}."])
+    best = METHODS[method].best
+    pairs = zip(system.constraints, base.constraints, strict=True)
+    entries = [_entry(c, e, found, found.labels.get(i), best) for i, (c, e) in enumerate(pairs)]
+    told = {
+        "constraints": entries,
+        "holonomic": _all([e.holonomic for e in entries]),
+        "scleronomic": _all([e.scleronomic for e in entries]),
+        "verdict": weakest(*(e.verdict for e in entries), found.verdict if "dof" in found.fields else "undecided"),
+        "method": f"{method} alone: {METHODS[method].cannot}",
+        "modelled": "the equations as they are written",
+        "warnings": [*system.warnings, *found.warnings],
+    }
+    return base.model_copy(update={**told, **found.fields})
+
+
+def _all(labels: Sequence[bool | None]) -> bool | None:
+    return False if False in labels else None if None in labels else True
+
+
+def _entry(
+    constraint: Constraint, entry: ConstraintEntry, found: Found, label: Label | None, best: Verdict
+) -> ConstraintEntry:
+    """An entry with what stands in the text itself, and what the method tells."""
+    if label is None:
+        label = Label(None, entry.reason, "undecided")
+        if entry.form == "finite":
+            label = Label(True, FINITE, alone=True)
+        elif entry.form == "inequality":
+            label = Label(False, UNILATERAL, alone=False)
+        elif entry.form == "nonlinear":
+            label = Label(None, f"{NONLINEAR} {entry.reason}", "undecided")
+    still = True if without_time(constraint) else None
+    known = found.independent and entry.bilateral
+    told = [label.holonomic, still, *([True] if known or not entry.bilateral else [None])]
+    sure = weakest(best, label.verdict, found.verdict if known else "proved")
+    return entry.model_copy(
+        update={
+            "holonomic": label.holonomic,
+            "holonomic_alone": label.alone,
+            "scleronomic": still,
+            "exact": label.exact,
+            "independent": entry.equations if known else None,
+            "redundant_equations": [] if known else None,
+            "verdict": "undecided" if None in told else sure,
+            "reason": label.reason + (OPEN if label.holonomic is not None and entry.bilateral and not known else ""),
+        }
+    )
+
+
+def without_time(constraint: Constraint) -> bool:
+    """Does neither t nor dt occur, so that it is scleronomic? ``dt`` may be hidden: where not all terms hold rates."""
+    return all(_without_time(r.expr) for r in constraint.relations)
+
+
+def _without_time(e: Expr) -> bool:
+    kinds = {s.args[0] for s in e.symbols}
+    if "time" in kinds or "dt" in kinds:
+        return False
+    moving = [s for s in e.symbols if s.args[0] in ("velocity", "differential")]
+    if "acceleration" in kinds:
+        return False
+    return not moving or ex.substitute(e, dict.fromkeys(moving, ex.ZERO)).is_zero
+
+
+def many(number: int, what: str) -> str:
+    """``1 equation``, ``2 equations``."""
+    if number == 1:
+        return f"1 {what}"
+    return f"{number} {what[:-1]}ies" if what.endswith("y") else f"{number} {what}s"

@@ -1,0 +1,194 @@
+"""SymPy as one would use it: the rank of a Jacobian, wedge products, simplify. A rival: nothing of dofkit rests on it.
+
+The answers are what SymPy says, whether it is right or not; the ranks are those of the whole space, not of the set
+on which the constraints hold, but for a drawing that is put in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import combinations
+from typing import Any
+
+import sympy
+
+from dofkit.expressions import tree as ex
+from dofkit.expressions.sympy_bridge import Bridge
+from dofkit.expressions.tree import Expr
+from dofkit.methods.shared.as_written import Written, as_written, labelled, posed
+from dofkit.methods.shared.reply import Knobs, Told
+from dofkit.methods.shared.reporting import Found, many
+from dofkit.scene.scene import Scene
+from dofkit.system import System
+
+#: A form as its coefficients by increasing indices of differentials.
+Form = dict[tuple[int, ...], Any]
+
+
+class Symbols:
+    """A scene's equations in SymPy, coordinates as plain symbols."""
+
+    def __init__(self, written: Written) -> None:
+        self.written = written
+        names = [c.name for c in written.system.coordinates]
+        self._bridge = Bridge(names, written.positive)
+        self._time = sympy.Symbol("t", real=True)
+        plain = {name: sympy.Symbol(name, real=True) for name in names}
+        self._positions = {self._bridge.positions[name]: symbol for name, symbol in plain.items()}
+        self.columns = [*plain.values(), *([self._time] if written.timed else [])]
+        self.n = len(names)
+        place = {s: k for k, s in enumerate([*written.coordinates, ex.TIME])}
+        self.finite = [(i, self.read(g)) for i, g in written.finite]
+        self.forms: list[tuple[int, Form]] = [
+            (i, {(place[s],): self.read(a) for s, a in f.items()}) for i, f in written.forms
+        ]
+        reference = written.system.reference or {}
+        self.drawing = {plain[str(s.args[1])]: self.read(value) for s, value in reference.items() if s.op == "sym"}
+        if reference:
+            self.drawing[self._time] = sympy.Integer(0)
+
+    def read(self, e: Expr) -> Any:
+        """An expression of positions, parameters and time."""
+        made = self._bridge.sympy(e)
+        return made.xreplace(self._positions).xreplace({self._bridge.time: self._time})
+
+    def row(self, form: Form) -> list[Any]:
+        """A one-form's coefficients."""
+        return [form.get((k,), sympy.Integer(0)) for k in range(len(self.columns))]
+
+    def differential(self, g: Any) -> Form:
+        """dg."""
+        return {(k,): g.diff(s) for k, s in enumerate(self.columns)}
+
+    def rows(self, of: Sequence[int], more: Sequence[int]) -> Any:
+        """The matrix of some finite equations and of some forms, by the coordinates, the drawing put in."""
+        rows = [self.row(self.differential(self.finite[k][1])) for k in of]
+        rows += [self.row(self.forms[k][1]) for k in more]
+        matrix = sympy.Matrix(len(rows), len(self.columns), [entry for row in rows for entry in row])
+        return matrix[:, : self.n].xreplace(self.drawing)
+
+
+def wedge(a: Form, b: Form) -> Form:
+    """The exterior product."""
+    found: Form = {}
+    for i, x in a.items():
+        for j, y in b.items():
+            if set(i) & set(j):
+                continue
+            order = i + j
+            swaps = sum(p > q for p, q in combinations(order, 2))
+            key = tuple(sorted(order))
+            found[key] = found.get(key, sympy.Integer(0)) + (-1) ** swaps * x * y
+    return found
+
+
+def exterior(form: Form, columns: Sequence[Any]) -> Form:
+    """d omega of a one-form."""
+    found: Form = {}
+    for (j,), a in form.items():
+        for i, s in enumerate(columns):
+            if i != j:
+                key, sign = ((i, j), 1) if i < j else ((j, i), -1)
+                found[key] = found.get(key, sympy.Integer(0)) + sign * a.diff(s)
+    return found
+
+
+def passing(symbols: Symbols) -> list[bool]:
+    """Frobenius: is d omega_a with all of the system's forms wedged to it simplified to 0?"""
+    system = [symbols.differential(g) for _, g in symbols.finite] + [f for _, f in symbols.forms]
+    found = []
+    for _, form in symbols.forms:
+        product = exterior(form, symbols.columns)
+        for other in system:
+            product = wedge(product, other)
+        found.append(all(sympy.simplify(a) == 0 for a in product.values()))
+    return found
+
+
+def dof(scene: Scene, knobs: Knobs) -> Told:
+    """Coordinates less the rank that SymPy finds, forms that pass Frobenius' test included."""
+    del knobs
+    symbols = Symbols(as_written(scene))
+    return Told(_freedom(symbols, passing(symbols)))
+
+
+def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
+    kept = [k for k, p in enumerate(passes) if p]
+    return symbols.n - int(symbols.rows(range(len(symbols.finite)), kept).rank())
+
+
+def integrability(scene: Scene, knobs: Knobs) -> Told:
+    """By wedge products."""
+    del knobs
+    symbols = Symbols(as_written(scene))
+    told: dict[int, bool] = {}
+    for (i, _), passes in zip(symbols.forms, passing(symbols), strict=True):
+        told[i] = told.get(i, True) and passes
+    return Told(labelled(symbols.written, told))
+
+
+def redundancy(scene: Scene, knobs: Knobs) -> Told:
+    """Constraints without which the rank that SymPy finds stays as it is, the last written first."""
+    del knobs
+    symbols = Symbols(as_written(scene))
+    finite, forms = [i for i, _ in symbols.finite], [i for i, _ in symbols.forms]
+
+    def rank(of: set[int]) -> tuple[int, int]:
+        rows = [k for k, i in enumerate(finite) if i in of]
+        more = [k for k, i in enumerate(forms) if i in of]
+        return int(symbols.rows(rows, []).rank()), int(symbols.rows(rows, more).rank())
+
+    everything = {*finite, *forms}
+    whole, dropped = rank(everything), set[int]()
+    for i in sorted(everything - set(symbols.written.others), key=lambda i: (i in forms, i), reverse=True):
+        if rank(everything - dropped - {i}) == whole:
+            dropped.add(i)
+    names = [c.name for c in symbols.written.system.constraints]
+    return Told(sorted(names[i] for i in dropped))
+
+
+def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
+    """simplify(a - b) == 0, or simplify(a + b) == 0, equation by equation."""
+    del knobs
+    question = posed(scene, answer)
+    if question.answer.others or question.asked.others:
+        return Told(None, "inequalities and equations nonlinear in the velocities are not compared", True)
+    given, asked = _entries(question.answer), _entries(question.asked)
+    if len(given) != len(asked):
+        return Told(False, "they are not as many equations")
+    met = [any(_alike(a, b) for b in given) for a in asked]
+    used = [any(_alike(a, b) for a in asked) for b in given]
+    return Told(all(met) and all(used))
+
+
+def _entries(written: Written) -> list[list[Any]]:
+    """Each equation as what is compared: a finite one as it is, a form by its coefficients."""
+    symbols = Symbols(written)
+    width = len(symbols.written.coordinates) + 1
+    forms = [[f.get((k,), sympy.Integer(0)) for k in range(width)] for _, f in symbols.forms]
+    return [[g] for _, g in symbols.finite] + forms
+
+
+def _alike(a: Sequence[Any], b: Sequence[Any]) -> bool:
+    if len(a) != len(b):
+        return False
+    return any(all(sympy.simplify(x + sign * y) == 0 for x, y in zip(a, b, strict=True)) for sign in (-1, 1))
+
+
+def found(system: System) -> Found:
+    """What SymPy says, as warnings only: none of it is sure."""
+    symbols = Symbols(as_written(system))
+    passes = passing(symbols)
+    where = "at the drawing" if symbols.drawing else "in the whole space, not only where the constraints hold"
+    told = [
+        f"SymPy's rank gives {many(_freedom(symbols, passes), 'degree')} of freedom: it is that of the Jacobian "
+        f"{where}, and takes for non-zero what SymPy does not see to be 0."
+    ]
+    names = [c.name for c in system.constraints]
+    for verb, said in ((True, "integrable"), (False, "not integrable")):
+        named = [names[i] for (i, _), p in zip(symbols.forms, passes, strict=True) if p is verb]
+        if named:
+            told.append(
+                f"SymPy's wedge products call {', '.join(dict.fromkeys(named))} {said}, by one step of Frobenius."
+            )
+    return Found({}, {}, told)

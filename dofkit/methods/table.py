@@ -1,0 +1,162 @@
+"""The ways to answer how a system can move, as a table: each sound for something, none for everything but ``auto``.
+
+``auto``, ``field`` and ``balls`` share what is exact: reading, and rewriting a relation to its real zero set in the
+canonical ring; they differ in who decides ranks, zeros and integrability. All others take the equations as written.
+A method is a row here and a module of its name in `dofkit.methods`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from dofkit.exact.engines import BALLS, BOTH, FIELD, Engines
+
+if TYPE_CHECKING:
+    from dofkit.base.verdicts import Verdict
+
+MethodName = Literal["auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic"]
+#: What the methods are held against each other in.
+Question = Literal["dof", "integrability", "redundancy", "equivalence"]
+QUESTIONS: tuple[Question, ...] = ("dof", "integrability", "redundancy", "equivalence")
+
+
+@dataclass(frozen=True)
+class Use:
+    """How a method answers one question: what it is ``sound`` for, and what it ``costs``.
+
+    n: coordinates, m: scalar equations, k: differential ones, each by itself where parts share no coordinate.
+    """
+
+    sound: str
+    costs: str
+
+
+@dataclass(frozen=True)
+class Method:
+    """One way to answer: in one line; by question; what it cannot answer; its best verdict; the engines it may ask."""
+
+    summary: str
+    uses: Mapping[Question, Use]
+    cannot: str
+    best: Verdict
+    engines: Engines = frozenset()
+
+
+_BY_BLOCKS = "O(n^3) at random points, for each part that shares no coordinate with the others; trees in O(n)"
+
+METHODS: Mapping[MethodName, Method] = {
+    "auto": Method(
+        "the cheapest sound way for each part: graph, field and balls that check each other, and proofs",
+        {
+            "dof": Use("everything that it does not call undecided", _BY_BLOCKS + "; the graph alone where it decides"),
+            "integrability": Use(
+                "everything that it does not call undecided", "the Lie algebra along one curve: O(n^3 k) for each part"
+            ),
+            "redundancy": Use("everything that it does not call undecided", _BY_BLOCKS),
+            "equivalence": Use(
+                "everything that it does not call undecided", "two implications, each at a few random states"
+            ),
+        },
+        "what neither engine nor a proof decides is undecided, with the reason",
+        "proved",
+        BOTH,
+    ),
+    "count": Method(
+        "the textbook count f = N d - k, closedness for integrability, texts for equivalence",
+        {
+            "dof": Use(
+                "independent finite equations that are regular where they hold, and no differential ones",
+                "O(m): counting",
+            ),
+            "integrability": Use(
+                "closed forms, which integrate, and finite relations; not closed proves nothing",
+                "O(k n^2) partial derivatives",
+            ),
+            "redundancy": Use("that something is redundant, where the count falls short of what is free", "O(m)"),
+            "equivalence": Use("texts that are the same", "O(1): comparing texts"),
+        },
+        "it takes every equation for independent and for one freedom, does not see what differential constraints "
+        "integrate to or hide, and does not tell which constraints are redundant",
+        "proved",
+    ),
+    "graph": Method(
+        "generic counts of links and joints: pebble games, or ranks at random places",
+        {
+            "dof": Use("links and joints whose geometry is in general position", "almost O(n) for links in the plane"),
+            "integrability": Use("links and joints, which are finite", "O(m)"),
+            "redundancy": Use("links and joints whose geometry is in general position", "almost O(n) for links"),
+        },
+        "it sees who is joined to whom and not where: parallel, concurrent or collinear places are not told from "
+        "others, and equations that were written say nothing to it",
+        "proved",
+    ),
+    "field": Method(
+        "exact arithmetic at random points modulo random primes",
+        {
+            "dof": Use("zero, and so dependence, with a chance of an error below 10^-15 a point", _BY_BLOCKS),
+            "integrability": Use(
+                "zero, and so integrability; non-zero where the functions are algebraically independent",
+                "the Lie algebra along one curve: O(n^3 k) for each part",
+            ),
+            "redundancy": Use("dependence at a generic point", _BY_BLOCKS),
+            "equivalence": Use("what holds at every complex solution", "two implications, each at a few random states"),
+        },
+        "it does not tell whether a real configuration exists (its numbers are those of the complex solutions), which "
+        "way a second-order form bends, nor anything of measured geometry; integrals are not sought",
+        "probable",
+        FIELD,
+    ),
+    "balls": Method(
+        "interval arithmetic at real points that are certified",
+        {
+            "dof": Use("independence and full rank, which are proofs", "O(n^3) at real points, in 256 bits"),
+            "integrability": Use("non-holonomy, which is a proof", "O(n^3 k) in 256 bits"),
+            "redundancy": Use("independence", "O(n^3) in 256 bits"),
+            "equivalence": Use("that an answer is another relation", "two implications, each at a few real states"),
+        },
+        "it does not tell that relations contradict each other unless they do so as written, gives no growth vector, "
+        "and takes a difference too small for its precision for 0; integrals are not sought",
+        "proved",
+        BALLS,
+    ),
+    "exact": Method(
+        "the Jacobian in rational numbers at the drawing, or at one rational point",
+        {
+            "dof": Use("velocities at the drawing; the freedom where all equations are independent there", "O(n^3)"),
+            "integrability": Use("that a form fails Frobenius' test at a regular point", "O(n^3 k) at one point"),
+            "redundancy": Use("that nothing is, where all equations are independent at the drawing", "O(m n^2)"),
+            "equivalence": Use("that an answer is another relation", "one rational point"),
+        },
+        "it looks at one point, which may be special, knows rational numbers only, and neither follows a motion nor "
+        "sees finite relations that differential ones hide",
+        "proved",
+    ),
+    "numeric": Method(
+        "floating point: singular values above a tolerance, at the drawing or where Newton's method ends",
+        {
+            "dof": Use("velocities at a configuration, where a clear gap parts the singular values", "O(n^3)"),
+            "integrability": Use("nothing for sure: small is taken for 0", "O(n^3 k) at a few points"),
+            "redundancy": Use("nothing for sure: small is taken for 0", "O(m n^3): a rank for each constraint"),
+            "equivalence": Use("nothing for sure: small is taken for 0", "Newton's method at a few starts"),
+        },
+        "it does not tell a small number from 0, a shake from a motion, or no solution from a search that failed",
+        "numeric",
+    ),
+    "symbolic": Method(
+        "SymPy as one would use it: Jacobian().rank(), wedge products, simplify",
+        {
+            "dof": Use("matrices whose zeros SymPy sees, away from the constraints' own set", "grows exponentially"),
+            "integrability": Use("what SymPy simplifies to 0 for one system of forms", "grows exponentially in k"),
+            "redundancy": Use("matrices whose zeros SymPy sees", "grows exponentially, once for each constraint"),
+            "equivalence": Use("differences that SymPy simplifies to 0", "simplify: no bound"),
+        },
+        "it looks at the whole space and not at where the constraints hold, takes for non-zero what it cannot "
+        "simplify, and may not end",
+        "undecided",
+    ),
+}
+
+#: The methods that are dofkit's own engines, together and alone: they fill a whole report.
+BY_ENGINES: tuple[MethodName, ...] = tuple(name for name, method in METHODS.items() if method.engines)

@@ -1,0 +1,143 @@
+"""Links in the plane: the pebble game, circuits, groups and rigid clusters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from dofkit.mobility.graph import net as nets
+from dofkit.mobility.graph import pebbles, rigid_clusters
+from dofkit.mobility.graph.answer import Proof, Question
+from dofkit.mobility.graph.compiled import Engine, engine_for
+from dofkit.mobility.graph.grouping import ascending, gathered
+from dofkit.mobility.graph.net import Net
+from dofkit.mobility.graph.pebbles import FREE, Board
+
+_PROOF = Proof(
+    "proved",
+    "the (2,3) pebble game (Jacobs and Hendrickson 1997): links in the plane are independent in general position if "
+    "and only if every n joints carry at most 2n - 3 of them (Pollaczek-Geiringer 1927, Laman 1970)",
+)
+
+
+#: Joints times circuits from which many circuits at once are faster than one after another.
+WORTH_WORDS = 2_000_000
+
+
+def _board(engine: Engine, joints: int, links: int) -> Board:
+    """All pebbles free, every link a group of its own."""
+    return Board(
+        out=engine.filled(2 * joints, FREE),
+        link=engine.filled(2 * joints, FREE),
+        group=engine.taken(range(links)),
+        seen=engine.filled(joints, 0),
+        via=engine.filled(joints, 0),
+        queue=engine.filled(joints, 0),
+        clock=engine.filled(1, 0),
+    )
+
+
+def _net(engine: Engine, ends: Any, joints: int, left_out: Any) -> tuple[Net, int]:
+    """The links that are not left out, and how many joints of few links could be taken off one after another."""
+    links = len(left_out)
+    net = Net(
+        ends=ends,
+        start=engine.filled(joints + 1, 0),
+        at=engine.filled(2 * links, 0),
+        degree=engine.filled(joints, 0),
+        order=engine.filled(joints, 0),
+        gone=engine.filled(links, 0),
+    )
+    kernels = engine.running(nets)
+    kernels.incidence(net, left_out)
+    return net, kernels.peel(net)
+
+
+def _leaders(engine: Engine, group: Any) -> list[int]:
+    """The link that stands for each link's group."""
+    return [int(engine.kernels.leader(group, i)) for i in range(len(group))]
+
+
+class Plane:
+    """A graph of links in two dimensions; see `dofkit.linkage.solved.Solved`."""
+
+    def __init__(self, joints: int, ends: Sequence[int]) -> None:
+        links = len(ends) // 2
+        self._joints, self._links = joints, links
+        self._engine = engine_for(pebbles, links, if_ready=True)
+        self._ends = self._engine.taken(ends)
+        self._dependent = self._engine.filled(links, 0)
+        self._board = _board(self._engine, joints, links)
+        net, outer = _net(self._engine, self._ends, joints, self._dependent)
+        self._engine.kernels.play(self._board, net, outer, self._dependent)
+
+    @cached_property
+    def redundant(self) -> list[int]:
+        return np.flatnonzero(self._dependent).tolist()
+
+    def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
+        work = len(links) * self._joints
+        engine = engine_for(pebbles, max(self._links, work // 100))
+        if engine.compiled or work < WORTH_WORDS:
+            return self._one_by_one(links, engine)
+        return self._in_words(links)
+
+    def _one_by_one(self, links: Sequence[int], engine: Engine) -> Iterator[tuple[int, list[int]]]:
+        ends, kernels = self._ends, engine.kernels
+        board = _board(engine, self._joints, 0)
+        dependent = engine.taken(self._dependent)
+        kernels.orient(board, *_net(engine, engine.taken(ends), self._joints, dependent), dependent)
+        found = engine.filled(2 * self._joints, 0)
+        for i in links:
+            number = kernels.circuit(board, int(ends[2 * i]), int(ends[2 * i + 1]), found)
+            yield i, ascending(found[:number])
+
+    def _in_words(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
+        """Group by group: every circuit lies in one, and its independent links are isostatic."""
+        from dofkit.mobility.graph.circuits import circuits, rooted
+
+        asked, plain = set(links), Engine(pebbles, False)
+        for group in self.groups():
+            pairs = [i for i in group if i in asked]
+            if not pairs:
+                continue
+            basis = [i for i in group if not self._dependent[i]]
+            number: dict[int, int] = {}
+            ends = [number.setdefault(self._ends[place], len(number)) for i in basis for place in (2 * i, 2 * i + 1)]
+            board = _board(plain, len(number), 0)
+            independent = [0] * len(basis)
+            pebbles.orient(board, *_net(plain, ends, len(number), independent), independent)
+            root = rooted(board.out, list(zip(ends[::2], ends[1::2], strict=True)))
+            wanted = [(number[self._ends[2 * i]], number[self._ends[2 * i + 1]]) for i in pairs]
+            for i, found in zip(pairs, circuits(root, wanted), strict=True):
+                yield i, [basis[k] for k in found]
+
+    def groups(self) -> list[list[int]]:
+        return [g for g in gathered(_leaders(self._engine, self._board.group)) if len(g) > 1]
+
+    def clusters(self) -> list[list[int]]:
+        n = self._joints
+        if self._links - len(self.redundant) == 2 * n - 3:
+            return [list(range(n))]
+        alone, joints = set(range(n)), []
+        for links in gathered(self._turning_together()):
+            members = {int(self._ends[place]) for i in links for place in (2 * i, 2 * i + 1)}
+            alone -= members
+            joints.append(sorted(members))
+        return sorted([*joints, *([v] for v in alone)])
+
+    def _turning_together(self) -> Sequence[int]:
+        """For every link the one that stands for its rigid cluster."""
+        e = engine_for(rigid_clusters, self._links)
+        board = Board(*(e.taken(value.copy()) for value in self._board))
+        net, outer = _net(e, e.taken(self._ends), self._joints, e.taken(self._dependent))
+        e.running(nets).sweep(net, outer)
+        e.kernels.core_clusters(board, net, outer)
+        e.kernels.outer_clusters(board, net, outer)
+        return _leaders(e, board.group)
+
+    def proof(self, question: Question) -> Proof:
+        return _PROOF

@@ -1,0 +1,202 @@
+"""Gruebler's and Kutzbach's count of bodies and joints, and why it errs where it does.
+
+M = D(N - 1 - j) + f_1 + ... + f_j with D = 3 in the plane and 6 in space takes every loop to close by D independent
+conditions. The motions that the joints of a loop allow span a space of some dimension at most D (their screws), and
+where it is smaller the loop closes by fewer: all hinges parallel or through one point give 3, Bennett's four give 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import networkx as nx
+
+from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
+from dofkit.mobility.placement import Placement
+from dofkit.mobility.twists import KINDS, TURNS, Located, Member, rows_of
+from dofkit.report import Mobility
+from dofkit.system import GROUND, System
+
+#: More loops than this are not looked at one by one, and more than these are not told.
+MOST_LOOPS, MOST_TOLD = 60, 4
+
+#: Where the connections are drawn, once it is asked for.
+Drawing = Callable[[], Placement | None]
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A constraint between two bodies, or a body and the ground: ``freedom`` without its drive."""
+
+    constraint: int
+    first: str
+    second: str
+    freedom: int
+    driven: bool
+
+
+def joints_of(system: System, equations: Sequence[int]) -> list[Joint]:
+    """The constraints that count as joints; ``equations`` of every constraint."""
+    moving = set(system.bodies)
+    whole = full(system)
+    found = []
+    for c in system.connections:
+        members = [m for m in c.members if m != GROUND]
+        if c.type not in KINDS | {"roll"} or not members or len(members) > 2 or not moving.issuperset(members):
+            continue
+        first, second = (GROUND, *members)[-2:]
+        freedom = whole - equations[c.constraint] + c.driven
+        found.append(Joint(c.constraint, first, second, freedom, c.driven))
+    return found
+
+
+def full(system: System) -> int:
+    """D: the freedom of a body."""
+    return system.dimension * (system.dimension + 1) // 2
+
+
+def mobility(
+    system: System, equations: Sequence[int], others: int, freedom: int | None, drawn: Drawing
+) -> Mobility | None:
+    """The count beside the ``freedom``; ``others`` are the equations that are no inequality's, joints' included."""
+    joints = joints_of(system, equations)
+    if not joints:
+        return None
+    whole, bodies = full(system), len(system.bodies)
+    terms = _terms(system, joints, others - sum(equations[j.constraint] for j in joints))
+    base = whole * (bodies - len(joints)) + sum(j.freedom for j in joints)
+    kutzbach = base + sum(number for _, number, _ in terms)
+    letters = "".join(f" {sign} {letter}" for sign, _, letter in terms)
+    numbers = "".join(f" {sign} {abs(number)}" for sign, number, _ in terms)
+    formula = (
+        f"M = {whole}(N - 1 - j) + sum f{letters} = "
+        f"{whole}({bodies + 1} - 1 - {len(joints)}) + {sum(j.freedom for j in joints)}{numbers} = {kutzbach}"
+    )
+    return Mobility(
+        links=bodies + 1,
+        joints=len(joints),
+        formula=formula,
+        kutzbach=kutzbach,
+        freedom=freedom,
+        differs=None if freedom is None or freedom == kutzbach else _why(system, joints, kutzbach, freedom, drawn),
+    )
+
+
+def _terms(system: System, joints: Sequence[Joint], rest: int) -> list[tuple[str, int, str]]:
+    """(sign, number, what it counts) of what is counted besides."""
+    driven = sum(j.driven for j in joints)
+    owned = full(system) * len(system.bodies) + system.dimension * len(system.particles)
+    further = len(system.coordinates) - owned
+    found = [
+        ("-", -driven, "driven joints"),
+        ("+", system.dimension * len(system.particles), f"{system.dimension} per particle"),
+        ("+", further, "further coordinates"),
+        ("-", -rest, "other equations"),
+    ]
+    return [term for term in found if term[1]]
+
+
+def _why(system: System, joints: Sequence[Joint], kutzbach: int, freedom: int, drawn: Drawing) -> str:
+    if freedom < kutzbach:
+        return (
+            "the equations take more freedom away than their number: at this position, or because what they say of "
+            "velocities integrates, motions that the count allows are none"
+        )
+    placement = drawn()
+    said = "" if placement is None else _of_screws(system, joints, freedom, placement)
+    many = freedom - kutzbach
+    start = f"{many} of the equations that the count takes as independent {'is' if many == 1 else 'are'} not"
+    return f"{start}: {said}" if said else start
+
+
+def _of_screws(system: System, joints: Sequence[Joint], freedom: int, drawn: Placement) -> str:
+    """What the joints' screws say: the dimension of their span, all together or loop by loop."""
+    whole, d = full(system), system.dimension
+    names = [c.name for c in system.constraints]
+    screws = {j: allowed(drawn.located[j.constraint], d, drawn.p) for j in joints}
+    span = rank_of_rows([s for j in joints for s in screws[j]], drawn.p)
+    alone = len(system.constraints) == len(joints)
+    bodies, total = len(system.bodies), sum(j.freedom for j in joints)
+    driven = sum(j.driven for j in joints)
+    count = span * (bodies - len(joints)) + total - driven
+    if span < whole and alone and count == freedom:
+        numbers = f"{span}({bodies + 1} - 1 - {len(joints)}) + {total}{f' - {driven}' if driven else ''} = {count}"
+        return (
+            f"the screws of all joints span {span} dimension{'s' * (span > 1)} only, not {whole}; "
+            f"with {span} for {whole} the count is {numbers}"
+        )
+    told = []
+    loops = _loops(joints)
+    for loop in loops[:MOST_LOOPS]:
+        span = rank_of_rows([s for j in loop for s in screws[j]], drawn.p)
+        if span < whole:
+            shown = ", ".join(names[j.constraint] for j in loop)
+            told.append(
+                f"the loop {shown} closes by {span} conditions and not {whole}: so many dimensions its screws span"
+            )
+    more = f"; and {len(told) - MOST_TOLD} more loops" if len(told) > MOST_TOLD else ""
+    if told:
+        return "; ".join(told[:MOST_TOLD]) + more
+    return "the loops close together by fewer conditions than each for itself" if len(loops) > 1 else ""
+
+
+def allowed(found: Located, dimension: int, p: int) -> list[SparseRow]:
+    """A basis of the twists that a joint allows the second body against the first, at the world's origin modulo p."""
+    size = dimension + TURNS[dimension]
+    ground, free = Member(None), Member(0, (0,) * dimension)
+    bodies = [m for m in found.members if m.column is not None]
+    ends = {id(bodies[-1]): free}
+    members = tuple(ends.get(id(m), ground) for m in found.members)
+    points = tuple((ends.get(id(m), ground), at) for m, at in found.points)
+    placed = Located(found.type, members, points, found.places, found.directions, found.number)
+    rows = rows_of(placed, dimension)
+    if rows is None:
+        return [{c: 1} for c in range(size)]
+    return kernel([{c: v % p for c, v in row.items() if v % p} for row in rows], size, p)
+
+
+def kernel(rows: Sequence[SparseRow], size: int, p: int) -> list[SparseRow]:
+    """A basis of the vectors that few rows modulo p vanish on."""
+    reduced: dict[int, SparseRow] = {}
+    for row in rows:
+        left = dict(row)
+        for pivot, other in reduced.items():
+            left = _less(left, other, left.get(pivot, 0), p)
+        if not left:
+            continue
+        column = min(left)
+        inverse = pow(left[column], -1, p)
+        left = {c: v * inverse % p for c, v in left.items()}
+        reduced = {c: _less(other, left, other.get(column, 0), p) for c, other in reduced.items()} | {column: left}
+    free = [c for c in range(size) if c not in reduced]
+    return [{f: 1} | {c: -row[f] % p for c, row in reduced.items() if f in row} for f in free]
+
+
+def _less(row: SparseRow, other: SparseRow, factor: int, p: int) -> SparseRow:
+    if not factor:
+        return row
+    found = dict(row)
+    for c, v in other.items():
+        found[c] = (found.get(c, 0) - factor * v) % p
+    return {c: v for c, v in found.items() if v}
+
+
+def _loops(joints: Sequence[Joint]) -> list[list[Joint]]:
+    """A basis of the loops: for every joint that closes one, the path between its ends in a spanning tree."""
+    tree: nx.Graph = nx.Graph()
+    parts: nx.utils.UnionFind[str] = nx.utils.UnionFind()
+    closing = []
+    for j in joints:
+        if parts[j.first] == parts[j.second]:
+            closing.append(j)
+        else:
+            parts.union(j.first, j.second)
+            tree.add_edge(j.first, j.second, joint=j)
+    found = []
+    for j in closing[:MOST_LOOPS]:
+        path = nx.shortest_path(tree, j.first, j.second) if j.first != j.second else [j.first]
+        around = [tree.edges[a, b]["joint"] for a, b in pairwise(path)]
+        found.append(sorted([*around, j], key=lambda joint: joint.constraint))
+    return found

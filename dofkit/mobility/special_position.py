@@ -1,0 +1,290 @@
+"""What is special about a drawing: lines that are parallel or meet in one point, points on a line, plane or conic.
+
+Looked for among the constraints of one dependent set. Over GF(p) a determinant that vanishes does so exactly, but for
+a chance of degree/p; of measured numbers (p = 0, lengths in units of the scene's size) within the tolerance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.expressions.text import to_text
+from dofkit.mobility.placement import Placement
+from dofkit.mobility.twists import cross, spanning
+from dofkit.system import GROUND, Connection, System
+
+#: More lines or points than this are not compared.
+MOST = 40
+#: Points that a conic passes through, whatever they are.
+CONIC = 5
+AXIAL = ("revolute", "cylindrical", "screw", "universal")
+_OTHERWISE = (
+    "no parallel or concurrent lines were found to be the cause: a loop of special proportions, symmetric or "
+    "overconstrained"
+)
+
+Numbers = Sequence[Any]
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of the drawing with what it is called, and the points between which it is a bar."""
+
+    name: str
+    through: tuple[Any, ...]
+    direction: tuple[Any, ...]
+    ends: frozenset[str] = frozenset()
+
+
+class Geometry:
+    """Predicates on numbers modulo p, or on floats within ``tolerance``."""
+
+    def __init__(self, system: System, placement: Placement, tolerance: float) -> None:
+        self.system, self.placement, self._tolerance = system, placement, tolerance
+        self.names = [c.name for c in system.constraints]
+
+    def zero(self, *numbers: Any) -> bool:
+        p = self.placement.p
+        return all((n % p == 0) if p else abs(n) <= self._tolerance for n in numbers)
+
+    def unit(self, n: Numbers) -> tuple[Any, ...]:
+        """Of length 1, where lengths are measured."""
+        if self.placement.p:
+            return tuple(n)
+        size = sum(v * v for v in n) ** 0.5
+        return tuple(v / size for v in n) if size else tuple(n)
+
+    def parallel(self, a: Numbers, b: Numbers) -> bool:
+        return self.zero(*_wedge(a, b))
+
+    def on(self, line: Line, point: Numbers) -> bool:
+        return self.parallel(line.direction, _less(point, line.through))
+
+    def meet(self, a: Line, b: Line) -> bool:
+        """Have the two lines a point in common (at infinity too)?"""
+        if len(a.through) == 2:
+            return True
+        return self.zero(_dot(_less(b.through, a.through), cross(a.direction, b.direction)))
+
+    def concurrent(self, a: Line, b: Line, c: Line) -> bool:
+        """Three lines of the plane through one point, or parallel: their coordinates are dependent."""
+        return self.zero(_dot(_line(a), cross(_line(b), _line(c))))
+
+
+def special(system: System, placement: Placement, sets: Sequence[Sequence[int]], tolerance: float = 0.0) -> list[str]:
+    """What is special in each dependent set of constraints, as text; told once."""
+    geometry = Geometry(system, placement, tolerance)
+    found: list[str] = []
+    for members in sets:
+        own = [system.connections[i] for i in members]
+        found += _facts(geometry, own)
+    return list(dict.fromkeys(found)) or [_OTHERWISE]
+
+
+def _facts(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
+    axes = list(_axes(g, own))
+    bars = [*_links(g, own), *_bars(g, own)]
+    if len(axes) > MOST or len(bars) > MOST:
+        return
+    yield from _of_axes(g, axes)
+    yield from _of_slides(g, own)
+    yield from _of_bars(g, bars, own)
+    yield from _of_points(g, own)
+
+
+def _axes(g: Geometry, own: Sequence[Connection]) -> Iterator[Line]:
+    for c in own:
+        at = g.placement.located[c.constraint]
+        if g.system.dimension == 3 and c.type in AXIAL and at.places:
+            yield from (Line(g.names[c.constraint], at.places[0], g.unit(n)) for n in at.directions)
+
+
+def _of_axes(g: Geometry, axes: Sequence[Line]) -> Iterator[str]:
+    if len(axes) < 2:
+        return
+    classes = _classes(axes, lambda a, b: g.parallel(a.direction, b.direction))
+    alike = [c for c in classes if len(c) > 1]
+    for same in alike:
+        coaxial = [c for c in _classes(same, lambda a, b: g.on(a, b.through)) if len(c) > 1]
+        yield from (f"the axes of {_listed(c)} lie on one line" for c in coaxial)
+        if len(coaxial) != 1 or len(coaxial[0]) < len(same):
+            yield f"the axes of {_listed(same)} are parallel"
+    if len(axes) > 2 and len(classes) > 1 and _in_one_plane(g, axes):
+        yield f"the axes of {_listed(axes)} lie in one plane"
+        return
+    through = _through_one_point(g, [c[0] for c in classes])
+    if len(through) > 2:
+        yield f"the axes of {_listed([a for a in axes if any(a is b for b in through)])} meet in one point"
+
+
+def _in_one_plane(g: Geometry, axes: Sequence[Line]) -> bool:
+    first = axes[0]
+    other = next(a for a in axes if not g.parallel(first.direction, a.direction))
+    normal = cross(first.direction, other.direction)
+    return all(g.zero(_dot(normal, a.direction), _dot(normal, _less(a.through, first.through))) for a in axes)
+
+
+def _through_one_point(g: Geometry, axes: Sequence[Line]) -> list[Line]:
+    """The most axes of space, no two parallel, that meet each other and do not lie in one plane, or at one point."""
+    best: list[Line] = []
+    for a, b in combinations(axes, 2):
+        if not g.meet(a, b):
+            continue
+        normal = cross(a.direction, b.direction)
+        rest = [c for c in axes if c is not a and c is not b and g.meet(a, c) and g.meet(b, c)]
+        out = [c for c in rest if not g.zero(_dot(normal, c.direction))]
+        if len(out) + 2 > max(2, len(best)):
+            best = [a, b, *out]
+    return best
+
+
+def _of_slides(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
+    slides = [
+        Line(g.names[c.constraint], (), g.unit(at.directions[0]))
+        for c in own
+        if c.type in ("prismatic", "slot") and (at := g.placement.located[c.constraint]).directions
+    ]
+    for same in _classes(slides, lambda a, b: g.parallel(a.direction, b.direction)):
+        if len(same) > 1:
+            yield f"{_listed(same)} slide in parallel directions"
+    if (
+        g.system.dimension == 3
+        and len(slides) > 2
+        and not any(
+            not g.zero(_dot(a.direction, cross(b.direction, c.direction))) for a, b, c in combinations(slides[:MOST], 3)
+        )
+    ):
+        yield f"{_listed(slides)} slide parallel to one plane"
+
+
+def _links(g: Geometry, own: Sequence[Connection]) -> Iterator[Line]:
+    """The links between points, those of rigid sets, and in the plane the normals of slots."""
+    for c in own:
+        at = g.placement.located[c.constraint]
+        if c.type == "slot" and g.system.dimension == 2:
+            yield Line(f"the normal of {g.names[c.constraint]}", at.points[0][1], g.unit(spanning(at.directions[0])[0]))
+        if c.type not in ("link", "rigid"):
+            continue
+        for (k, p), (m, q) in combinations(enumerate(at.points), 2):
+            ends = (_called(c, k), _called(c, m))
+            name = g.names[c.constraint] if c.type == "link" else "-".join(ends)
+            direction = _less(q[1], p[1])
+            if not g.zero(*direction):
+                yield Line(name, p[1], g.unit(direction), frozenset(ends))
+
+
+def _bars(g: Geometry, own: Sequence[Connection]) -> Iterator[Line]:
+    """Bodies of the plane with hinges at two places."""
+    hinges: dict[str, dict[str, tuple[Any, ...]]] = {}
+    for c in own:
+        if g.system.dimension == 2 and c.type == "revolute":
+            at = g.placement.located[c.constraint].places[0]
+            for m in c.members:
+                hinges.setdefault(m, {})[_text(c.places[0])] = at
+    for name, places in hinges.items():
+        if name != GROUND and len(places) == 2:
+            (one, p), (other, q) = places.items()
+            yield Line(name, p, g.unit(_less(q, p)), frozenset((one, other)))
+
+
+def _of_places(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
+    """Hinges of the plane that are drawn at one place and join different pairs of bodies."""
+    hinges = [c for c in own if c.type == "revolute" and g.system.dimension == 2]
+    for a, b in combinations(hinges[:MOST], 2):
+        place, other = (g.placement.located[c.constraint].places[0] for c in (a, b))
+        if not set(a.members) & set(b.members) and g.zero(*_less(place, other)):
+            yield f"{g.names[a.constraint]} and {g.names[b.constraint]} are drawn at one place"
+            return
+
+
+def _of_bars(g: Geometry, bars: Sequence[Line], own: Sequence[Connection]) -> Iterator[str]:
+    for same in _classes(bars, lambda a, b: g.parallel(a.direction, b.direction)):
+        apart = [c[0] for c in _classes(same, lambda a, b: g.on(a, b.through))]
+        if len(apart) > 2:
+            yield f"{_listed(same)} are parallel"
+    if g.system.dimension == 2:
+        for triple in combinations(bars[:MOST], 3):
+            a, b, c = triple
+            if a.ends & b.ends or b.ends & c.ends or a.ends & c.ends or g.parallel(a.direction, b.direction):
+                continue
+            if g.concurrent(a, b, c):
+                yield f"the lines of {_listed(triple)} meet in one point"
+                break
+    yield from _of_places(g, own)
+    for a, b in combinations(bars, 2):
+        if len(a.ends & b.ends) == 1 and g.parallel(a.direction, b.direction):
+            points = sorted(a.ends | b.ends)
+            yield f"the points {', '.join(points)} lie on one line"
+            break
+
+
+def _of_points(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
+    """All points of links in one plane of space, or on one conic of the plane."""
+    points: dict[str, tuple[Any, ...]] = {}
+    for c in own:
+        at = g.placement.located[c.constraint]
+        if c.type in ("link", "rigid"):
+            points |= {_called(c, k): place for k, (_, place) in enumerate(at.points)}
+    if len(points) > MOST:
+        return
+    first, *rest = points.values() or [()]
+    arms = [g.unit(_less(q, first)) for q in rest]
+    if g.system.dimension == 3 and len(points) > 3:
+        line = next((n for a, b in combinations(arms, 2) if not g.zero(*(n := cross(a, b)))), None)
+        if line is None:
+            yield f"the points {', '.join(points)} lie on one line"
+        elif g.zero(*(_dot(line, a) for a in arms)):
+            yield f"the points {', '.join(points)} lie in one plane"
+    if g.system.dimension == 2 and len(points) > CONIC and g.placement.p:
+        p = g.placement.p
+        rows = [{i: v % p for i, v in enumerate((x * x, x * y, y * y, x, y, 1)) if v % p} for x, y in points.values()]
+        if rank_of_rows(rows, p) <= CONIC:
+            yield f"the points {', '.join(points)} lie on one conic"
+
+
+def _called(c: Connection, k: int) -> str:
+    point = c.points[k]
+    return point.carrier if point.particle or point.at is None else _text(point.at)
+
+
+def _text(place: Sequence[Any] | None) -> str:
+    return "?" if place is None else f"({', '.join(to_text(part) for part in place)})"
+
+
+def _classes(lines: Sequence[Line], same: Callable[[Line, Line], bool]) -> list[list[Line]]:
+    """Lines that are the same in some respect, together."""
+    found: list[list[Line]] = []
+    for line in lines:
+        known = next((c for c in found if same(c[0], line)), None)
+        if known is None:
+            found.append([line])
+        else:
+            known.append(line)
+    return found
+
+
+def _listed(lines: Sequence[Line]) -> str:
+    names = list(dict.fromkeys(line.name for line in lines))
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def _less(a: Numbers, b: Numbers) -> tuple[Any, ...]:
+    return tuple(p - q for p, q in zip(a, b, strict=True))
+
+
+def _dot(a: Numbers, b: Numbers) -> Any:
+    return sum(p * q for p, q in zip(a, b, strict=True))
+
+
+def _wedge(a: Numbers, b: Numbers) -> list[Any]:
+    return [a[i] * b[j] - a[j] * b[i] for i, j in combinations(range(len(a)), 2)]
+
+
+def _line(line: Line) -> tuple[Any, ...]:
+    """The coordinates (a, b, c) of the line a x + b y + c = 0 of the plane."""
+    (x, y), (u, v) = line.through, line.direction
+    return (v, -u, u * y - v * x)

@@ -1,0 +1,1 @@
+"""A classified system in time: Lagrange's equations, and configurations along a motion."""

@@ -1,0 +1,91 @@
+"""Cyclic coordinates and first integrals that a Lagrangian shows at once (Noether: translations of q and of t)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
+from dofkit.exact.ring.canonical import is_identically_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.text import to_text
+from dofkit.expressions.tree import Expr
+from dofkit.motion.lagrange.angles import compound
+from dofkit.motion.lagrange.derivation import Derived
+from dofkit.motion.lagrange.elimination import Remaining
+from dofkit.motion.lagrange.report import Conserved
+from dofkit.motion.lagrange.term_order import ordered
+from dofkit.motion.lagrange.tidying import by_rates, length
+from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+
+#: Seconds for writing the energy shorter.
+SECONDS = 2.0
+
+
+def cyclic(derived: Derived) -> list[str]:
+    """The coordinates with dL/dq = 0 identically."""
+    return [n for n in derived.model.names if _zero(derived, ex.diff(derived.lagrangian, ex.coordinate(n)))]
+
+
+def conserved(derived: Derived) -> Iterator[Conserved]:
+    """Momenta on which no force acts, and the energy function h = sum qdot p - L.
+
+    dp/dt = dL/dq + Q + sum lam a; dh/dt = -dL/dt + sum Q qdot + sum lam a qdot, where a qdot = 0 if a constraint
+    has no term free of velocities.
+    """
+    model = derived.model
+    for name in model.names:
+        if _zero(derived, derived.forces[name]) and not any(_acts(c, name, derived) for c in model.constraints):
+            quantity = to_text(derived.momenta[name])
+            yield Conserved(name=f"p_{name}", quantity=quantity, reason=f"no generalized force acts along {name}.")
+    energy = model.energy
+    idle = all(_zero(derived, e) for e in (energy.dissipation, *energy.forces.values()))
+    timeless = _zero(derived, ex.diff(derived.lagrangian, ex.TIME))
+    if model.names and idle and timeless and all(_workless(c, derived) for c in model.constraints):
+        function, total = energy_function(derived)
+        reason = "time does not enter the Lagrangian, and neither other forces nor constraints do work."
+        if not total:
+            reason = (
+                "time does not enter the Lagrangian, and no other forces act; this is sum qdot p - L, and not T + V."
+            )
+        yield Conserved(name="energy" if total else "h", quantity=to_text(function), reason=reason)
+
+
+def energy_function(derived: Derived) -> tuple[Expr, bool]:
+    """h = sum qdot dL/dqdot - L, and whether that is T + V, as it is where T is quadratic in the velocities."""
+    own = derived.model.energy
+    powers = ex.add(*(ex.velocity(n) * p for n, p in derived.momenta.items()))
+    function = powers - derived.lagrangian
+    total = own.kinetic + own.potential
+    whole = _zero(derived, function - total)
+    return _shorter(derived, total if whole else function), whole
+
+
+def _shorter(derived: Derived, e: Expr) -> Expr:
+    """The same, sorted by velocities where that is shorter."""
+    try:
+        with by_processor(min(SECONDS, left())):
+            found = by_rates(e, derived.model.positive)
+            found = found if found is None else compound(found)
+    except OutOfTimeError:
+        check()
+        found = None
+    return ordered(e if found is None or length(found) >= length(e) or not _zero(derived, found - e) else found)
+
+
+def _zero(derived: Derived, e: Expr) -> bool:
+    return e.is_zero or is_identically_zero(e, derived.model.positive) is True
+
+
+def _acts(piece: Remaining, name: str, derived: Derived) -> bool:
+    """May the constraint's force have a component along a coordinate?"""
+    if isinstance(piece, Pfaffian):
+        return name in piece.coefficients and not _zero(derived, piece.coefficients[name])
+    symbol = ex.coordinate(name) if isinstance(piece, Finite) else ex.velocity(name)
+    return not _zero(derived, ex.diff(piece.expr, symbol))
+
+
+def _workless(piece: Remaining, derived: Derived) -> bool:
+    """Does the constraint's force do no work in the motion itself?"""
+    if isinstance(piece, Pfaffian):
+        return _zero(derived, piece.dt)
+    return not isinstance(piece, Nonlinear) and _zero(derived, ex.diff(piece.expr, ex.TIME))

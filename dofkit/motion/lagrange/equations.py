@@ -1,0 +1,219 @@
+"""Equations of motion: Lagrange's equations of a scene, in the coordinates that its constraints leave.
+
+Constraints are used as they were classified: finite ones are eliminated where they solve in closed form and keep a
+multiplier where not, as non-holonomic ones always do; redundant ones are left out; inequalities never enter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
+from dofkit.base.errors import Fault, SceneError
+from dofkit.classification.passes import Study, studied
+from dofkit.exact.ring.canonical import is_identically_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.text import Names, to_text
+from dofkit.expressions.text.limits import MAX_CHARACTERS
+from dofkit.expressions.tree import Expr
+from dofkit.motion.lagrange.angles import compound
+from dofkit.motion.lagrange.conserved import conserved, cyclic
+from dofkit.motion.lagrange.derivation import Derived, derive
+from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
+from dofkit.motion.lagrange.energies import Energy, Reader, missing
+from dofkit.motion.lagrange.model import Model, MotionError, modelled
+from dofkit.motion.lagrange.regularity import SINGULAR, degenerate
+from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
+from dofkit.motion.lagrange.small_motions import linearized
+from dofkit.motion.lagrange.term_order import ordered
+from dofkit.motion.lagrange.tidying import by_rates, length
+from dofkit.scene.lowering import system_of
+from dofkit.scene.scene import Scene
+from dofkit.scene.survey import survey
+
+__all__ = ["Conserved", "Linearized", "MotionError", "MotionReport", "derived_of", "lagrange"]
+
+#: Equations of longer Lagrangians than this are too long to be read, where much was eliminated.
+LONGEST = 500
+#: Seconds for each attempt with less eliminated than the one before.
+TRYING = 8.0
+#: Seconds for sorting a Lagrangian, and the nodes of one that is too long for that.
+SORTING, MOST_NODES = 2.0, 1500
+#: Said where the elimination was cut short.
+LONG = "More could be eliminated, but the equations would be too long to read: some constraints keep a multiplier."
+
+
+def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None) -> MotionReport:
+    """Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a of a scene.
+
+    ``linearize``: also M, C and K at an equilibrium, or a note that says why not. Raises `SceneError` with every fault
+    of the scene, and `MotionError` where the equations cannot be given, saying why: nothing is guessed.
+
+    >>> import dofkit
+    >>> pendulum = {"coordinates": ["theta"], "parameters": {"m": "positive", "l": "positive", "g": "positive"}}
+    >>> energies = {"kinetic": "m l^2 thetadot^2/2", "potential": "-m g l cos(theta)"}
+    >>> dofkit.lagrange(dofkit.load({**pendulum, "energies": energies})).equations
+    ['l^2*m*thetaddot + g*l*m*sin(theta) = 0']
+    """
+    try:
+        with limited(DEFAULT_SECONDS if budget is None else budget):
+            derived = derived_of(scene)
+            return _told(derived, *(_small(scene, derived) if linearize else (None, ())))
+    except OutOfTimeError as error:
+        raise MotionError(f"no equations of motion are given: {error}") from None
+
+
+def derived_of(scene: Scene) -> Derived:
+    """The equations of motion as expressions.
+
+    Where they would be longer than a text of a scene may be, less is eliminated, and more multipliers are kept.
+    """
+    source = read(scene)
+    freest: Model | None = None
+    for care in ELIMINATIONS[:-1]:
+        model = source.model(care)
+        if not model.elimination.solved:
+            return derive(model)
+        freest = freest or model
+        model = _sorted(model)
+        if _short(model.energy.lagrangian):
+            try:
+                with by_processor(min(TRYING, left())):
+                    derived = derive(model)
+            except OutOfTimeError:
+                check()
+                continue
+            if _readable(derived):
+                return _with_note(derived, freest)
+    return _with_note(derive(source.model(ELIMINATIONS[-1])), freest)
+
+
+def _with_note(derived: Derived, freest: Model | None) -> Derived:
+    """Says so where more could have been eliminated."""
+    model = derived.model
+    if freest is None or model.elimination.solved.keys() >= freest.elimination.solved.keys():
+        return derived
+    return replace(derived, model=replace(model, notes=(*model.notes, LONG)))
+
+
+def _short(lagrangian: Expr) -> bool:
+    """Is a Lagrangian short enough for equations that can be read? Roots grow as they are differentiated."""
+    roots = any(
+        n.op == "pow" and n.args[1].op == "num" and n.args[1].args[0].denominator > 1 for n in ex.nodes(lagrangian)
+    )
+    return len(to_text(lagrangian)) <= (LONGEST if roots else 2 * LONGEST)
+
+
+def _sorted(model: Model) -> Model:
+    """The same with kinetic and potential energies sorted by velocities, where that is shorter."""
+    energy = model.energy
+    kinetic, potential = (_shorter(e, model) for e in (energy.kinetic, energy.potential))
+    return replace(model, energy=replace(energy, kinetic=kinetic, potential=potential))
+
+
+def _shorter(e: Expr, model: Model) -> Expr:
+    if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
+        return e
+    try:
+        with by_processor(min(SORTING, left())):
+            found = by_rates(e, model.positive)
+            if found is None:
+                return e
+            found = ordered(compound(found))
+            shorter = length(found) < length(e) and is_identically_zero(found - e, model.positive) is True
+            return found if shorter else e
+    except OutOfTimeError:
+        check()
+        return e
+
+
+def _readable(derived: Derived) -> bool:
+    """Is every text one that can be read back?"""
+    texts = (derived.lagrangian, *derived.equations.values(), *derived.momenta.values(), *derived.forces.values())
+    return all(len(to_text(e)) + len(" = 0") <= MAX_CHARACTERS for e in texts)
+
+
+@dataclass(frozen=True)
+class Source:
+    """What the equations of motion of a scene are derived from."""
+
+    scene: Scene
+    study: Study
+    energy: Energy
+    names: Names
+
+    def model(self, care: Care = ELIMINATIONS[0]) -> Model:
+        """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""
+        model = modelled(self.study, self.energy, self.names, care)
+        used = frozenset().union(*(e.symbols for e in _energies(model)))
+        faults = missing(used, self.scene)
+        if faults:
+            raise SceneError(tuple(faults), self.scene.name)
+        return model
+
+
+def read(scene: Scene) -> Source:
+    """The scene's energies and what is known of its constraints. Raises SceneError with all its faults."""
+    found = survey(scene, euler=True)
+    if found.world.faults:
+        raise SceneError(tuple(found.world.faults), scene.name)
+    energy = Reader(scene, found.world).energy()
+    if found.world.faults:
+        raise SceneError(tuple(found.world.faults), scene.name)
+    if not _given(scene):
+        message = (
+            "the scene has neither a kinetic energy in `energies` nor masses: there is nothing to derive motion from"
+        )
+        hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
+        raise SceneError((Fault(message, hint=hint),), scene.name)
+    return Source(scene, studied(system_of(scene, found)), energy, found.world.names)
+
+
+def _given(scene: Scene) -> bool:
+    """Does anything of the scene tell of its motion?"""
+    if scene.energies is not None and scene.energies.kinetic is not None:
+        return True
+    return any(p.mass is not None for p in scene.particles) or any(b.mass is not None for b in scene.bodies)
+
+
+def _energies(model: Model) -> list[Expr]:
+    e = model.energy
+    return [e.kinetic, e.potential, e.dissipation, *e.forces.values()]
+
+
+def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str, ...]]:
+    """Small motions, or why they are not given; what was eliminated may have no value at rest, and is then kept."""
+    try:
+        return linearized(derived), ()
+    except MotionError as error:
+        why = f"Not linearized: {error}."
+    if not derived.model.elimination.solved or derived.model.elimination.constants:
+        return None, (why,)
+    try:
+        return linearized(derive(read(scene).model(ELIMINATIONS[-1]))), ()
+    except MotionError:
+        return None, (why,)
+
+
+def _told(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -> MotionReport:
+    model = derived.model
+    more = (*((SINGULAR,) if degenerate(derived) else ()), *more)
+    report = MotionReport(
+        scene=model.study.system.name,
+        coordinates=list(model.names),
+        lagrangian=to_text(derived.lagrangian),
+        momenta={n: to_text(p) for n, p in derived.momenta.items()},
+        forces={n: to_text(f) for n, f in derived.forces.items()},
+        equations=[f"{to_text(e)} = 0" for e in derived.equations.values()],
+        constraints=[f"{to_text(e)} = 0" for e in (*model.holonomic, *model.nonholonomic)],
+        multipliers=list(derived.multipliers),
+        eliminated={n: to_text(e) for n, e in model.elimination.solved.items()},
+        left_out=list(model.left_out),
+        cyclic=cyclic(derived),
+        conserved=list(conserved(derived)),
+        linearized=small,
+        notes=[*model.notes, *more],
+        verdict=model.study.report.verdict,
+    )
+    report._derived = derived
+    return report

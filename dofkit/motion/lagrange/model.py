@@ -1,0 +1,265 @@
+"""A classified system with its energies, made ready for Lagrange's equations: what is eliminated and what is left."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.classification.freedom.branches import in_time
+from dofkit.classification.passes import Study
+from dofkit.exact.matrices.modular import without_time
+from dofkit.exact.matrices.sparse import echelon
+from dofkit.expressions import tree as ex
+from dofkit.expressions.text import Names, UnknownNameError, parse_relations
+from dofkit.expressions.tree import ZERO, Expr
+from dofkit.motion.lagrange.elimination import (
+    ELIMINATIONS,
+    Care,
+    Elimination,
+    Eliminator,
+    Relation,
+    Remaining,
+    by_potential,
+    inserted,
+    vanishes,
+)
+from dofkit.motion.lagrange.energies import Energy
+from dofkit.motion.lagrange.rates import motions
+from dofkit.motion.lagrange.roots import without_roots
+from dofkit.relations.blocks import Row, coordinates_of, split
+from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+from dofkit.relations.setting import Setting
+from dofkit.report import BRANCH_WARNING
+
+#: Constants of integration in one integral.
+MOST_CONSTANTS = 4
+
+
+class MotionError(DofkitError):
+    """The equations of motion of a scene cannot be written down; the message says why."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """What Lagrange's equations are written from.
+
+    ``names``: the coordinates that are kept; ``energy`` in them; ``constraints``: the independent relations that keep
+    a multiplier; ``left_out``: the constraints that are redundant.
+    """
+
+    study: Study
+    names: tuple[str, ...]
+    energy: Energy
+    whole: Energy
+    elimination: Elimination
+    constraints: tuple[Remaining, ...]
+    left_out: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def positive(self) -> frozenset[Expr]:
+        """The parameters that are positive."""
+        return self.study.setting.positive
+
+    @cached_property
+    def motions(self) -> dict[Expr, Expr]:
+        """What the eliminated coordinates, velocities and accelerations are."""
+        return motions(self.elimination.solved)
+
+    @property
+    def holonomic(self) -> list[Expr]:
+        """g of the finite relations g(q, t) = 0 that keep a multiplier."""
+        return [c.expr for c in self.constraints if isinstance(c, Finite)]
+
+    @property
+    def nonholonomic(self) -> list[Expr]:
+        """The relations between velocities that keep a multiplier."""
+        return [in_velocities(c) for c in self.constraints if not isinstance(c, Finite)]
+
+
+def in_velocities(piece: Remaining) -> Expr:
+    """A relation between velocities as an expression that is zero."""
+    if isinstance(piece, Pfaffian):
+        return ex.add(*(a * ex.velocity(n) for n, a in piece.coefficients.items()), piece.dt)
+    return piece.expr
+
+
+def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> Model:
+    """The system with as much eliminated as is possible in closed form, and as ``care`` allows.
+
+    Integrals of differential constraints are used where their constants do not enter the motion. Raises MotionError
+    where the system is inconsistent or was not decided.
+    """
+    _possible(study)
+    outcome = study.outcome
+    coordinates = [c.name for c in study.system.coordinates]
+    free = study.report.generalized_coordinates or []
+    finite = [Relation(r.piece.expr) for r in outcome.rows if isinstance(r.piece, Finite)]
+    finite += [Relation(g) for a in outcome.answers for g in a.hidden]
+    integrals = list(_integrals(study, names))
+    eliminator = Eliminator(study.setting.positive, by_potential(energy.potential, study.system.reference), care)
+    for relations in ([*finite, *integrals], finite, []):
+        elimination = _agreeing(eliminator, relations, coordinates, free)
+        model = _built_somehow(study, energy, elimination, coordinates)
+        if model is not None:
+            return model
+    raise MotionError("which of the constraints are independent was not decided, so no equations of motion are given")
+
+
+def _agreeing(
+    eliminator: Eliminator, relations: Sequence[Relation], coordinates: Sequence[str], free: Sequence[str]
+) -> Elimination:
+    """An elimination that keeps the report's generalized coordinates, where just as many can be eliminated so."""
+    dependent = [c for c in coordinates if c not in free]
+    found = eliminator.eliminated(relations, coordinates, dependent)
+    if found.solved.keys() != set(dependent) and len(found.solved) == len(dependent):
+        other = replace(eliminator, care=eliminator.care._replace(roots=0)).eliminated(relations, dependent, dependent)
+        if len(other.solved) == len(dependent):
+            return other
+    return found
+
+
+def _possible(study: Study) -> None:
+    report = study.report
+    own = {c.name for c in study.system.coordinates}
+    if any(coordinates_of(r.piece) - own for r in study.outcome.rows):
+        raise MotionError("a constraint on accelerations brings constants of integration: write what it integrates to")
+    if report.consistent is False:
+        names = ", ".join(report.conflicting) or "its constraints"
+        raise SceneError((Fault(f"the scene is inconsistent: no motion satisfies all of {names}", ("constraints",)),))
+    several = [c.name for c in report.constraints if BRANCH_WARNING.format(name=c.name) in report.warnings]
+    if several:
+        raise MotionError(
+            f"{', '.join(several)} holds on several branches, and each has its own motions: write the one that is meant"
+        )
+    if report.consistent is None or report.dof is None or report.velocity_dof is None:
+        why = "; ".join(dict.fromkeys(r for a in study.outcome.answers for r in a.reasons)) or "it was not decided"
+        raise MotionError(f"it is undecided how the system can move, so no equations of motion are given: {why}")
+
+
+def _built_somehow(study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]) -> Model | None:
+    """The model after an elimination; None where it cannot be built, also because something has no value there."""
+    try:
+        return _built(study, energy, elimination, coordinates)
+    except ZeroDivisionError:
+        return None
+
+
+def _integrals(study: Study, names: Names) -> Iterator[Relation]:
+    """The finite relations that holonomic differential constraints integrate to."""
+    owners = {r.constraint for r in study.outcome.rows if isinstance(r.piece, Pfaffian)}
+    for i in sorted(owners):
+        entry = study.report.constraints[i]
+        if entry.holonomic and entry.integral is not None:
+            found = _read_integral(entry.integral, names)
+            if found is not None:
+                yield found
+
+
+def _read_integral(text: str, names: Names) -> Relation | None:
+    own: dict[str, Expr] = {}
+    while len(own) <= MOST_CONSTANTS:
+        known = Names(names.coordinates, {**names.parameters, **own}, names.functions, names.arguments)
+        try:
+            (found,) = parse_relations(text, known)
+        except UnknownNameError as error:
+            own[error.name] = ex.parameter(error.name)
+        except (TextError, ValueError):
+            return None
+        else:
+            return Relation(found.left - found.right, frozenset(own.values()))
+    return None
+
+
+def _built(study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]) -> Model | None:
+    """The model after an elimination; None where constants enter it, or the count of constraints does not come out."""
+    kept = elimination.kept(coordinates)
+    reduced = _reduced(energy, elimination, kept, study.setting)
+    if reduced is None:
+        return None
+    pieces = [inserted(r.piece, elimination) for r in study.outcome.rows if isinstance(r.piece, Remaining)]
+    pieces += [inserted(Finite(g), elimination) for a in study.outcome.answers for g in a.hidden]
+    left = [p for p in pieces if not vanishes(p, study.setting.positive)]
+    if any(_symbols(p) & elimination.constants for p in left):
+        return None
+    chosen = independent(kept, left, study.setting)
+    if chosen is None or len(elimination.solved) + len(chosen) != len(coordinates) - (study.report.velocity_dof or 0):
+        return None
+    notes = [*reduced.notes, *elimination.notes]
+    if any(isinstance(c, Nonlinear) for c in chosen):
+        notes.append("Nonlinear relations between velocities act by Chetaev's rule: along their gradient by velocity.")
+    used = sorted(str(c.args[1]) for c in elimination.constants)
+    if used:
+        notes.append(f"Constants of integration, which the initial state sets: {', '.join(used)}.")
+    notes += [n for n in study.report.warnings if "branch" in n]
+    return Model(
+        study,
+        tuple(kept),
+        reduced,
+        energy,
+        elimination,
+        tuple(chosen),
+        tuple(study.report.redundant),
+        tuple(notes),
+    )
+
+
+def _symbols(piece: Remaining) -> frozenset[Expr]:
+    if isinstance(piece, Pfaffian):
+        return frozenset().union(*(e.symbols for e in (*piece.coefficients.values(), piece.dt)))
+    return piece.expr.symbols
+
+
+def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], setting: Setting) -> Energy | None:
+    """The energies in the coordinates that are left; None where a constant of integration enters the motion.
+
+    A constant that is only added to the potential is left out. Forces follow the coordinates: Q_j = sum Q_i dq_i/dq_j.
+    """
+    solved = elimination.solved
+    if not solved:
+        return energy
+    mapping = motions(solved)
+
+    def insert(e: Expr) -> Expr:
+        return ex.substitute(e, mapping)
+
+    potential, kinetic = insert(energy.potential), insert(energy.kinetic)
+    for constant in elimination.constants:
+        if not any(s.args[0] in ("coordinate", "velocity") for s in ex.diff(potential, constant).symbols):
+            potential = ex.substitute(potential, {constant: ZERO})
+    forces: dict[str, Expr] = {n: insert(f) for n, f in energy.forces.items() if n not in solved}
+    for name, force in energy.forces.items():
+        if name in solved:
+            for j in kept:
+                slope = ex.diff(solved[name], ex.coordinate(j))
+                if not slope.is_zero:
+                    forces[j] = forces.get(j, ZERO) + insert(force) * slope
+    potential, notes = without_roots(potential, setting.positive, setting.reference)
+    found = Energy(kinetic, potential, insert(energy.dissipation), forces, (*energy.notes, *notes))
+    used = (found.kinetic, found.potential, found.dissipation, *forces.values())
+    if any(e.symbols & elimination.constants for e in used):
+        return None
+    return found
+
+
+def independent(names: Sequence[str], pieces: Sequence[Remaining], setting: Setting) -> list[Remaining] | None:
+    """Relations of which each is independent of those before it, and on which all others depend; None if undecided."""
+    if not pieces:
+        return []
+    chosen: list[Remaining] = []
+    blocks, _ = split(names, [Row(i, p) for i, p in enumerate(pieces)])
+    for block in blocks:
+        if len(block.rows) == 1 or block.nonlinear:
+            chosen += [r.piece for r in block.rows if isinstance(r.piece, Remaining)]
+            continue
+        a = in_time(block, setting)
+        if a.dof is None or not a.matrix:
+            return None
+        rows = without_time(a.matrix, len(block.coordinates))
+        known = [r.piece for r in block.finite] + [Finite(g) for g in a.hidden] + [r.piece for r in block.forms]
+        if len(known) != len(rows):
+            return None
+        chosen += [p for i in echelon(rows, a.modulus).independent if isinstance(p := known[i], Remaining)]
+    return chosen

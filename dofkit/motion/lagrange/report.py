@@ -1,0 +1,89 @@
+"""What is told of the equations of motion. Field names are fixed; see the docstrings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pydantic import Field, PrivateAttr
+
+from dofkit.base.verdicts import Verdict
+from dofkit.report import Model
+
+if TYPE_CHECKING:
+    from dofkit.motion.lagrange.derivation import Derived
+    from dofkit.motion.lagrange.handover import Handover
+
+#: T, V and L are energies, so that every q p has the dimension of energy times time.
+QP = "action, M L^2 T^-1: each product q*p has the dimension of energy times time, whatever q is"
+
+
+class Conserved(Model):
+    """A quantity that does not change along the motion: what it is called, it, and why."""
+
+    name: str
+    quantity: str
+    reason: str
+
+
+class Linearized(Model):
+    """M qddot + C qdot + K q = 0 for small deviations q of ``coordinates`` from an equilibrium.
+
+    ``characteristic``: det(M s^2 + C s + K), empty for large systems; ``frequencies``: the angular ones where C is 0,
+    as text; empty where no formula is given, and where one is not real. ``unstable``: deviations grow, which a negative
+    square of a frequency shows; false where that is not known. ``others``: equilibria found beside this one.
+    """
+
+    coordinates: list[str]
+    equilibrium: dict[str, str]
+    mass: list[list[str]]
+    damping: list[list[str]]
+    stiffness: list[list[str]]
+    characteristic: str
+    frequencies: list[str]
+    unstable: bool = False
+    others: list[dict[str, str]] = Field(default_factory=list)
+
+
+class MotionReport(Model):
+    """Lagrange's equations of a scene, as texts in the grammar of scenes (``qddot`` for accelerations).
+
+    ``coordinates`` are those kept; ``eliminated`` ones are functions of them. ``forces`` are dL/dq plus the
+    non-conservative ones; ``equations`` end in ``= 0``, one for each coordinate; ``constraints`` are those that keep a
+    multiplier, in the order of ``multipliers``; ``left_out``: redundant ones. ``cyclic``: coordinates that do not occur
+    in the Lagrangian. ``verdict``: how sure the classification is that the constraints are used by.
+    """
+
+    scene: str
+    coordinates: list[str]
+    lagrangian: str
+    momenta: dict[str, str]
+    forces: dict[str, str]
+    equations: list[str]
+    constraints: list[str]
+    multipliers: list[str]
+    eliminated: dict[str, str] = Field(default_factory=dict)
+    left_out: list[str] = Field(default_factory=list)
+    cyclic: list[str] = Field(default_factory=list)
+    conserved: list[Conserved] = Field(default_factory=list)
+    action: str = QP
+    linearized: Linearized | None = None
+    notes: list[str] = Field(default_factory=list)
+    verdict: Verdict = "proved"
+    _derived: Derived | None = PrivateAttr(None)
+
+    def to_sympy(self) -> Handover:
+        """Coordinates, speeds, Lagrangian, forces and constraint lists, ready for LagrangesMethod and KanesMethod.
+
+        Raises ValueError for a report that was read back and not derived here.
+        """
+        if self._derived is None:
+            raise ValueError("this report was read back as text: derive it again by dofkit.lagrange(scene)")
+        return self._derived.handover
+
+    def _repr_latex_(self) -> str:
+        """The equations of motion for a notebook."""
+        if self._derived is None:
+            return ""
+        from dofkit.motion.lagrange.latex import latex_of
+
+        return latex_of(self._derived)

@@ -1,0 +1,148 @@
+"""Expressions written shorter; a form counts only where it is proved equal to what was given."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from math import comb, prod
+from typing import Any
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
+from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError, is_identically_zero
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
+from dofkit.expressions.tree import Expr
+from dofkit.motion.lagrange.angles import compound
+from dofkit.motion.lagrange.term_order import ordered
+
+#: Expressions with more SymPy operations than this are not expanded.
+EXPANDED = 3000
+#: The same for expressions that would have more terms than this.
+TERMS, MANY = 1500, 10**9
+#: Seconds for all that one report tells.
+SECONDS = 6.0
+#: A product that hides a sum with velocities is read as if it were longer by so many symbols.
+HIDDEN = 8
+_RATES = ("velocity", "acceleration")
+
+
+@dataclass
+class Tidier:
+    """Writes SymPy's expressions as ours, as short as is found while ``seconds`` last."""
+
+    bridge: Bridge
+    positive: frozenset[Expr]
+    seconds: float = SECONDS
+
+    def __call__(self, e: Any) -> Expr:
+        plain = self.bridge.expr(e)
+        best, size = plain, length(plain)
+        start = time.thread_time()
+        try:
+            with by_processor(min(self.seconds, left())):
+                for form in self._forms(e, plain):
+                    check()
+                    if length(form) < size and is_identically_zero(form - plain, self.positive) is True:
+                        best, size = form, length(form)
+        except OutOfTimeError:
+            check()
+        self.seconds -= time.thread_time() - start
+        return ordered(best)
+
+    def _forms(self, e: Any, plain: Expr) -> Iterator[Expr]:
+        check()
+        found = by_rates(plain, self.positive)
+        if found is not None:
+            yield found
+            joined = compound(found)
+            if joined != found:
+                yield joined
+        if int(e.count_ops()) > EXPANDED or terms(plain) > TERMS:
+            return
+        import sympy
+
+        expanded = e.expand()
+        rates = [self.bridge.velocity(n, k) for k in (2, 1) for n in self.bridge.positions]
+        for form in (expanded, sympy.collect(expanded, rates)):
+            try:
+                yield self.bridge.expr(form)
+            except (UntranslatableError, ZeroDivisionError):
+                continue
+
+
+def terms(e: Expr) -> int:
+    """No fewer than the terms of any sum in ``e`` once products and powers are written out."""
+    memo: dict[Expr, int] = {}
+    for node in ex.nodes(e):
+        parts = [memo[child] for child in ex.children(node)]
+        if node.op == "add":
+            many = sum(parts)
+        elif node.op == "mul":
+            many = prod(parts)
+        elif node.op == "pow" and node.args[1].op == "num" and node.args[1].args[0].denominator == 1:
+            power = min(abs(node.args[1].args[0].numerator), TERMS)
+            many = comb(min(parts[0], TERMS) + power - 1, power)
+        else:
+            many = 1
+        memo[node] = min(many, MANY)
+    return max(memo.values())
+
+
+def by_rates(e: Expr, positive: frozenset[Expr]) -> Expr | None:
+    """In the canonical ring, a sum over the monomials in velocities and accelerations, each coefficient factored."""
+    ring = Ring([e], positive)
+    try:
+        node = ring.node(e)
+        canon = Canon(ring)
+        top, bottom = canon.quotient(node)
+        if any(_is_rate(canon, i) for i in canon.generators_in(bottom)):
+            return None
+        terms = [ex.mul(_factored(canon, part, bottom), rates) for rates, part in _grouped(canon, top)]
+    except (TooLargeError, DomainError, ZeroDivisionError):
+        return None
+    return ex.add(*terms) if terms else ex.ZERO
+
+
+def _is_rate(canon: Canon, index: int) -> bool:
+    shown = canon.ring.var_expr[index]
+    return shown.op == "sym" and shown.args[0] in _RATES
+
+
+def _grouped(canon: Canon, top: Poly) -> list[tuple[Expr, Poly]]:
+    """The polynomial's parts by their monomials in rates."""
+    shown = list(reversed(canon.ring.var_expr))
+    moving = [e.op == "sym" and e.args[0] in _RATES for e in shown] or [False]
+    groups: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+    for exponents, coefficient in top.to_dict().items():
+        rates = tuple(int(k) if m else 0 for k, m in zip(exponents, moving, strict=True))
+        rest = tuple(0 if m else int(k) for k, m in zip(exponents, moving, strict=True))
+        groups.setdefault(rates, {})[rest] = coefficient
+    return [
+        (ex.mul(*(ex.power(v, ex.num(k)) for v, k in zip(shown, rates, strict=False) if k)), canon.ctx.from_dict(part))
+        for rates, part in groups.items()
+    ]
+
+
+def _factored(canon: Canon, top: Poly, bottom: Poly) -> Expr:
+    common = top.gcd(bottom)
+    return _product(canon, top / common) / _product(canon, bottom / common)
+
+
+def _product(canon: Canon, poly: Poly) -> Expr:
+    content, factors = poly.factor()[0], canon.factors(poly)
+    number = ex.num(Fraction(int(content.p), int(content.q)))
+    parts = [ex.power(canon.to_expr(f), ex.num(k)) for f, k in factors]
+    if number != ex.ONE and len(parts) == 1 and parts[0].op == "add":
+        return Expr("mul", (number, parts[0])) if number != ex.MINUS_ONE else -parts[0]
+    return ex.mul(number, *parts)
+
+
+def length(e: Expr) -> int:
+    """How long an expression is to read."""
+    hidden = e.op == "mul" and any(p.op == "add" and any(s.args[0] in _RATES for s in p.symbols) for p in e.args)
+    return 1 + HIDDEN * hidden + sum(map(length, ex.children(e)))

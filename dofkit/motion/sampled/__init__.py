@@ -1,0 +1,1 @@
+"""Configurations along a motion, followed by arclength."""

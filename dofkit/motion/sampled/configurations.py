@@ -1,0 +1,215 @@
+"""A motion sampled: configurations along it, for pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import islice
+
+import numpy as np
+from flint import ctx
+
+from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
+from dofkit.base.errors import DofkitError
+from dofkit.classification.freedom.branches import Outcome, solve
+from dofkit.classification.freedom.preparation import prepared
+from dofkit.exact.points.balls import PRECISION, RealSearch
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.motion.sampled.continuation import STRAIGHT, Follower, Reached
+from dofkit.motion.sampled.poses import Pose, Relations, number
+from dofkit.relations.normal.domain import Condition
+from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.scene.lowering import lower
+from dofkit.scene.scene import Scene
+from dofkit.system import Coordinate, System
+
+#: Random configurations from which one is looked for where there is no reference.
+STARTS = 24
+STILL = 1e-6
+
+
+class MotionError(DofkitError):
+    """No motion can be sampled: nothing moves, nothing is consistent, or it was not decided; the message says which."""
+
+
+def configurations(
+    scene: Scene | System,
+    steps: int = 100,
+    step: float = 0.05,
+    *,
+    along: str | None = None,
+    values: Mapping[str, float] | None = None,
+    both: bool = True,
+) -> list[dict[str, float]]:
+    """Configurations along a finite motion of ``scene``, in order: every coordinate's value, and that of ``t``.
+
+    They begin at the reference configuration, or at a generic one where there is none, and go ``steps`` steps forward
+    and (``both``) as many backward; fewer where the motion ends. A step is the length of the way, sqrt(sum dq^2) with
+    places measured by the scene's size and turns in radians; where time occurs it is a step in ``t``. A motion with
+    one freedom that closes up ends where it began. With several freedoms it begins along the tangent nearest to that
+    of the coordinate ``along`` (the first that can move) and goes on as straight as the constraints let it.
+
+    ``values``: numbers for parameters that have none (else chosen at random, and told with the coordinates), and for
+    coordinates, near which the first configuration is looked for.
+
+    Finite relations, those hidden in differential ones included, hold in every configuration to 1e-12 of their
+    gradient times the size; a one-form holds on every chord at its midpoint, so along the motion to the third order of
+    a step's sixteenth. A way ends before an inequality
+    is broken that held at the beginning. Raises `MotionError` where nothing moves, the scene is
+    inconsistent, or its motions are undecided.
+
+    >>> import dofkit
+    >>> circle = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 25"], "configuration": {"x": 3, "y": -4}}
+    >>> found = dofkit.configurations(dofkit.load(circle), steps=2, step=0.5)
+    >>> [round(c["x"] ** 2 + c["y"] ** 2, 9) for c in found]
+    [25.0, 25.0, 25.0, 25.0, 25.0]
+    """
+    if steps < 0 or not step > 0:
+        raise MotionError("steps is at least 0, and the length of a step is more than 0")
+    system = scene if isinstance(scene, System) else lower(scene)
+    try:
+        with limited(DEFAULT_SECONDS), ctx.workprec(PRECISION):
+            return _Sampled(system, dict(values or {}), along).configurations(steps, step, both)
+    except OutOfTimeError as error:
+        raise MotionError(str(error)) from None
+
+
+class _Sampled:
+    """A system with its relations, a follower, and the first pose."""
+
+    def __init__(self, system: System, given: Mapping[str, float], along: str | None) -> None:
+        reduced, setting = prepared(system)
+        outcome = solve(system, reduced, setting)
+        names = {c.name: c for c in system.coordinates}
+        touched = [*(n for b in outcome.blocks for n in b.coordinates), *outcome.untouched]
+        coordinates = [*system.coordinates, *(Coordinate(n) for n in dict.fromkeys(touched) if n not in names)]
+        if along is not None and along not in names:
+            raise MotionError(f"'{along}' is no coordinate of the scene")
+        self.system, self.setting, self.along, self.names = system, setting, along, list(names)
+        self.given = _given(system, given)
+        self.relations = _relations(system, outcome, setting, coordinates, _limits(reduced, outcome))
+        self.relations.constants |= {s: v for s, v in self.given.items() if s.args[0] == "parameter"}
+        self.follower = Follower(self.relations, _freedom(outcome, self.relations.timed))
+        self.start = self._first()
+
+    def _first(self) -> Pose:
+        """The reference, with the numbers given; else a generic configuration."""
+        places = [ex.coordinate(c) for c in self.names]
+        search = RealSearch(
+            self.relations.ring, self.relations.finite, [*places, *self.setting.generic], self.setting.positive
+        )
+        if self.system.reference is not None:
+            parameters = {p: v for p, v in search.start(0, self.given).items() if p.args[0] == "parameter"}
+            parameters |= {p: self.given.get(p, 1.0) for e in self.system.reference.values() for p in e.symbols}
+            self.relations.constants |= parameters
+            placed = {s: number(e, parameters) for s, e in self.system.reference.items()}
+            found = self.follower.onto(self.relations.pose({**placed, **self.given}))
+            if found is None:
+                raise MotionError("near the reference configuration the relations hold only roughly, to no last digit")
+            return found
+        near = {s: number(e) for s, e in self.setting.pose.items() if not e.symbols} | self.given
+        for seed in range(STARTS):
+            symbols = search.start(seed, {**near, ex.TIME: 0.0})
+            if search.descend(symbols, seed) is None or any(symbols.get(p, 1.0) <= 0 for p in self.setting.positive):
+                continue
+            self.relations.constants |= {s: v for s, v in symbols.items() if s.args[0] == "parameter"}
+            found = self.follower.onto(self.relations.pose(symbols))
+            if found is not None and len(self.follower.null_space(found)) == self.follower.freedom:
+                return found
+        raise MotionError("no regular configuration was found that satisfies the constraints")
+
+    def configurations(self, steps: int, step: float, both: bool) -> list[dict[str, float]]:
+        """Backward, the first, forward."""
+        target = None if self.along is None else self.relations.axis(self.along, self.start)
+        ahead, back = self.follower.begin(self.start, target, step)
+        if target is None and ahead is back is None:
+            raise MotionError("no motion was found that leaves the first configuration")
+        if target is not None and not any(w and abs(float(w.direction @ target)) > STILL for w in (ahead, back)):
+            raise MotionError(f"'{self.along}' cannot move at the first configuration")
+        forward, closed = self._way(ahead, steps, step)
+        backward = self._way(back, steps, step)[0] if both and not closed else []
+        if steps and not forward and not backward:
+            raise MotionError("no motion was followed that leaves the first configuration")
+        middle = self._told(self.start, {})
+        return [*reversed(self._all_told(backward, middle)), middle, *self._all_told(forward, middle)]
+
+    def _way(self, start: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
+        """The poses of one way, and whether it closes up."""
+        poses: list[Pose] = []
+        if start is None:
+            return poses, False
+        closing = self.follower.freedom == 1 and not self.relations.timed and not self.relations.forms
+        for reached in islice(self.follower.path(start, step), steps):
+            if self._stopped(reached.pose):
+                break
+            poses.append(reached.pose)
+            if closing and len(poses) > 2 and float(reached.direction @ start.direction) > STRAIGHT:
+                back = self.relations.same(self.start, reached.pose)
+                if float(np.linalg.norm(self.relations.between(reached.pose, back))) < 0.75 * step:
+                    return [*poses[:-1], back], True
+        return poses, False
+
+    def _stopped(self, pose: Pose) -> bool:
+        """Is an inequality broken that held at the beginning?"""
+        pairs = zip(self.relations.margins(self.start), self.relations.margins(pose), strict=False)
+        return any(now < -STILL <= before for before, now in pairs)
+
+    def _all_told(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
+        found = []
+        for pose in poses:
+            last = self._told(pose, last)
+            found.append(last)
+        return found
+
+    def _told(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+        told = self.relations.told(pose, last)
+        chosen = {str(s.args[1]): v for s, v in self.relations.constants.items() if not str(s.args[1]).startswith("_")}
+        timed = {"t": told["t"]} if self.relations.timed else {}
+        return {**{n: told[n] for n in self.names}, **timed, **chosen}
+
+
+def _given(system: System, given: Mapping[str, float]) -> dict[Expr, float]:
+    """Numbers for parameters and coordinates, by their symbols."""
+    places = {c.name for c in system.coordinates}
+    known = places | set(system.parameters)
+    wrong = sorted(set(given) - known)
+    if wrong:
+        raise MotionError(f"'{wrong[0]}' is neither a coordinate nor a parameter without a value")
+    return {(ex.coordinate if n in places else ex.parameter)(n): float(v) for n, v in given.items()}
+
+
+def _limits(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
+    """What is to stay at 0 or above: inequalities between places, and where the relations say what they say."""
+    told = [q.expr for r in reduced for q in r.inequalities]
+    pieces = [p for row in outcome.rows if isinstance(p := row.piece, Condition)]
+    told += [p.expr for p in pieces if p.sense != "!="]
+    return [e for e in told if all(s.args[0] in ("coordinate", "time", "parameter") for s in e.symbols)]
+
+
+def _relations(
+    system: System, outcome: Outcome, setting: Setting, coordinates: Sequence[Coordinate], limits: Sequence[Expr]
+) -> Relations:
+    """What is to be held; raises where that is not possible."""
+    if system.functions:
+        raise MotionError(f"'{next(iter(system.functions))}' is a function without a formula")
+    if outcome.consistent is False:
+        raise MotionError("nothing satisfies the constraints, or nothing through an interval of time")
+    if outcome.consistent is None or outcome.velocity_dof is None:
+        why = [r for a in outcome.answers for r in a.reasons]
+        raise MotionError("; ".join(["whether and how it moves is undecided", *why]))
+    pieces = [row.piece for row in outcome.rows]
+    if any(isinstance(p, Nonlinear) for p in pieces):
+        raise MotionError("motions under relations that are nonlinear in the velocities are not followed")
+    finite = [*(p.expr for p in pieces if isinstance(p, Finite)), *(g for a in outcome.answers for g in a.hidden)]
+    forms = [p for p in pieces if isinstance(p, Pfaffian)]
+    return Relations(coordinates, system.rotations, finite, forms, setting.positive, system.size, limits)
+
+
+def _freedom(outcome: Outcome, timed: bool) -> int:
+    """The dimension of the admissible directions, time among them where it occurs."""
+    found = (outcome.velocity_dof or 0) + timed
+    if not found:
+        raise MotionError("nothing moves: the scene has no freedom of velocity")
+    return found

@@ -1,0 +1,214 @@
+"""Following a motion: steps along the null space of the constraints, and back onto them (arclength continuation).
+
+With A the derivatives of the finite relations and the one-forms, a direction d with A d = 0 is transported along the
+path as straight as the constraints allow: reflected at each chord, and projected. A step of length h solves g(z) = 0,
+(z - z0 - h d).d = 0 and, for forms, omega(midpoint)(z - z0) = 0, so a form is held to the third order of a step. Where
+time occurs it is what advances.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from dofkit.configuration.local.neighbourhood import damped
+from dofkit.motion.sampled.poses import FAULTS, Array, Pose, Relations
+
+#: Relative residual of what is held, rounds of Newton's method, and those with much damping.
+HELD, ROUNDS, EASY = 1e-12, 60, 8
+#: Singular values below this, of rows of length 1, count as 0.
+SMALL = 1e-7
+#: What a correction may add to a step, the least cosine between steps, and the least part of a step that is tried.
+SLACK, STRAIGHT, LEAST = 0.3, 0.9, 2.0**-12
+#: Parts of a step where forms are integrated.
+PARTS = 16
+#: Directions in which a singular configuration is left, and how much of a step the first one is.
+TRIES, AWAY = 32, (1.0, 0.25, 0.0625, 0.015625)
+
+
+@dataclass(frozen=True)
+class Reached:
+    """A pose, and the direction in which it was reached (unit, or with unit speed in time)."""
+
+    pose: Pose
+    direction: Array
+
+
+#: Forward and backward, where a motion begins.
+Ways = tuple[Reached | None, Reached | None]
+
+
+class Follower:
+    """Motions on the relations; ``freedom``: the dimension of the admissible directions at a regular pose."""
+
+    def __init__(self, relations: Relations, freedom: int) -> None:
+        self.relations, self.freedom = relations, freedom
+        self.clock = relations.time if relations.timed else None
+
+    def held(self, pose: Pose) -> bool:
+        """Do the finite relations hold?"""
+        f, _ = self.relations.at(pose)
+        reach = 1 + float(np.max(np.abs(pose.plain / self.relations.scales), initial=0.0))
+        return f.size == 0 or float(np.max(np.abs(f))) < HELD * reach
+
+    def onto(self, pose: Pose, any_time: bool = False) -> Pose | None:
+        """The nearest pose at which the finite relations hold, at the same time unless any will do."""
+        start = pose
+        try:
+            for k in range(4 * ROUNDS):
+                f, j = self.relations.at(pose)
+                if f.size == 0 or float(np.max(np.abs(f))) < HELD / 100:
+                    break
+                if self.clock is not None and not any_time:
+                    j[:, self.clock] = 0.0
+                pose = self.relations.moved(pose, damped(j, f, 1 + (k > EASY)))
+        except FAULTS:
+            return None
+        return pose if np.all(np.isfinite(self.relations.between(start, pose))) and self.held(pose) else None
+
+    def null_space(self, pose: Pose) -> Array:
+        """An orthonormal basis of the admissible directions to first order, as rows."""
+        _, j = self.relations.at(pose)
+        rows = np.vstack([j, self.relations.forms_at(pose)])
+        if not rows.size:
+            return np.eye(self.relations.columns)
+        _, singular, right = np.linalg.svd(rows)
+        return np.asarray(right[int(np.sum(singular > SMALL)) :])
+
+    def ahead(self, pose: Pose, direction: Array) -> Array | None:
+        """The admissible direction nearest to the given one: of length 1, or of unit speed in time."""
+        basis = self.null_space(pose)
+        found = np.asarray(basis.T @ (basis @ direction))
+        if self.clock is None:
+            size = float(np.linalg.norm(found))
+            return found / size if size > 0.1 * float(np.linalg.norm(direction)) > 0 else None
+        speeds = basis[:, self.clock]
+        if float(speeds @ speeds) < SMALL:
+            return None
+        pace = 1.0 if direction[self.clock] >= 0 else -1.0
+        found = found + basis.T @ (speeds * ((pace - found[self.clock]) / float(speeds @ speeds)))
+        return np.asarray(found)
+
+    def path(self, start: Reached, step: float) -> Iterator[Reached]:
+        """What is reached step by step, as long as the motion goes on."""
+        current = start
+        while True:
+            left, part = step, step / PARTS if self.relations.forms else step
+            if self.clock is not None:
+                left -= abs(float(current.pose.plain[-1])) % step if current is start else 0.0
+            while left > step * LEAST / 2:
+                part = min(part, left)
+                found = self._step(current, part)
+                if found is None:
+                    part /= 2
+                    if part < step * LEAST:
+                        return
+                    continue
+                current, left, part = found, left - part, part * (1.0 if self.relations.forms else 2.0)
+            yield current
+
+    def _step(self, current: Reached, length: float) -> Reached | None:
+        """The pose so far ahead; None where the step is too long to be sure of, or nothing is ahead."""
+        try:
+            wanted = length * current.direction
+            pose = self._corrected(current.pose, wanted)
+            if pose is None:
+                return None
+            made = self.relations.between(current.pose, pose)
+            if float(np.linalg.norm(made - wanted)) > SLACK * float(np.linalg.norm(wanted)):
+                return None
+            direction = self.ahead(pose, 2 * made / length - current.direction)
+        except FAULTS:
+            return None
+        if direction is None:
+            return None
+        cosine = direction @ current.direction / (np.linalg.norm(direction) * np.linalg.norm(current.direction))
+        return Reached(pose, direction) if cosine > STRAIGHT else None
+
+    def _corrected(self, start: Pose, wanted: Array) -> Pose | None:
+        relations = self.relations
+        along = np.zeros(relations.columns)
+        if self.clock is None:
+            along = wanted / np.linalg.norm(wanted)
+        else:
+            along[self.clock] = 1.0
+        pose = relations.moved(start, wanted)
+        for k in range(ROUNDS):
+            made = relations.between(start, pose)
+            f, j = relations.at(pose)
+            forms = relations.forms_at(relations.moved(start, made / 2))
+            wrong = np.concatenate([f, forms @ made, [along @ (made - wanted)]])
+            if float(np.max(np.abs(wrong))) < HELD / 100:
+                break
+            step = damped(np.vstack([j, forms, along]), wrong, 1 + (k > EASY))
+            pose = relations.moved(pose, step)
+            if float(np.linalg.norm(step)) < 1e-16:
+                break
+        forms = relations.forms_at(relations.moved(start, relations.between(start, pose) / 2))
+        slip = float(np.max(np.abs(forms @ relations.between(start, pose)), initial=0.0))
+        return pose if self.held(pose) and slip < HELD else None
+
+    def begin(self, pose: Pose, target: Array | None, step: float) -> Ways:
+        """Where and in which direction motions begin, forward and backward."""
+        basis = self.null_space(pose)
+        stopped = self.clock is not None and float(np.sum(basis[:, self.clock] ** 2)) < SMALL
+        if stopped or len(basis) != self.freedom:
+            return self._leave(pose, target, step, basis)
+        goal = self._chosen(basis) if target is None else target
+        direction = basis.T @ (basis @ goal)
+        if self.clock is not None:
+            direction[self.clock] = 1.0
+        ahead, back = self.ahead(pose, direction), self.ahead(pose, -direction)
+        return None if ahead is None else Reached(pose, ahead), None if back is None else Reached(pose, back)
+
+    def _chosen(self, basis: Array) -> Array:
+        """The first column that moves (with one freedom: forward), or time."""
+        found = np.zeros(basis.shape[1])
+        sizes = np.linalg.norm(basis, axis=0)
+        column = int(np.argmax(sizes > 0.1 * np.max(sizes))) if self.clock is None else self.clock
+        found[column] = 1.0
+        return found
+
+    def _leave(self, pose: Pose, target: Array | None, step: float, basis: Array) -> Ways:
+        """At a singular pose: regular ones close to it, reached from random directions; else singular ones."""
+        rng = np.random.default_rng(3)
+        singular: list[Reached] = []
+        for part in AWAY:
+            found: list[Reached] = []
+            for _ in range(TRIES):
+                v = basis.T @ rng.standard_normal(len(basis))
+                reached = self._beside(pose, part * step * v / np.linalg.norm(v))
+                if reached is None:
+                    continue
+                (found if len(self.null_space(reached.pose)) == self.freedom else singular).append(reached)
+            if found:
+                return self._both_ways(pose, found, target)
+        return self._both_ways(pose, singular, target)
+
+    def _beside(self, pose: Pose, step: Array) -> Reached | None:
+        length = float(np.linalg.norm(step))
+        moved = self.onto(self.relations.moved(pose, step), any_time=True)
+        if moved is None:
+            return None
+        made = self.relations.between(pose, moved)
+        size = float(np.linalg.norm(made))
+        if not length / 4 < size < 4 * length:
+            return None
+        try:
+            direction = self.ahead(moved, made / size)
+        except FAULTS:
+            return None
+        return None if direction is None else Reached(moved, direction)
+
+    def _both_ways(self, pose: Pose, found: list[Reached], target: Array | None) -> Ways:
+        if not found:
+            return None, None
+        if self.clock is not None:
+            target = np.eye(self.relations.columns)[self.clock]
+        goal = found[0].direction if target is None else target
+        first = max(found, key=lambda r: float(r.direction @ goal))
+        opposite = self._beside(pose, -self.relations.between(pose, first.pose))
+        last = min([*found, *([opposite] if opposite else [])], key=lambda r: float(r.direction @ goal))
+        return first if first.direction @ goal >= 0 else None, last if last.direction @ goal < 0 else None

@@ -1,0 +1,284 @@
+"""Poses of a system in floating point: coordinates, turns of bodies as unit quaternions, and time; for pictures only.
+
+A body whose orientation is written by a Gibbs vector g turns by R(g) from its reference. Here it is kept as a
+quaternion (w, v), g = v / w, and moved by a small turn omega in the world: dg = (omega + omega x g + g (g.omega)) / 2.
+Near half a turn, where g is infinite, the relations are evaluated to high precision.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from dofkit.exact.points.balls import BallPoint, FloatPoint, OutsideDomainError, jacobian
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.normal_form import Pfaffian
+from dofkit.system import Coordinate, Rotation
+
+Array = np.ndarray[Any, Any]
+#: Below this w the relations are evaluated as balls, and this is the least that is told from 0.
+HALF_TURN, NO_LESS = 1e-3, 1e-14
+#: A gradient shorter than this part of what is usual for its relation is left as it is; poses that tell what is usual.
+FLAT, USUAL = 1e-9, 5
+#: The roles of coordinates that come back after a full turn.
+ANGLES = ("angle", "phi", "theta", "psi")
+FAULTS = (ValueError, ZeroDivisionError, OverflowError, OutsideDomainError, np.linalg.LinAlgError)
+
+
+@dataclass(frozen=True)
+class Pose:
+    """``plain``: coordinates, then time; ``turns``: a unit quaternion for each spatial body in the Gibbs chart."""
+
+    plain: Array
+    turns: Array
+
+
+class Relations:
+    """Finite relations and one-forms over the columns: plain coordinates, three for each turn, then time."""
+
+    def __init__(
+        self,
+        coordinates: Sequence[Coordinate],
+        rotations: Sequence[Rotation],
+        finite: Sequence[Expr],
+        forms: Sequence[Pfaffian],
+        positive: frozenset[Expr],
+        size: float,
+        limits: Sequence[Expr] = (),
+    ) -> None:
+        """``limits``: expressions that are to stay at 0 or above."""
+        told = [e for f in forms for _, e in f.items()]
+        self.ring = Ring([*finite, *told], positive)
+        self.limiting = Ring(limits, positive)
+        self.limits = [self.limiting.node(e) for e in limits]
+        self.finite = [self.ring.node(g) for g in finite]
+        self.forms = [{s: self.ring.node(e) for s, e in f.items()} for f in forms]
+        self.timed = any(ex.TIME in e.symbols for e in [*finite, *told]) or any(ex.TIME in f for f in self.forms)
+        self.rotations = [r for r in rotations if r.chart == "gibbs"]
+        turning = {name for r in self.rotations for name in r.names}
+        self.names = [c.name for c in coordinates if c.name not in turning]
+        self.scales = np.array(
+            [size if c.role in ("x", "y", "z") else 1.0 for c in coordinates if c.name in self.names]
+        )
+        self.angles = np.array([c.role in ANGLES for c in coordinates if c.name in self.names], dtype=bool)
+        self.plain = [ex.coordinate(n) for n in self.names]
+        if self.timed:
+            self.plain.append(ex.TIME)
+            self.scales, self.angles = np.append(self.scales, 1.0), np.append(self.angles, False)
+        self.constants = {s: 1.0 for e in limits for s in e.symbols if s.args[0] == "parameter"}
+
+    @property
+    def columns(self) -> int:
+        """Plain columns first (time is the last of them), then three for each turn."""
+        return len(self.plain) + 3 * len(self.rotations)
+
+    @property
+    def time(self) -> int:
+        """The column of time, where it occurs."""
+        return len(self.plain) - 1
+
+    def pose(self, symbols: Mapping[Expr, float]) -> Pose:
+        """The pose with the given values."""
+        turns = []
+        for r in self.rotations:
+            q = np.array([1.0, *(symbols.get(ex.coordinate(n), 0.0) for n in r.names)])
+            turns.append(q / np.linalg.norm(q))
+        plain = np.array([symbols.get(s, 0.0) for s in self.plain])
+        return Pose(plain, np.array(turns).reshape(-1, 4))
+
+    def moved(self, pose: Pose, step: Array) -> Pose:
+        """The pose after a step in scaled columns."""
+        n = len(self.plain)
+        turns = [_times(_turn(step[n + 3 * k : n + 3 * k + 3]), q) for k, q in enumerate(pose.turns)]
+        return Pose(pose.plain + self.scales * step[:n], np.array(turns).reshape(-1, 4))
+
+    def between(self, first: Pose, last: Pose) -> Array:
+        """The step from one pose to another."""
+        back = np.array([1.0, -1.0, -1.0, -1.0])
+        turns = [_vector(_times(b, a * back)) for a, b in zip(first.turns, last.turns, strict=True)]
+        return np.concatenate([(last.plain - first.plain) / self.scales, *turns])
+
+    def at(self, pose: Pose) -> tuple[Array, Array]:
+        """The finite relations and their derivatives by the scaled columns, rows of length 1 where they can be."""
+        f, j = self._evaluated(pose, self._values)
+        norms = np.linalg.norm(j, axis=1)
+        usual = self._usual
+        norms = np.where(norms > FLAT * usual, norms, usual)
+        return f / norms, j / norms[:, None]
+
+    @cached_property
+    def _usual(self) -> Array:
+        """The length of each finite relation's gradient at random poses."""
+        rng = np.random.default_rng(1)
+        found = np.zeros(len(self.finite))
+        for _ in range(USUAL):
+            turns = np.hstack([np.ones((len(self.rotations), 1)), rng.uniform(-1, 1, (len(self.rotations), 3))])
+            turns = turns / np.linalg.norm(turns, axis=1, keepdims=True)
+            try:
+                _, j = self._evaluated(Pose(self.scales * rng.standard_normal(len(self.plain)), turns), self._values)
+            except FAULTS:
+                continue
+            found = np.maximum(found, np.linalg.norm(j, axis=1))
+        return np.where(found > 0, found, 1.0)
+
+    @property
+    def _values(self) -> list[Mapping[Any, int]]:
+        return [{None: n} for n in self.finite]
+
+    def forms_at(self, pose: Pose) -> Array:
+        """The forms over the scaled columns, rows of length 1."""
+        _, j = self._evaluated(pose, self.forms)
+        norms = np.linalg.norm(j, axis=1)
+        return j / np.where(norms > FLAT, norms, 1.0)[:, None]
+
+    def margins(self, pose: Pose) -> list[float]:
+        """What the limits are at a pose; nothing where one has no value."""
+        try:
+            at = values(self.limiting, self._point(pose)[0])
+        except FAULTS:
+            return []
+        return [_middle(at[n]) for n in self.limits]
+
+    def axis(self, name: str, pose: Pose) -> Array:
+        """The step that moves one coordinate alone; an Euler angle turns its body about that angle's own axis."""
+        found = np.zeros(self.columns)
+        if name in self.names:
+            found[self.names.index(name)] = 1.0
+            return found
+        for k, r in enumerate(self.rotations):
+            if name in r.names:
+                here = _matrix(pose.turns[k]) @ _from_euler(*map(number, r.initial))
+                phi, _, _ = _euler(here, [0.0, 0.0, 0.0])
+                axes = np.array([[0.0, 0.0, 1.0], [math.cos(phi), math.sin(phi), 0.0], here[:, 2]])
+                found[len(self.plain) + 3 * k :][:3] = axes[r.names.index(name)]
+        return found
+
+    def same(self, pose: Pose, near: Pose) -> Pose:
+        """``pose`` with full turns added to the angles, so as to be near another."""
+        turns = np.where(self.angles, np.round((near.plain - pose.plain) / (2 * math.pi)), 0.0)
+        return Pose(pose.plain + 2 * math.pi * turns, pose.turns)
+
+    def _point(self, pose: Pose) -> tuple[Any, list[Any]]:
+        symbols: dict[Expr, Any] = {**self.constants, **dict(zip(self.plain, map(float, pose.plain), strict=True))}
+        exact = bool(len(pose.turns)) and float(np.min(np.abs(pose.turns[:, 0]))) < HALF_TURN
+        vectors: list[Any] = []
+        for r, q in zip(self.rotations, pose.turns, strict=True):
+            w = math.copysign(max(abs(float(q[0])), NO_LESS), float(q[0]))
+            vector = [(arb(float(v)) / arb(w)).mid() if exact else float(v) / w for v in q[1:]]
+            symbols.update(zip(map(ex.coordinate, r.names), vector, strict=True))
+            vectors.append(vector)
+        return (BallPoint(symbols, 0) if exact else FloatPoint(symbols, 0)), vectors
+
+    def _evaluated(self, pose: Pose, rows: Sequence[Mapping[Any, int]]) -> tuple[Array, Array]:
+        """Rows {None: node} as values and gradients, rows {symbol: node} as coefficients."""
+        point, vectors = self._point(pose)
+        at = values(self.ring, point)
+        zero = point.number(ex.ZERO.args[0])
+        turned = [ex.coordinate(n) for r in self.rotations for n in r.names]
+        symbols = [*self.plain, *turned]
+        present = {s: i for s in symbols if (i := self.ring.var_index(s)) is not None}
+        f, j = np.zeros(len(rows)), np.zeros((len(rows), self.columns))
+        for k, row in enumerate(rows):
+            if None in row:
+                f[k] = _middle(at[row[None]])
+                line = jacobian(self.ring, at, point, [row[None]], list(present.values()), zero)[0]
+                found = dict(zip(present, line, strict=True))
+            else:
+                found = {s: at[n] for s, n in row.items()}
+            line = [found.get(s, zero) for s in symbols]
+            j[k] = self._by_columns(line, vectors)
+        return f, j
+
+    def _by_columns(self, line: Sequence[Any], vectors: Sequence[Sequence[Any]]) -> Array:
+        n = len(self.plain)
+        found = [float(_middle(v)) * s for v, s in zip(line[:n], self.scales, strict=True)]
+        for k, g in enumerate(vectors):
+            found += [_middle(v) for v in _by_turn(line[n + 3 * k : n + 3 * k + 3], g)]
+        return np.array(found)
+
+    def told(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+        """The values of all coordinates (Euler angles near those told ``last``), and of time where it occurs."""
+        found = {str(s.args[1]): float(v) for s, v in zip(self.plain, pose.plain, strict=True) if s != ex.TIME}
+        for r, q in zip(self.rotations, pose.turns, strict=True):
+            initial = [number(e) for e in r.initial]
+            near = [last.get(n, v) for n, v in zip(r.names, initial, strict=True)]
+            found.update(zip(r.names, _euler(_matrix(q) @ _from_euler(*initial), near), strict=True))
+        if self.timed:
+            found["t"] = float(pose.plain[-1])
+        return {n: v + 0.0 for n, v in found.items()}
+
+
+def _middle(value: Any) -> float:
+    return float(value.mid()) if isinstance(value, arb) else float(value)
+
+
+def number(e: Expr, known: Mapping[Expr, float] | None = None) -> float:
+    """The value of an expression in known symbols."""
+    ring = Ring([e])
+    node = ring.node(e)
+    return float(values(ring, FloatPoint(known or {}, 0))[node])
+
+
+def _by_turn(line: Sequence[Any], g: Sequence[Any]) -> list[Any]:
+    """A covector a on dg as one on omega, (a + g x a + g (g.a)) / 2: the transpose of omega -> dg."""
+    a, along = line, sum((x * y for x, y in zip(line, g, strict=True)), line[0] * 0)
+    cross = [g[1] * a[2] - g[2] * a[1], g[2] * a[0] - g[0] * a[2], g[0] * a[1] - g[1] * a[0]]
+    return [(a[i] + cross[i] + g[i] * along) / 2 for i in range(3)]
+
+
+def _turn(omega: Array) -> Array:
+    angle = float(np.linalg.norm(omega))
+    return np.concatenate([[math.cos(angle / 2)], np.sinc(angle / (2 * math.pi)) / 2 * omega])
+
+
+def _vector(q: Array) -> Array:
+    """The turn by less than half a circle that a quaternion stands for."""
+    q = q if q[0] >= 0 else -q
+    size = float(np.linalg.norm(q[1:]))
+    return q[1:] * (2.0 if size < 1e-12 else 2 * math.atan2(size, float(q[0])) / size)
+
+
+def _times(p: Array, q: Array) -> Array:
+    w = p[0] * q[0] - p[1:] @ q[1:]
+    found = np.concatenate([[w], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
+    return np.asarray(found / np.linalg.norm(found))
+
+
+def _matrix(q: Array) -> Array:
+    w, v = q[0], q[1:]
+    cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+    return np.asarray(np.eye(3) + 2 * w * cross + 2 * cross @ cross)
+
+
+def _from_euler(phi: float, theta: float, psi: float) -> Array:
+    return _about(2, phi) @ _about(0, theta) @ _about(2, psi)
+
+
+def _about(axis: int, angle: float) -> Array:
+    q = np.zeros(4)
+    q[0], q[1 + axis] = math.cos(angle / 2), math.sin(angle / 2)
+    return _matrix(q)
+
+
+def _euler(r: Array, last: Sequence[float]) -> list[float]:
+    """z-x-z Euler angles; where z stays upright phi is as it was. Full turns are added to stay near ``last``."""
+    theta = math.atan2(math.hypot(r[0, 2], r[1, 2]), r[2, 2])
+    if math.hypot(r[0, 2], r[1, 2]) < 1e-9:
+        up = 1.0 if r[2, 2] > 0 else -1.0
+        phi = last[0]
+        psi = up * (math.atan2(r[1, 0], r[0, 0]) - phi)
+        choices = [(phi, theta, psi)]
+    else:
+        phi, psi = math.atan2(r[0, 2], -r[1, 2]), math.atan2(r[2, 0], r[2, 1])
+        choices = [(phi, theta, psi), (phi + math.pi, -theta, psi + math.pi)]
+    near = [[a - 2 * math.pi * round((a - b) / (2 * math.pi)) for a, b in zip(c, last, strict=True)] for c in choices]
+    return min(near, key=lambda c: sum(abs(a - b) for a, b in zip(c, last, strict=True)))

@@ -1,0 +1,205 @@
+"""Relations nonlinear in the velocities, in the presence of linear ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import islice
+from itertools import product as cartesian
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero.identity import is_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.normal.elimination import combinations_of
+from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, normalise, velocities_of
+
+#: Ways to split the nonlinear relations that are looked at, rounds of reduction, and relations that are combined.
+MAX_WAYS, MAX_ROUNDS, MAX_COMBINED = 16, 6, 8
+
+
+def rate(g: Expr) -> Expr:
+    """dg/dt along a motion, for a finite relation."""
+    moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
+    parts = [ex.diff(g, s) * ex.velocity(str(s.args[1])) for s in moving]
+    return ex.add(*parts, ex.diff(g, ex.TIME))
+
+
+def form_rate(form: Pfaffian) -> Expr:
+    """The form with velocities in place of differentials."""
+    return ex.add(*(e * ex.velocity(name) for name, e in form.coefficients.items()), form.dt)
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A row as it was written and what it says beside the others: no row where it says nothing new."""
+
+    written: Row
+    rows: tuple[Row, ...]
+
+    @property
+    def unchanged(self) -> bool:
+        return self.rows == (self.written,)
+
+
+@dataclass(frozen=True)
+class Way:
+    """All rows on one choice of branches, in the order in which they were written."""
+
+    slots: tuple[Slot, ...]
+
+    @property
+    def rows(self) -> list[Row]:
+        return [row for slot in self.slots for row in slot.rows]
+
+    @property
+    def reduced(self) -> tuple[Slot, ...]:
+        """What was written nonlinear in the velocities and is so no more."""
+        return tuple(
+            s for s in self.slots if not s.unchanged and not any(isinstance(r.piece, Nonlinear) for r in s.rows)
+        )
+
+
+def reduced(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
+    """The rows with nonlinear ones reduced by the linear ones that share coordinates with them, and by each other.
+
+    Velocities that the linear rows give are put into the nonlinear ones, which may then split into linear ones:
+    xdot^2 + ydot^2 = zdot^2 with y = 2 x is zdot = +-sqrt(5) xdot. Where combinations of nonlinear rows are linear,
+    they take their place: xdot^2 + ydot^2 = 1 and xdot^2 + ydot^2 = zdot give zdot = 1. And so on with what is new.
+    """
+    ways, done = [Way(tuple(Slot(r, (r,)) for r in rows))], list[Way]()
+    for _ in range(MAX_ROUNDS):
+        following: list[Way] = []
+        for way in ways:
+            changed = _step(way, positive)
+            if changed is None:
+                done.append(way)
+            else:
+                following += changed
+        ways = following[:MAX_WAYS]
+        if not ways:
+            break
+    return [*done, *ways][:MAX_WAYS]
+
+
+def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
+    """The ways that one more reduction leaves; None where nothing is left to do."""
+    rows = way.rows
+    if not any(isinstance(r.piece, Nonlinear) for r in rows):
+        return None
+    by_linear = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
+    if all(len(found) == 1 and len(found[0]) == 1 and id(found[0][0]) in by_linear for found in by_linear.values()):
+        by_linear = _combined([r for r in rows if isinstance(r.piece, Nonlinear)], positive)
+        if not by_linear:
+            return None
+    options: list[list[Slot]] = []
+    for slot in way.slots:
+        choices = cartesian(*(by_linear.get(id(r), [(r,)]) for r in slot.rows))
+        options.append([Slot(slot.written, tuple(r for part in choice for r in part)) for choice in choices])
+    return [Way(choice) for choice in islice(cartesian(*options), MAX_WAYS)]
+
+
+def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> list[tuple[Row, ...]]:
+    if not isinstance(row.piece, Nonlinear):
+        return [(row,)]
+    linear = _linear_near(row, rows)
+    if not linear:
+        return [(row,)]
+    changed, divisors = eliminated(row.piece.expr, linear)
+    if changed == row.piece.expr:
+        return [(row,)]
+    found = _branches(row, changed, positive)
+    sound = [b for b in found if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)]
+    return _generic(sound or found)
+
+
+def _generic(ways: list[tuple[Row, ...]]) -> list[tuple[Row, ...]]:
+    """Without branches of positions only beside others: there rows are dependent, and the answer is the generic one.
+
+    y^2 (zdot - 3 xdot)^2 = 0 beside another constraint says zdot = 3 xdot, as y (zdot - 3 xdot) = 0 would.
+    """
+    if () in ways:
+        return [()]
+    moving = [b for b in ways if any(isinstance(r.piece, (Pfaffian, Nonlinear)) for r in b)]
+    return moving or ways
+
+
+def _branches(row: Row, changed: Expr, positive: frozenset[Expr]) -> list[tuple[Row, ...]]:
+    """What a row says that now reads ``changed`` = 0."""
+    normal = normalise(changed, positive, True)
+    ways = [tuple(Row(row.constraint, p) for p in b if not isinstance(p, Inequality)) for b in normal.branches]
+    return ways or [(Row(row.constraint, Finite(ex.ONE)),)]
+
+
+def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
+    """Is a factor that an elimination multiplied with, and no relation of the row's, what is left of it?"""
+    if not divisors or g == ex.ONE:
+        return False
+    ring = Ring([g, *divisors])
+    try:
+        nodes = [ring.node(e) for e in (g, *divisors)]
+        canon = Canon(ring)
+        own = canon.quotient(nodes[0])[0]
+        return any(not own.gcd(canon.quotient(n)[0]).is_constant() for n in nodes[1:])
+    except (TooLargeError, DomainError, ZeroDivisionError):
+        return False
+
+
+def _combined(rows: Sequence[Row], positive: frozenset[Expr]) -> dict[int, list[tuple[Row, ...]]]:
+    """Those of some nonlinear rows that a combination with earlier ones makes linear, by identity."""
+    if not 1 < len(rows) <= MAX_COMBINED:
+        return {}
+    expressions = [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
+    found = combinations_of(expressions, positive)
+    said = {id(rows[i]): _generic(_branches(rows[i], e, positive)) for i, e in found.items()}
+    return {i: ways for i, ways in said.items() if not any(isinstance(r.piece, Nonlinear) for w in ways for r in w)}
+
+
+def _linear_near(row: Row, rows: Sequence[Row]) -> list[Expr]:
+    """Rates of the finite and linear rows that are joined to a row through coordinates."""
+    names = set(coordinates_of(row.piece))
+    found: list[Row] = []
+    growing = True
+    while growing:
+        new = [
+            r for r in rows if r not in found and not isinstance(r.piece, Nonlinear) and coordinates_of(r.piece) & names
+        ]
+        growing = bool(new)
+        found += new
+        names |= {n for r in new for n in coordinates_of(r.piece)}
+    rates = []
+    for r in found:
+        if isinstance(r.piece, Finite):
+            rates.append(rate(r.piece.expr))
+        elif isinstance(r.piece, Pfaffian):
+            rates.append(form_rate(r.piece))
+    return rates
+
+
+def eliminated(e: Expr, linear: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
+    """``e`` with the velocities that the linear relations give put in, and what was divided by."""
+    left, divisors = list(linear), list[Expr]()
+    while left:
+        relation = left.pop(0)
+        choice = _pivot(relation)
+        if choice is None:
+            continue
+        v, coefficient = choice
+        divisors += [coefficient] if coefficient.op != "num" else []
+        value = -(ex.substitute(relation, {v: ex.ZERO}) / coefficient)
+        left = [ex.substitute(other, {v: value}) for other in left]
+        e = ex.substitute(e, {v: value})
+    return e, divisors
+
+
+def _pivot(relation: Expr) -> tuple[Expr, Expr] | None:
+    """A velocity of a linear relation with a coefficient that is not identically 0; numbers first."""
+    found = [(v, ex.diff(relation, v)) for v in velocities_of(relation)]
+    for v, c in found:
+        if c.op == "num" and not c.is_zero:
+            return v, c
+    return next(((v, c) for v, c in found if not is_zero(c, frozenset())), None)

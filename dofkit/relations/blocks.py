@@ -1,0 +1,120 @@
+"""Model no more than a scene needs: relations that share no coordinate are answered apart."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import networkx as nx
+
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.domain import Condition
+from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, Piece
+from dofkit.relations.reductions import Reductions
+
+
+@dataclass(frozen=True)
+class Row:
+    """One scalar equation after reduction, or a condition: which constraint wrote it, and what it says."""
+
+    constraint: int
+    piece: Finite | Pfaffian | Nonlinear | Condition
+
+
+@dataclass(frozen=True)
+class Block:
+    """Coordinates that belong together, and the rows on them (finite ones first, then as written).
+
+    ``conditions``: where the rows say what they say.
+    """
+
+    coordinates: tuple[str, ...]
+    rows: tuple[Row, ...]
+    conditions: tuple[Condition, ...] = ()
+
+    @property
+    def finite(self) -> tuple[Row, ...]:
+        return tuple(r for r in self.rows if isinstance(r.piece, Finite))
+
+    @property
+    def forms(self) -> tuple[Row, ...]:
+        return tuple(r for r in self.rows if isinstance(r.piece, Pfaffian))
+
+    @property
+    def nonlinear(self) -> tuple[Row, ...]:
+        return tuple(r for r in self.rows if isinstance(r.piece, Nonlinear))
+
+
+def coordinates_of(piece: Piece) -> frozenset[str]:
+    """Every coordinate a piece mentions, in coefficients, velocities and differentials too."""
+    named: frozenset[str] = frozenset()
+    if isinstance(piece, Pfaffian):
+        named = frozenset(piece.coefficients)
+        symbols = frozenset().union(*(e.symbols for e in (*piece.coefficients.values(), piece.dt)))
+    else:
+        symbols = piece.expr.symbols
+    return frozenset(named | {str(s.args[1]) for s in symbols if s.args[0] in ("coordinate", "velocity")})
+
+
+def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block], list[str]]:
+    """(blocks, coordinates that nothing touches). Rows without coordinates are blocks of their own.
+
+    Two rows share a block if they share a coordinate anywhere, coefficients included; conditions are rows here.
+    """
+    graph: nx.Graph = nx.Graph()
+    touched = [coordinates_of(row.piece) for row in rows]
+    for i, mentioned in enumerate(touched):
+        graph.add_node(i)
+        graph.add_edges_from((i, name) for name in mentioned)
+    place = {c: k for k, c in enumerate(coordinates)}
+    blocks = []
+    for component in nx.connected_components(graph):
+        numbers = sorted(i for i in component if isinstance(i, int))
+        conditions = tuple(dict.fromkeys(p for i in numbers if isinstance(p := rows[i].piece, Condition)))
+        members = [rows[i] for i in numbers if not isinstance(rows[i].piece, Condition)]
+        ordered = [r for r in members if isinstance(r.piece, Finite)]
+        ordered += [r for r in members if not isinstance(r.piece, Finite)]
+        names = sorted((name for name in component if isinstance(name, str)), key=place.__getitem__)
+        blocks.append((numbers[0], Block(tuple(names), tuple(ordered), conditions)))
+    used = frozenset().union(*touched) if touched else frozenset()
+    return [b for _, b in sorted(blocks, key=lambda pair: pair[0])], [c for c in coordinates if c not in used]
+
+
+def parted(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:
+    """`split` as far as the reductions in use allow: else all rows are one block, and it holds every coordinate."""
+    blocks, untouched = split(coordinates, rows)
+    place = {c: k for k, c in enumerate(coordinates)}
+    if "blocks" not in reductions and len(blocks) > 1:
+        rows_of = [r for b in blocks for r in b.rows]
+        finite = [r for r in rows_of if isinstance(r.piece, Finite)]
+        others = [r for r in rows_of if not isinstance(r.piece, Finite)]
+        conditions = tuple(dict.fromkeys(c for b in blocks for c in b.conditions))
+        names = sorted((c for b in blocks for c in b.coordinates), key=place.__getitem__)
+        blocks = [Block(tuple(names), (*finite, *others), conditions)]
+    if "untouched" not in reductions and blocks:
+        names = sorted((*blocks[0].coordinates, *untouched), key=place.__getitem__)
+        blocks, untouched = [replace(blocks[0], coordinates=tuple(names)), *blocks[1:]], []
+    return blocks, untouched
+
+
+def expressions(block: Block) -> list[Expr]:
+    """Everything the block evaluates."""
+    found: list[Expr] = []
+    for row in block.rows:
+        if isinstance(row.piece, Pfaffian):
+            found += [*row.piece.coefficients.values(), row.piece.dt]
+        else:
+            found.append(row.piece.expr)
+    return found
+
+
+def uses_time(block: Block) -> bool:
+    """Does t or dt occur?"""
+    dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in block.rows)
+    return dt or any(ex.TIME in e.symbols for e in expressions(block))
+
+
+def is_inequality(piece: Piece) -> bool:
+    """Unilateral pieces belong to no block."""
+    return isinstance(piece, Inequality)

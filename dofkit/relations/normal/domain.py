@@ -1,0 +1,132 @@
+"""Where an expression has a value: what its roots, logarithms, inverse functions and denominators ask for.
+
+A relation that is rewritten (a factor dropped, a square root squared) is the old one only where these conditions hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch
+from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero.identity import told_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.zero_set import never_holds, never_vanishes
+
+Sense = Literal[">=", ">", "!="]
+
+
+@dataclass(frozen=True)
+class Condition:
+    """``expr`` >= 0, > 0 or != 0: no relation, but a part of the space outside of which the relation says nothing."""
+
+    expr: Expr
+    sense: Sense
+
+    @property
+    def strict(self) -> bool:
+        """Is it > 0?"""
+        return self.sense == ">"
+
+
+def conditions_of(e: Expr, positive: frozenset[Expr]) -> tuple[Condition, ...]:
+    """Where ``e`` has a real value, less what always holds; a denominator counts in lowest terms."""
+    found = list(dict.fromkeys(_inside(e, outermost=True)))
+    below = _denominator(e, positive)
+    if below is not None:
+        found.append(Condition(below, "!="))
+    return tuple(c for c in dict.fromkeys(found) if not _always(c, positive))
+
+
+def _inside(e: Expr, outermost: bool) -> Iterator[Condition]:
+    """The conditions of all nodes; quotients of sums and products on the outside are left to `_denominator`."""
+    rational = e.op in ("add", "mul") or (
+        e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1
+    )
+    if not (rational and outermost):
+        yield from _own(e, outermost)
+    for part in ex.children(e):
+        yield from _inside(part, outermost and rational)
+
+
+def _own(e: Expr, outermost: bool) -> Iterator[Condition]:
+    if e.op == "pow":
+        base, exponent = e.args
+        if exponent.op != "num":
+            yield Condition(base, ">")
+        elif exponent.args[0].denominator % 2 == 0:
+            yield Condition(base, ">=" if exponent.args[0] > 0 else ">")
+        elif exponent.args[0] < 0:
+            yield Condition(base, "!=")
+    if e.op == "fn":
+        yield from _of_function(e.args[0], e.args[1:], outermost)
+
+
+def _of_function(name: str, arguments: tuple[Expr, ...], outermost: bool) -> Iterator[Condition]:
+    u = arguments[0]
+    if name == "log":
+        yield Condition(u, ">")
+    elif name in ("asin", "acos"):
+        yield Condition(ex.ONE - u * u, ">=")
+    elif name in ("tan", "sec") and not outermost:
+        yield Condition(ex.fn("cos", u), "!=")
+    elif name in ("cot", "csc") and not outermost:
+        yield Condition(ex.fn("sin", u), "!=")
+    elif name == "atan2":
+        yield Condition(u * u + arguments[1] * arguments[1], "!=")
+
+
+def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
+    """What is left below when all is one quotient in lowest terms."""
+    try:
+        ring = Ring([e], positive)
+        node = ring.node(e)
+        canon = Canon(ring)
+        top, bottom = canon.quotient(node)
+        bottom = bottom / bottom.gcd(top)
+        return None if bottom.is_constant() else canon.to_expr(bottom)
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return None
+
+
+def _always(c: Condition, positive: frozenset[Expr]) -> bool:
+    """Is a condition proved to hold wherever its expression has a value?"""
+    if c.sense == "!=":
+        return never_vanishes(c.expr, positive)
+    return never_holds(-c.expr, c.sense == ">=", positive)
+
+
+def holds_at(c: Condition, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool | None:
+    """Does a condition hold at a configuration? None where its sign there is not known."""
+    try:
+        sign = _sign(ex.substitute(c.expr, known), positive)
+    except (ZeroDivisionError, OutsideDomainError):
+        return False
+    if sign is None:
+        return None
+    return sign != 0 if c.sense == "!=" else sign > 0 or (sign == 0 and c.sense == ">=")
+
+
+def constantly(c: Condition, positive: frozenset[Expr]) -> bool | None:
+    """Whether a condition holds everywhere (True) or nowhere (False), as far as that is known."""
+    if any(s.args[0] != "parameter" for s in c.expr.symbols):
+        return True if _always(c, positive) else None
+    return holds_at(c, {}, positive)
+
+
+def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
+    """The sign of a constant, for generic parameters that of some values of them."""
+    ring = Ring([e], positive)
+    node = ring.node(e)
+    point = BallPoint(RealSearch(ring, (), (), positive).start(0, {}), 0)
+    value = values(ring, point)[node]
+    if not value.contains(0):
+        return 1 if value > 0 else -1
+    return 0 if told_zero(e, positive)[0] else None

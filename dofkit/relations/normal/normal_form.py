@@ -1,0 +1,312 @@
+"""From a relation as written to what it says: finite, Pfaffian, nonlinear in velocities, or an inequality.
+
+Factors that never vanish are taken out, powers and sums of squares are replaced by what they force over
+the reals, products become branches. What was done is said in ``notes``.
+
+Differentials are read through dq = qdot dt: a relation homogeneous of degree k in (dq, dt) is divided by dt^k.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import product as cartesian
+
+from dofkit.base.errors import TextError
+from dofkit.exact.zero.identity import is_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
+from dofkit.expressions.terms import linear_terms
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.domain import Condition, conditions_of
+from dofkit.relations.normal.no_solution import no_solution
+from dofkit.relations.normal.quadratics import split_power, split_quadratic
+from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs, holds_on_a_region, squared
+from dofkit.relations.normal.velocity_roots import in_one_rate, solved
+from dofkit.relations.normal.zero_set import PRODUCT_NOTE, Conjunction, zero_set
+
+
+@dataclass(frozen=True)
+class Finite:
+    """g(q, t) = 0."""
+
+    expr: Expr
+
+
+@dataclass(frozen=True)
+class Pfaffian:
+    """sum a_i dq_i + b dt = 0; ``coefficients`` by coordinate, without zeros."""
+
+    coefficients: Mapping[str, Expr]
+    dt: Expr
+
+    def items(self) -> Iterable[tuple[Expr, Expr]]:
+        """(symbol of the coordinate or of time, coefficient) for every coefficient as written."""
+        for name, coefficient in self.coefficients.items():
+            yield ex.coordinate(name), coefficient
+        if not self.dt.is_zero:
+            yield ex.TIME, self.dt
+
+
+class Still(Pfaffian):
+    """dC = 0 for a constant of integration C."""
+
+    def __init__(self, constant: str) -> None:
+        super().__init__({constant: ex.ONE}, ex.ZERO)
+
+
+@dataclass(frozen=True)
+class Nonlinear:
+    """f(q, qdot, t) = 0, not linear in the velocities over the reals."""
+
+    expr: Expr
+
+
+@dataclass(frozen=True)
+class Inequality:
+    """g >= 0 or g > 0 (``strict``), finite or in velocities."""
+
+    expr: Expr
+    strict: bool = False
+
+
+REGION_NOTE = (
+    "for one sign of what stands in abs() or under the root it holds on a whole region, and takes no freedom away there"
+)
+NOWHERE_NOTE = "no real configuration satisfies it: it has no real value anywhere"
+SQUARED_NOTE = "the root was squared away, with the sign of the other side as a condition"
+RATE_NOTE = "it holds one combination of velocities only and was solved for that: each root is linear in the velocities"
+ROOTS_NOTE = (
+    "it holds one combination of velocities only, which takes one of its roots: each would be a branch linear in the "
+    "velocities, but they were not written down, because there are infinitely many or no formula gives them"
+)
+SIGNS_NOTE = "what stands in abs() may have either sign"
+INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
+QUADRATIC_NOTE = "over the reals the relation between velocities splits into linear ones"
+
+Piece = Finite | Pfaffian | Nonlinear | Inequality | Condition
+#: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
+Branches = tuple[tuple[Piece, ...], ...]
+
+
+@dataclass(frozen=True)
+class Normal:
+    """What a relation says, and what was done to see it.
+
+    ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
+    ``kinked``: told apart by the signs of what vanishes at the reference configuration: there is no gradient there.
+    """
+
+    branches: Branches
+    notes: tuple[str, ...] = ()
+    constants: tuple[str, ...] = ()
+    once: str = ""
+    kinked: bool = False
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """Every piece of every branch that is a relation."""
+        return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, Condition))
+
+
+def with_constants(piece: Piece, values: Mapping[str, Expr]) -> Piece:
+    """``piece`` with constants of integration replaced by parameters or values: what it says for one initial state."""
+    if not values:
+        return piece
+    mapping = {ex.coordinate(c): value for c, value in values.items()}
+    if isinstance(piece, Pfaffian):
+        named = {name: ex.substitute(e, mapping) for name, e in piece.coefficients.items()}
+        return Pfaffian(named, ex.substitute(piece.dt, mapping))
+    return replace(piece, expr=ex.substitute(piece.expr, mapping))
+
+
+def velocities_of(e: Expr) -> list[Expr]:
+    """The velocity symbols of an expression, by name."""
+    return sorted((s for s in e.symbols if s.args[0] == "velocity"), key=lambda s: str(s.args[1]))
+
+
+def linear_form(e: Expr) -> Pfaffian | None:
+    """``e`` as a form linear in the velocities as written, else None."""
+    coefficients = {}
+    velocities = velocities_of(e)
+    for v in velocities:
+        coefficient = ex.diff(e, v)
+        if any(s.args[0] == "velocity" for s in coefficient.symbols):
+            return None
+        if not coefficient.is_zero:
+            coefficients[str(v.args[1])] = coefficient
+    return Pfaffian(coefficients, ex.substitute(e, dict.fromkeys(velocities, ex.ZERO)))
+
+
+def cleared(e: Expr) -> Expr:
+    """``e`` times the denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
+    denominators: dict[Expr, Expr] = {}
+    for term in e.args if e.op == "add" else (e,):
+        for factor in term.args if term.op == "mul" else (term,):
+            is_below = factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0
+            if is_below and velocities_of(factor):
+                base = factor.args[0]
+                old = denominators.get(base, ex.ONE)
+                denominators[base] = max(old, ex.power(factor, ex.MINUS_ONE), key=repr)
+    if not denominators:
+        return e
+    whole = ex.mul(*denominators.values())
+    return ex.add(*(ex.mul(whole, term) for term in (e.args if e.op == "add" else (e,))))
+
+
+def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
+    """What ``e = 0`` says; ``written`` equations are reduced over the reals, those of joints are regular as they are.
+
+    Raises TextError for accelerations (they are integrated before) and for sums of differentials with finite terms.
+    """
+    if accelerations_of(e):
+        raise TextError("a second derivative is no constraint on positions or velocities", hint=SOLVE_FOR_IT)
+    velocity_form, divided = in_velocities(e)
+    if not velocities_of(velocity_form):
+        if divided:
+            return Normal(((Pfaffian({}, velocity_form),),))
+        return _finite(velocity_form, positive, written)
+    form = linear_form(cleared(velocity_form))
+    if form is not None and (form.coefficients or not form.dt.is_zero):
+        return Normal(((form,),))
+    return _nonlinear(velocity_form, positive)
+
+
+def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
+    if not written:
+        return Normal(((Finite(e),),))
+    if holds_on_a_region(e, positive):
+        return _by_signs(e, positive)
+    branches, notes = zero_set(e, positive, _moving(e))
+    if branches == ((e,),):
+        return _squared(e, positive)
+    return _conditioned(e, branches, notes, positive)
+
+
+def _moving(e: Expr) -> frozenset[Expr]:
+    return frozenset(s for s in e.symbols if s.args[0] in ("coordinate", "time"))
+
+
+def _conditioned(
+    e: Expr, branches: Sequence[Conjunction], notes: Sequence[str], positive: frozenset[Expr], *more: Condition
+) -> Normal:
+    """The branches of a relation that was rewritten, where it was one as written: ``e`` has a value there."""
+    conditions = (*conditions_of(e, positive), *more)
+    if any(c.sense != "!=" for c in conditions) and no_solution(
+        (), positive, [c.expr for c in conditions if c.sense != "!="]
+    ):
+        return Normal((), (NOWHERE_NOTE,))
+    return Normal(tuple((*map(Finite, branch), *conditions) for branch in branches), tuple(notes))
+
+
+def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
+    """A relation that holds on a whole region for some signs: every choice of signs is a branch of its own."""
+    always = conditions_of(e, positive)
+    regions, others = list[tuple[Condition, ...]](), list[tuple[Conjunction, tuple[Condition, ...]]]()
+    for signed, conditions in by_signs(e, arguments_of(e), positive):
+        if is_zero(signed, positive):
+            regions.append(conditions)
+        else:
+            others += [(g, conditions) for g in zero_set(signed, positive, _moving(signed))[0]]
+    edges = [_up_to_a_number(c.expr) for region in regions if len(region) == 1 for c in region]
+    branches: list[tuple[Piece, ...]] = [(*region, *always) for region in regions]
+    for conjunction, conditions in others:
+        if not any(_up_to_a_number(g) in edges for g in conjunction):
+            branches.append((*map(Finite, conjunction), *conditions, *always))
+    return Normal(tuple(branches), (REGION_NOTE,))
+
+
+def _up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
+    """Equal for expressions that are multiples of each other."""
+    terms = linear_terms(e)
+    first = terms[min(terms, key=repr)] if terms else 1
+    return frozenset((s, c / first) for s, c in terms.items())
+
+
+def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
+    """A relation with one square root, squared where that shows more than a single regular relation."""
+    found = squared(e, positive)
+    if found is not None:
+        norm, condition = found
+        branches, notes = zero_set(norm, positive, _moving(norm))
+        if notes:
+            return _conditioned(e, branches, (SQUARED_NOTE, *notes), positive, condition)
+    return Normal(((Finite(e),),))
+
+
+def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
+    folds = [u for u in arguments_of(e) if velocities_of(u)]
+    if 0 < len(folds) <= MAX_ARGUMENTS and solved(e, positive) is None:
+        return _by_signs_of_rates(e, folds, positive)
+    moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
+    branches, notes = zero_set(e, positive, moving)
+    found: list[tuple[Piece, ...]] = []
+    said = list(notes)
+    for branch in branches:
+        told = [_velocity_pieces(g, positive) for g in branch]
+        said += [note for _, note in told if note]
+        found += [tuple(p for part in choice for p in part) for choice in cartesian(*(pieces for pieces, _ in told))]
+    return Normal(tuple(found), tuple(dict.fromkeys(said)))
+
+
+def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]) -> Normal:
+    """The only choice of signs of what stands in abs() and holds velocities that does not contradict itself.
+
+    Where there are several, a motion may pass from one to the other: the relation stays as it is.
+    """
+    branches: list[tuple[Piece, ...]] = []
+    notes: list[str] = [SIGNS_NOTE]
+    for signed, conditions in by_signs(e, folds, positive):
+        if no_solution([signed], positive, [c.expr for c in conditions]):
+            continue
+        if is_zero(signed, positive) or branches:
+            return Normal(((Nonlinear(e),),), (SIGNS_NOTE,))
+        normal = normalise(signed, positive, True)
+        notes += normal.notes
+        branches += [(*branch, *_still(conditions, branch)) for branch in normal.branches]
+    return Normal(tuple(branches), tuple(dict.fromkeys(notes)))
+
+
+def _still(conditions: Sequence[Condition], branch: Sequence[Piece]) -> list[Condition]:
+    """What the signs ask of positions, once velocities that the forms of the branch give are put in."""
+    found = [c.expr for c in conditions]
+    for form in (p for p in branch if isinstance(p, Pfaffian)):
+        name = next((n for n, a in form.coefficients.items() if a.op == "num"), next(iter(form.coefficients), None))
+        if name is not None:
+            others = ex.add(*(a * ex.velocity(n) for n, a in form.coefficients.items() if n != name), form.dt)
+            found = [ex.substitute(c, {ex.velocity(name): -others / form.coefficients[name]}) for c in found]
+    return [Condition(c, ">=") for c in found if not velocities_of(c) and _moving(c)]
+
+
+def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:
+    """The branches of one irreducible relation in velocities, and what was done."""
+    if not velocities_of(e):
+        return [(Finite(e),)], ""
+    form = linear_form(e)
+    if form is not None:
+        return [(form,)], ""
+    split = split_quadratic(e, velocities_of(e), positive) or split_power(e, positive)
+    if split is not None:
+        return [tuple(f for g in branch if (f := linear_form(g)) is not None) for branch in split], QUADRATIC_NOTE
+    found = solved(e, positive)
+    if found is None:
+        return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
+    forms = [(linear_form(relation), conditions) for relation, conditions in found]
+    return [(form, *conditions) for form, conditions in forms if form is not None], RATE_NOTE
+
+
+def without_instants(normal: Normal) -> Normal:
+    """A product's branch that only fixes the time (t = 0 of ``t (x - y) = 0``) is no branch of motion: left out."""
+    kept = tuple(b for b in normal.branches if not any(_instant(p) for p in b))
+    if not kept or len(kept) == len(normal.branches):
+        return normal
+    return Normal(kept, (*(n for n in normal.notes if n != PRODUCT_NOTE), INSTANT_NOTE))
+
+
+def _instant(piece: Piece) -> bool:
+    return (
+        isinstance(piece, Finite)
+        and bool(piece.expr.symbols)
+        and all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
+    )

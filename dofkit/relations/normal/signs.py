@@ -1,0 +1,101 @@
+"""Absolute values and roots: relations told apart by the signs of their arguments, and squared.
+
+x + abs(x) = 0 holds on the whole region x <= 0; sqrt(x^2 + y^2) = x says y = 0 where x >= 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product as cartesian
+from typing import Any
+
+from flint.utils.flint_exceptions import DomainError
+
+from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero.identity import is_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.domain import Condition
+from dofkit.relations.normal.zero_set import never_holds
+
+#: Arguments whose signs are tried.
+MAX_ARGUMENTS = 4
+
+
+def arguments_of(e: Expr) -> list[Expr]:
+    """What stands in absolute values and in roots of squares."""
+    every = list(ex.nodes(e))
+    found = [node.args[1] for node in every if node.op == "fn" and node.args[0] == "abs"]
+    found += [node.args[0].args[0] for node in every if _root_of_square(node)]
+    return list(dict.fromkeys(found))
+
+
+def holds_on_a_region(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Is ``e`` identically 0 for some signs of the arguments of its absolute values (x + abs(x) for x <= 0)?"""
+    arguments = arguments_of(e)
+    if not arguments or len(arguments) > MAX_ARGUMENTS:
+        return False
+    return any(is_zero(signed, positive) for signed, _ in by_signs(e, arguments, positive))
+
+
+def by_signs(
+    e: Expr, arguments: Sequence[Expr], positive: frozenset[Expr]
+) -> Iterator[tuple[Expr, tuple[Condition, ...]]]:
+    """``e`` for every choice of the signs of some arguments that can be, and the conditions that say the signs."""
+    for signs in cartesian((1, -1), repeat=len(arguments)):
+        mapping = dict(zip(arguments, signs, strict=True))
+        plain = {u: _signed(u, mapping) * s for u, s in mapping.items()}
+        if not any(never_holds(u, True, positive) for u in plain.values()):
+            yield _signed(e, mapping), tuple(Condition(u, ">=") for u in plain.values())
+
+
+def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, Condition] | None:
+    """a sqrt(u) + b = 0 as a^2 u - b^2 = 0 where -a b >= 0; None where there is not one square root, linearly."""
+    try:
+        ring = Ring([e], positive)
+        node = ring.node(e)
+        canon = Canon(ring)
+        top, _ = canon.quotient(node)
+        roots = [v for v in ring.vars if v.kind == "root" and ring.var_expr[v.index].symbols]
+        if len(roots) != 1 or roots[0].degree != 2 or not _outside(ring, roots[0].index):
+            return None
+        place = len(ring.vars) - 1 - roots[0].index
+        a: Any = canon.ctx.from_dict({_lowered(m, place): c for m, c in top.to_dict().items() if m[place] == 1})
+        b: Any = canon.ctx.from_dict({m: c for m, c in top.to_dict().items() if m[place] == 0})
+        u, below = canon.quotient(roots[0].args[0])
+        if a == 0 or a * canon.gens[roots[0].index] + b != top:
+            return None
+        norm = canon.reduce(a * a * u - b * b * below)
+    except (TooLargeError, ZeroDivisionError, DomainError):
+        return None
+    return canon.to_expr(norm), Condition(canon.to_expr(canon.reduce(-a * b)), ">=")
+
+
+def _outside(ring: Ring, index: int) -> bool:
+    """Does no other generator have the root in its argument?"""
+    shown = ring.var_expr[index]
+    return all(shown not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
+
+
+def _lowered(exponents: Sequence[int], place: int) -> tuple[int, ...]:
+    return tuple(int(k) - (i == place) for i, k in enumerate(exponents))
+
+
+def _root_of_square(node: Expr) -> bool:
+    """sqrt(u^2) and the like."""
+    if node.op != "pow" or node.args[1].op != "num" or node.args[1].args[0].denominator != 2:
+        return False
+    inner = node.args[0]
+    return bool(inner.op == "pow" and inner.args[1].op == "num" and inner.args[1].args[0] == 2)
+
+
+def _signed(e: Expr, signs: Mapping[Expr, int]) -> Expr:
+    """``e`` with every absolute value replaced by its argument times the given sign."""
+    if e.op == "fn" and e.args[0] == "abs" and e.args[1] in signs:
+        return _signed(e.args[1], signs) * signs[e.args[1]]
+    if _root_of_square(e) and e.args[0].args[0] in signs:
+        inner = e.args[0].args[0]
+        return ex.power(_signed(inner, signs) * signs[inner], ex.num(2 * e.args[1].args[0]))
+    parts = ex.children(e)
+    return ex.rebuild(e, tuple(_signed(part, signs) for part in parts)) if parts else e

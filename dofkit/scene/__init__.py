@@ -1,0 +1,1 @@
+"""What a person writes, read with every fault in its place, and made into a `System`."""

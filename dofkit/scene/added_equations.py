@@ -1,0 +1,103 @@
+"""A student's equations read with the names of a scene, and put beside its constraints."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from dofkit.base.errors import TextError
+from dofkit.expressions.text import Comparison, Names, UnknownNameError, parse_relations, to_text
+from dofkit.expressions.tree import parameter
+from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.scene import Scene
+
+#: Names that an answer may bring with it as constants of integration.
+_CONSTANT = re.compile(r"(?!d\b)[^\W\d_](?:_?\w{1,5})?|const|constant", re.UNICODE)
+MAX_CONSTANTS = 4
+#: Equations in one answer.
+MAX_EQUATIONS = 40
+_SEPARATED = re.compile(r"[;\n]")
+
+
+@dataclass(frozen=True)
+class Read:
+    """An answer as it was understood: its ``texts``, one a relation, and the ``constants`` that it brought with it.
+
+    ``shown``: in the grammar of scenes; ``moving``: does it hold velocities or differentials?
+    """
+
+    texts: tuple[str, ...]
+    constants: frozenset[str]
+    shown: str
+    moving: bool
+
+
+def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -> Read:
+    """The equations of an answer, one text each; ``constants``: undeclared names may be constants of integration.
+
+    Raises TextError, its column counted within the answer (of several, within the one at fault).
+    """
+    texts = [t for text in ((answer,) if isinstance(answer, str) else answer) for t in _parts(text)]
+    if not any(text.strip() for _, text in texts):
+        raise TextError("there is no equation", 1, "write an equation such as x^2 + y^2 = l^2")
+    if len(texts) > MAX_EQUATIONS:
+        raise TextError(f"there are {len(texts)} equations", texts[MAX_EQUATIONS][0] + 1, "give fewer")
+    own: dict[str, None] = {}
+    found = [(text, _read(text, before, names, own, constants)) for before, text in texts if text.strip()]
+    shown = "; ".join(as_text(c) for _, relations in found for c in relations)
+    symbols = {s for _, relations in found for c in relations for side in (c.left, c.right) for s in side.symbols}
+    moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in symbols)
+    return Read(tuple(text for text, _ in found), frozenset(own), shown, moving)
+
+
+def _parts(text: str) -> Iterator[tuple[int, str]]:
+    """(characters before it, text) of every equation in a text."""
+    start = 0
+    for cut in _SEPARATED.finditer(text):
+        yield start, text[start : cut.start()]
+        start = cut.end()
+    yield start, text[start:]
+
+
+def _read(text: str, before: int, names: Names, own: dict[str, None], constants: bool) -> tuple[Comparison, ...]:
+    while True:
+        known = Names(
+            names.coordinates,
+            {**names.parameters, **{name: parameter(name) for name in own}},
+            names.functions,
+            names.arguments,
+        )
+        try:
+            return parse_relations(text, known if own else names)
+        except UnknownNameError as error:
+            if not constants or len(own) == MAX_CONSTANTS or not _may_be_constant(error.name, names):
+                raise _moved(error, before) from None
+            own[error.name] = None
+        except TextError as error:
+            raise _moved(error, before) from None
+
+
+def _may_be_constant(name: str, names: Names) -> bool:
+    """Is it a short name of the student's own? ``x_A`` is none where x is declared: it is meant for a coordinate."""
+    stem, _, index = name.partition("_")
+    declared = stem in names.coordinates or stem in names.parameters
+    return bool(_CONSTANT.fullmatch(name)) and not (declared and index and not index.isdigit())
+
+
+def _moved(error: TextError, before: int) -> TextError:
+    column = None if error.column is None else error.column + before
+    return TextError(error.message, column, error.hint)
+
+
+def as_text(c: Comparison) -> str:
+    """A relation in the grammar of scenes."""
+    return f"{to_text(c.left)} {c.relation} {to_text(c.right)}"
+
+
+def with_equations(scene: Scene, read: Read, called: str) -> Scene:
+    """The scene with the equations after its constraints; their names are ``called`` and a number from 1 on."""
+    more = tuple(Equation(type="equation", name=f"{called} {i + 1}", text=text) for i, text in enumerate(read.texts))
+    parameters = {**scene.parameters, **dict.fromkeys(read.constants, "real")}
+    changes = {"constraints": (*scene.constraints, *more), "parameters": parameters, "expect": {}}
+    return scene.model_copy(update=changes)

@@ -1,0 +1,93 @@
+"""What every constraint type has in common, and checks against the drawing that several share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from typing import ClassVar, get_args
+
+from pydantic import Field
+
+from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.tree import Expr
+from dofkit.expressions.vectors import Vec, minus, square
+from dofkit.scene.fields import Model
+from dofkit.scene.frames import Placed
+from dofkit.scene.world import World
+from dofkit.system import Relation
+
+
+class ConstraintBase(Model):
+    """A constraint: its fields, and the scalar relations that it yields."""
+
+    name: str | None = Field(None, description="its name; by default c1, c2, ... by position")
+
+    #: The dimensions in which it is defined.
+    dimensions: ClassVar[tuple[int, ...]] = (1, 2, 3)
+
+    @classmethod
+    def kind(cls) -> str:
+        """Its ``type``, as written."""
+        return _kind(cls)
+
+    @classmethod
+    def called(cls) -> str:
+        return f"a constraint of type '{cls.kind()}'"
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        """Its scalar relations; faults go to the world."""
+        raise NotImplementedError
+
+    def notes(self, world: World) -> Iterator[str]:
+        """Sentences for the report that only this type can know."""
+        del world
+        yield from ()
+
+    def texts(self) -> Iterator[str]:
+        """Its texts that may mention coordinates."""
+        yield from ()
+
+    @property
+    def shown(self) -> str:
+        """One line for a person to read."""
+        return self.kind()
+
+
+@cache
+def _kind(cls: type[ConstraintBase]) -> str:
+    return str(get_args(cls.model_fields["type"].annotation)[0])
+
+
+def labelled(vector: Vec, label: str = "{}", about: Vec = ()) -> Iterator[Relation]:
+    """One relation a component, named ``x``, ``y``, ``z`` within ``label``."""
+    for letter, part in zip("xyz", vector, strict=False):
+        yield Relation(part, part=label.format(letter), vector=about)
+
+
+def meet(world: World, first: Placed, second: Placed, *where: str | int) -> None:
+    """Check that two points that must coincide do so in the drawing."""
+    if first.reference is None or second.reference is None:
+        return
+    gap = minus(second.reference, first.reference)
+    if not world.any_differs(gap):
+        return
+    told = f"{figures(first.reference)} and {figures(second.reference)}"
+
+    def look(size: float) -> None:
+        if not world.within(root(square(gap)), size):
+            message = f"the drawing puts {first.label} and {second.label} apart, at {told}"
+            world.fault(message, *where, hint="give them the same place, or set `tolerance` if it is measured")
+
+    world.check_later(look)
+
+
+def figures(position: Vec | None) -> str:
+    """A position in figures."""
+    parts = [approximate(part) for part in position or ()]
+    return "(" + ", ".join("?" if part is None else f"{part:.6g}" for part in parts) + ")"
+
+
+def root(squared: Expr) -> float | None:
+    """The square root in figures, where it is a number."""
+    found = approximate(squared)
+    return None if found is None or found < 0 else float(found**0.5)

@@ -1,0 +1,202 @@
+"""Constraints of distance: a link, a rigid set, a string over pulleys."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations, pairwise
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt, substitute
+from dofkit.expressions.vectors import Vec, difference, square, square_between
+from dofkit.scene.constraints.base import ConstraintBase, root
+from dofkit.scene.fields import Value, as_written
+from dofkit.scene.frames import Placed, between
+from dofkit.scene.parts import Ends, Point, show_point
+from dofkit.scene.world import World
+from dofkit.system import Relation
+
+
+class Link(ConstraintBase):
+    """|A - B|^2 - length^2 = 0, also in one dimension.
+
+    Without ``length`` it is the distance in the drawing, or a generic squared length.
+    """
+
+    type: Literal["link"] = Field(description="two points at a given distance")
+    between: Ends = Field(description="the two points")
+    length: Value | None = Field(None, description="their distance; may hold t; by default that of the drawing")
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
+        if first.label == second.label or _same_place(first, second):
+            hint = "name two different points"
+            world.fault(f"a link needs two different points, not {first.label} twice", "between", 1, hint=hint)
+            return
+        given = None if self.length is None else world.expression(self.length, "length")
+        if given is not None:
+            _check_length(world, first, second, given, "length")
+        if first.frame is None and second.frame is None and (given is None or not _moves(given)):
+            index = world.here[-1]
+            world.links.append((int(index), first.label, second.label))
+        yield Relation(distance(world, first, second, given))
+
+    def texts(self) -> Iterator[str]:
+        if isinstance(self.length, str):
+            yield self.length
+
+    @property
+    def shown(self) -> str:
+        ends = "-".join(show_point(end) for end in self.between)
+        return f"link {ends}" + ("" if self.length is None else f", length {as_written(self.length)}")
+
+
+def _same_place(first: Placed, second: Placed) -> bool:
+    return first.frame is not None and first.frame == second.frame and first.reference == second.reference
+
+
+def _moves(length: Expr) -> bool:
+    return any(symbol.args[0] != "parameter" for symbol in length.symbols)
+
+
+def distance(world: World, first: Placed, second: Placed, given: Expr | None) -> Expr:
+    """|A - B|^2 - length^2, cleared of denominators."""
+    drawn = square_between(first.reference, second.reference) if first.reference and second.reference else None
+    if given is not None:
+        squared = power(given, TWO)
+        if squared.is_zero:
+            world.warnings.append(
+                f"the link {first.label}-{second.label} has length 0: one equation that holds only where "
+                "all coordinates agree; `coincident` says the same regularly"
+            )
+    elif drawn is not None:
+        squared = drawn
+        if drawn.is_zero:
+            world.warnings.append(f"the points {first.label} and {second.label} of a link are drawn at one place")
+    else:
+        squared = world.fresh("L")
+    world.apart(first, second, squared)
+    if drawn is not None and first.frame is not None and first.frame == second.frame:
+        return difference(drawn, squared)
+    arm, under = between(first, second)
+    return difference(square(arm), squared if under is ONE else mul(squared, power(under, TWO)))
+
+
+def _check_length(world: World, first: Placed, second: Placed, given: Expr, *where: str | int) -> None:
+    """A length that contradicts the drawing is a fault that shows both."""
+    start = substitute(given, {TIME: ZERO})
+    shown = approximate(start)
+    if shown is not None and shown < 0:
+        world.fault(f"a length cannot be negative ({shown:.6g})", *where)
+    if first.reference is None or second.reference is None:
+        return
+    drawn = square_between(first.reference, second.reference)
+    if not world.differs(difference(power(start, TWO), drawn)):
+        return
+    measured = root(drawn)
+
+    def look(size: float) -> None:
+        if shown is None or measured is None or not world.within(shown - measured, size):
+            message = f"the length {shown:.12g} contradicts the drawing, where {first.label} and {second.label} are "
+            hint = "leave `length` out to take the drawing's, or set `tolerance` if it is measured"
+            world.fault(f"{message}{measured:.12g} apart", *where, hint=hint)
+
+    world.check_later(look)
+
+
+class Rigid(ConstraintBase):
+    """|A - B|^2 - d_AB^2 = 0 for every pair of members: m(m-1)/2 relations."""
+
+    type: Literal["rigid"] = Field(description="particles that keep all their distances")
+    members: Annotated[tuple[str, ...], Field(min_length=2)] = Field(description="particles")
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        seen: set[str] = set()
+        placed = []
+        for i, member in enumerate(self.members):
+            if member in seen:
+                world.fault(f"'{member}' is named twice", "members", i, hint="name every particle once")
+                continue
+            seen.add(member)
+            placed.append(world.particle(member, "members", i))
+        for first, second in combinations(placed, 2):
+            world.links.append((int(world.here[-1]), first.label, second.label))
+            yield Relation(distance(world, first, second, None), part=f"length {first.label}-{second.label}")
+
+    def notes(self, world: World) -> Iterator[str]:
+        n, d = len(self.members), world.dimension
+        if n <= d + 1:
+            return
+        links, freedom = n * (n - 1) // 2, d * (d + 1) // 2
+        yield (
+            f"Of the N(N-1)/2 = {links} links among N = {n} particles only N d - d(d+1)/2 = {n * d} - {freedom} = "
+            f"{n * d - freedom} are independent (in general position): once d+1 = {d + 1} of the particles are rigid, "
+            f"{d} links fix each further one and its other links follow. Counting every link fails for N > d+1."
+        )
+
+    @property
+    def shown(self) -> str:
+        return "rigid " + ", ".join(self.members)
+
+
+class String(ConstraintBase):
+    """A taut string along points in order: |P1 - P2| + |P2 - P3| + ... - length = 0, one relation.
+
+    The points between the ends are small pulleys. Without ``length`` it is the length in the drawing, or generic.
+    """
+
+    type: Literal["string"] = Field(description="an inextensible string over small pulleys")
+    along: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(description="the points it runs along, in order")
+    length: Value | None = Field(None, description="its length; may hold t; by default that of the drawing")
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        points = [world.point(point, "along", i) for i, point in enumerate(self.along)]
+        parts, drawn = [], []
+        for i, (first, second) in enumerate(pairwise(points)):
+            if first.label == second.label or _same_place(first, second):
+                world.fault(f"the string passes {first.label} twice in a row", "along", i + 1)
+                return
+            arm, under = between(first, second)
+            parts.append(_length(arm) / under)
+            if first.reference is not None and second.reference is not None:
+                drawn.append(sqrt(square_between(first.reference, second.reference)))
+        total = add(*drawn) if len(drawn) == len(parts) else None
+        if self.length is not None:
+            given = world.expression(self.length, "length")
+            if total is not None:
+                _check_string(world, given, total)
+        else:
+            given = world.fresh("L") if total is None else total
+        for first, second in combinations(points, 2):
+            if first.label != second.label:
+                world.apart(first, second, power(given, TWO), at_most=True)
+        yield Relation(difference(add(*parts), given))
+
+    def texts(self) -> Iterator[str]:
+        if isinstance(self.length, str):
+            yield self.length
+
+    @property
+    def shown(self) -> str:
+        run = "-".join(show_point(point) for point in self.along)
+        return f"string {run}" + ("" if self.length is None else f", length {as_written(self.length)}")
+
+
+def _length(arm: Vec) -> Expr:
+    return fn("abs", arm[0]) if len(arm) == 1 else sqrt(square(arm))
+
+
+def _check_string(world: World, given: Expr, drawn: Expr) -> None:
+    gap = difference(substitute(given, {TIME: ZERO}), drawn)
+    if not world.differs(gap):
+        return
+    a, b = approximate(substitute(given, {TIME: ZERO})), approximate(drawn)
+
+    def look(size: float) -> None:
+        if a is None or b is None or not world.within(a - b, size):
+            message = f"the length {a:.12g} contradicts the drawing, where the string is {b:.12g} long"
+            world.fault(message, "length", hint="leave `length` out to take the drawing's")
+
+    world.check_later(look)

@@ -1,0 +1,119 @@
+"""Constraints given by texts: an equation, and points on a surface or a curve."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from dofkit.base.errors import TextError
+from dofkit.expressions.differentials import in_velocities, linear_in_accelerations
+from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, coordinate, mul, power, substitute
+from dofkit.scene.constraints.base import ConstraintBase
+from dofkit.scene.fields import Text
+from dofkit.scene.frames import Placed
+from dofkit.scene.ledger import FINITE
+from dofkit.scene.names import within_member
+from dofkit.scene.parts import Point, show_point
+from dofkit.scene.world import World
+from dofkit.system import Relation
+
+LETTERS = ("x", "y", "z")
+
+
+class Equation(ConstraintBase):
+    """``left = right`` gives left - right = 0; ``left <= right`` gives right - left >= 0.
+
+    A chain ``0 <= x <= L`` gives two relations. The text may hold velocities, differentials and time,
+    and second derivatives where it integrates once.
+    """
+
+    type: Literal["equation"] = Field("equation", description="an equation or inequality as text")
+    text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        for e, sense in world.relations(self.text, "text"):
+            try:
+                linear_in_accelerations(e, sense)
+                in_velocities(e)
+            except TextError as error:
+                world.fault(error.message, "text", hint=error.hint)
+                return
+            yield Relation(e, sense)
+
+    def texts(self) -> Iterator[str]:
+        yield self.text
+
+    @property
+    def shown(self) -> str:
+        return self.text
+
+
+def _texts(value: object) -> object:
+    return (value,) if isinstance(value, str) else value
+
+
+class On(ConstraintBase):
+    """Every member lies on a surface g(x, y, z) = 0, or on a curve g1 = g2 = 0: members x texts relations.
+
+    ``x``, ``y``, ``z`` stand for each member's coordinates in turn; an inequality keeps it on one side.
+    """
+
+    type: Literal["on"] = Field(description="points on a surface or a curve")
+    members: tuple[Point, ...] = Field(min_length=1, description="particles or points")
+    surface: Text | None = Field(None, description="one equation in x, y, z")
+    curve: Annotated[
+        tuple[Text, ...] | None, Field(min_length=1), BeforeValidator(_texts, json_schema_input_type=str | list[str])
+    ] = Field(None, description="equations in x, y, z: a curve in space is where two surfaces meet")
+
+    def texts(self) -> Iterator[str]:
+        yield from () if self.surface is None else (self.surface,)
+        yield from self.curve or ()
+
+    def _places(self) -> Iterator[tuple[str, tuple[str | int, ...]]]:
+        if self.surface is not None:
+            yield self.surface, ("surface",)
+        for i, text in enumerate(self.curve or ()):
+            yield text, ("curve", i)
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        if (self.surface is None) == (self.curve is None):
+            hint = "`surface` is one text, `curve` a list of texts"
+            world.fault("either `surface` or `curve` is needed", *(() if self.curve is None else ("curve",)), hint=hint)
+        letters = LETTERS[: world.dimension]
+        names = within_member(world.names, letters)
+        read = [
+            found
+            for text, where in self._places()
+            for found in world.relations(text, *where, names=names, allow=FINITE)
+        ]
+        for i, member in enumerate(self.members):
+            point = world.point(member, "members", i)
+            stands = {coordinate(letter): part for letter, part in zip(letters, _position(point), strict=True)}
+            for j, (e, sense) in enumerate(read):
+                part = f"at {show_point(member)}" + (f", text {j + 1}" if len(read) > 1 else "")
+                yield Relation(substitute(e, stands), sense, part)
+
+    def notes(self, world: World) -> Iterator[str]:
+        if world.dimension != 3 or self.curve is None:
+            return
+        if len(self.curve) == 2:
+            yield (
+                "A curve in space is where two surfaces meet, so k = 2 for each point on it: "
+                "one equation alone would leave a surface."
+            )
+        elif len(self.curve) == 1:
+            yield "One equation in space leaves a surface: a curve is where two surfaces meet, and needs two equations."
+
+    @property
+    def shown(self) -> str:
+        members = ", ".join(show_point(member) for member in self.members)
+        return f"{members} on {'; '.join(self.texts())}"
+
+
+def _position(point: Placed) -> tuple[Expr, ...]:
+    if point.under == ONE:
+        return point.over
+    inverse = power(point.under, MINUS_ONE)
+    return tuple(mul(part, inverse) for part in point.over)

@@ -1,0 +1,203 @@
+"""What joints share: their ends, their geometry, and the relations that keep axes and points together.
+
+Material points at the same place ``a`` of the drawing are X_i = p_i + R_i (a - p0_i). Where both
+bodies are written in Gibbs vectors g_i, the rotation R1^T R2 is the quaternion (s, v) with
+s = 1 + g1.g2 and v = g2 - g1 - g1 x g2, and a shared axis n is v.u = 0 for the u across n: of the
+two ways to keep the lines parallel this leaves out the one with the axis turned over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar
+
+from pydantic import Field
+
+from dofkit.expressions.tree import HALF, MINUS_ONE, Expr, fn, mul
+from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
+from dofkit.scene.constraints.base import ConstraintBase, labelled
+from dofkit.scene.constraints.places import along
+from dofkit.scene.fields import Text, Vector
+from dofkit.scene.frames import Frame, between, relative
+from dofkit.scene.ledger import LAW
+from dofkit.scene.parts import show_vector
+from dofkit.scene.world import Direction, World
+from dofkit.system import Relation
+
+
+class Joint(ConstraintBase):
+    """Two bodies, or a body and the ground, joined together."""
+
+    between: tuple[str, str] = Field(description="the two bodies; one may be ground")
+
+    dimensions: ClassVar[tuple[int, ...]] = (2, 3)
+
+    def ends(self, world: World) -> tuple[Frame, Frame] | None:
+        """The frames of the two ends; None after a fault."""
+        before = len(world.faults)
+        first, second = (world.frame(name, "between", i) for i, name in enumerate(self.between))
+        if self.between[0] == self.between[1]:
+            world.fault(f"'{self.between[0]}' cannot be joined to itself", "between", 1, hint="name another body")
+        return None if len(world.faults) > before else (first, second)
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+        """The relations between the two frames."""
+        raise NotImplementedError
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        ends = self.ends(world)
+        if any(getattr(self, key, None) is not None for key in ("at", "axis", "axes")):
+            world.drawn.update(self.between)
+        yield from self.joined(world, *(ends or (world.ground, world.ground)))
+
+    def texts(self) -> Iterator[str]:
+        drive = getattr(self, "drive", None)
+        if drive is not None:
+            yield drive
+
+    @property
+    def shown(self) -> str:
+        told = f"{self.kind()} {self.between[0]}-{self.between[1]}"
+        for key, word in (("at", "at"), ("axis", "along")):
+            vector: Vector | None = getattr(self, key, None)
+            if vector is not None:
+                told += f" {word} {show_vector(vector)}"
+        drive = getattr(self, "drive", None)
+        return told if drive is None else f"{told}, driven by {drive}"
+
+
+class Placed(Joint):
+    """A joint with a place."""
+
+    at: Vector | None = Field(None, description="the joint's place in the reference configuration")
+
+
+class Axial(Placed):
+    """A joint with a place and an axis."""
+
+    axis: Vector | None = Field(None, description="the joint's axis in the reference configuration")
+
+    def directed(self, world: World) -> Direction:
+        """The axis; one that is left out where the place is given is a fault."""
+        if self.axis is None and self.at is not None:
+            world.fault(
+                f"this {self.kind()} joint has a place (`at`) but no `axis`",
+                hint="add `axis: [...]`, or leave both out for a joint in general position",
+            )
+        return world.direction(self.axis, "axis")
+
+
+class Driven(Axial):
+    """A joint whose angle or displacement may be prescribed."""
+
+    drive: Text | None = Field(None, description="the prescribed angle or displacement from the reference, in t")
+
+    def driven(self, world: World) -> Iterator[Expr]:
+        """The law of the drive, if there is one."""
+        if self.drive is not None:
+            yield world.expression(self.drive, "drive", allow=LAW)
+
+
+def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:
+    """X2 - X1 = 0 for the material points at ``place``: d relations."""
+    yield from labelled(between(first.point(place), second.point(place))[0], "point {}", place)
+
+
+def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
+    """The axis keeps its direction in both bodies of space: 2 relations, (R1 n).(R2 u) = 0 or v.u = 0."""
+    turned = relative(first, second)
+    carried = first.carry(axis.vector) if turned is None else ()
+    for across in axis.across:
+        e = dot(carried, second.carry(across)) if turned is None else dot(turned[1], across)
+        yield Relation(e, part="axis", vector=across)
+
+
+def parallel(first: Frame, second: Frame) -> Iterator[Relation]:
+    """No relative rotation: the plane angle, or 3 relations in space.
+
+    theta2 - theta1 - const = 0; g2 - g1 = 0; or (R1 e1).(R2 e2) = (R1 e2).(R2 e3) = (R1 e3).(R2 e1) = 0.
+    """
+    if first.dimension == 2:
+        yield Relation(difference(second.angle, first.angle), part="angle")
+    elif first.gibbs is not None and second.gibbs is not None:
+        yield from labelled(minus(second.gibbs, first.gibbs), "orientation {}")
+    else:
+        for i, j, about in ((0, 1, "z"), (1, 2, "x"), (2, 0, "y")):
+            e = dot(first.carry(unit(i, 3)), second.carry(unit(j, 3)))
+            yield Relation(e, part=f"orientation {about}")
+
+
+def carrier(first: Frame, second: Frame) -> Frame:
+    """The frame in which directions common to both are simplest: the ground's, else the first."""
+    return second if second.fixed else first
+
+
+def shift(first: Frame, second: Frame, direction: Vec) -> tuple[Expr, Expr]:
+    """For bodies that do not turn against each other: how far the second has moved along ``direction``.
+
+    (R u).(p2 - p1) - u.(p02 - p01), as numerator and denominator.
+    """
+    frame = carrier(first, second)
+    apart = dot(direction, minus(second.start, first.start))
+    moved = dot(frame.carry(direction), minus(second.position, first.position))
+    return difference(moved, mul(frame.under, apart)), frame.under
+
+
+def slide(first: Frame, second: Frame, place: Vec, direction: Vec) -> tuple[Expr, Expr]:
+    """How far the second body's point at ``place`` has moved from the first's along a direction of both."""
+    frame = carrier(first, second)
+    if frame is second:
+        point = first.point(place)
+        return mul(MINUS_ONE, along(second, point, place, direction)), mul(second.under, point.under)
+    point = second.point(place)
+    return along(first, point, place, direction), mul(first.under, point.under)
+
+
+def held(moved: tuple[Expr, Expr], axis: Direction, law: Expr) -> Relation:
+    """Displacement along the axis less the law: n.X - |n| f = 0, cleared."""
+    return Relation(difference(moved[0], mul(length(axis.vector), moved[1], law)), part="drive")
+
+
+def crossing(axis: Direction) -> tuple[Vec, Vec]:
+    """u across the axis n, and n x u."""
+    return axis.across[0], cross(axis.vector, axis.across[0])
+
+
+def turned_by(first: Frame, second: Frame, axis: Direction, law: Expr) -> Relation:
+    """The second body's angle against the first about the axis, right-handed, is ``law``.
+
+    In the plane theta2 - theta1 - f = 0. In space v.n cos(f/2) - s |n| sin(f/2) = 0, or with
+    w = n x u: (R1 w).(R2 u) cos f - |n| (R1 u).(R2 u) sin f = 0.
+    """
+    size = length(axis.vector)
+    turned = relative(first, second)
+    if turned is not None:
+        half = mul(HALF, law)
+        e = difference(mul(dot(turned[1], axis.vector), fn("cos", half)), mul(turned[0], size, fn("sin", half)))
+    else:
+        u, w = crossing(axis)
+        now = second.carry(u)
+        sine, cosine = dot(first.carry(w), now), mul(size, dot(first.carry(u), now))
+        e = difference(mul(sine, fn("cos", law)), mul(cosine, fn("sin", law)))
+    return Relation(e, part="drive")
+
+
+def angle_of(first: Frame, second: Frame, axis: Direction) -> Expr:
+    """The second body's angle against the first about a shared axis of space, right-handed."""
+    size = length(axis.vector)
+    turned = relative(first, second)
+    if turned is not None:
+        return 2 * fn("atan", dot(turned[1], axis.vector) / (turned[0] * size))
+    u, w = crossing(axis)
+    now = second.carry(u)
+    return fn("atan2", dot(first.carry(w), now), mul(size, dot(first.carry(u), now)))
+
+
+def apart(first: Frame, second: Frame) -> Iterator[Relation]:
+    """p2 - p1 - R1 (p02 - p01) = 0, cleared: d relations."""
+    frame = carrier(first, second)
+    start = minus(second.start, first.start)
+    moved = minus(second.position, first.position)
+    if not is_zero(start):
+        moved = minus(scaled(frame.under, moved), frame.carry(start))
+    yield from labelled(moved, "origin {}")

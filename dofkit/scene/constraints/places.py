@@ -1,0 +1,155 @@
+"""Constraints of place: fixed, coincident, a point in a slot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.tree import ZERO, Expr, coordinate, mul
+from dofkit.expressions.vectors import Vec, difference, dot, minus, scaled
+from dofkit.scene.constraints.base import ConstraintBase, figures, labelled, meet
+from dofkit.scene.fields import Vector
+from dofkit.scene.frames import Frame, Placed, between
+from dofkit.scene.parts import BodyPoint, Ends, Point, show_point, show_vector
+from dofkit.scene.world import Direction, World
+from dofkit.system import GROUND, Relation
+
+
+class Fixed(ConstraintBase):
+    """A point: X - a = 0, d relations. A body: every coordinate at its reference value, d(d+1)/2 relations."""
+
+    type: Literal["fixed"] = Field(description="a point or a whole body that stays where it is")
+    point: Point | None = Field(None, description="a particle or a point of a body")
+    body: str | None = Field(None, description="a body")
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        if (self.point is None) == (self.body is None):
+            world.fault("either `point` or `body` is needed", hint="`point: A`, or `body: B`")
+        elif self.point is not None:
+            yield from self._hold_point(world, self.point)
+        elif self.body == GROUND:
+            world.fault("the ground is fixed already", "body", hint="leave this constraint out")
+        elif self.body is not None:
+            frame = world.frame(self.body, "body")
+            if not frame.fixed:
+                world.drawn.add(frame.name)
+                yield from _hold(frame)
+
+    def _hold_point(self, world: World, point: str | Vector | BodyPoint) -> Iterator[Relation]:
+        placed = world.point(point, "point")
+        if placed.frame == GROUND:
+            world.fault("this point is fixed in the world already", "point", hint="name a particle or a body's point")
+            return
+        stands = placed.reference
+        if stands is None:
+            stands = tuple(world.fresh() for _ in range(world.dimension))
+        yield from labelled(minus(placed.over, scaled(placed.under, stands)))
+
+    @property
+    def shown(self) -> str:
+        return f"fixed {self.body}" if self.point is None else f"fixed point {show_point(self.point)}"
+
+
+def _hold(frame: Frame) -> Iterator[Relation]:
+    """Position at its reference value, and the rotation the identity."""
+    yield from labelled(minus(frame.position, frame.start))
+    if frame.chart == "gibbs":
+        yield from labelled(tuple(coordinate(name) for name in frame.angles), "orientation {}")
+        return
+    for name, start in zip(frame.angles, frame.initial, strict=True):
+        yield Relation(difference(coordinate(name), start), part="angle" if frame.chart == "plane" else f"angle {name}")
+
+
+class Coincident(ConstraintBase):
+    """A - B = 0: d relations."""
+
+    type: Literal["coincident"] = Field(description="two points that stay together")
+    between: Ends = Field(description="the two points")
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
+        if first.label == second.label or (first.frame is not None and first.frame == second.frame):
+            told = first.label if first.label == second.label else f"two points of {first.frame}"
+            hint = "name points of two different bodies or particles"
+            world.fault(f"{told} cannot be joined to itself", "between", 1, hint=hint)
+            return
+        meet(world, first, second, "between")
+        world.apart(first, second, ZERO)
+        yield from labelled(between(first, second)[0])
+
+    @property
+    def shown(self) -> str:
+        return "coincident " + ", ".join(show_point(end) for end in self.between)
+
+
+class Slot(ConstraintBase):
+    """The point P stays on the line through ``at`` along ``axis`` that ``body`` carries: d - 1 relations.
+
+    (R u).(P - p) - u.(a - p0) = 0 for each of the directions u across the axis.
+    """
+
+    type: Literal["slot"] = Field(description="a point on a straight line carried by a body")
+    point: Point = Field(description="the point")
+    body: str = Field(description="the body that carries the line, or ground")
+    at: Vector | None = Field(None, description="a point of the line in the reference configuration")
+    axis: Vector | None = Field(None, description="the line's direction in the reference configuration")
+
+    dimensions: ClassVar[tuple[int, ...]] = (2, 3)
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        point = world.point(self.point, "point")
+        frame = world.frame(self.body, "body")
+        if point.frame == frame.name:
+            world.fault(f"the point is a point of {frame.name} itself", "point", hint="name a point of something else")
+            return
+        axis = world.direction(self.axis, "axis")
+        through_point = self.at is None and point.reference is not None
+        place = point.reference if through_point and point.reference else world.place(self.at, "at")
+        if self.at is not None or self.axis is not None:
+            world.drawn.add(frame.name)
+        _check_on_line(world, point, place, axis)
+        for across in axis.across:
+            yield Relation(along(frame, point, place, across), part="across", vector=across)
+
+    @property
+    def shown(self) -> str:
+        told = f"slot {show_point(self.point)} on {self.body}"
+        if self.at is not None:
+            told += f" through {show_vector(self.at)}"
+        return told + ("" if self.axis is None else f" along {show_vector(self.axis)}")
+
+
+def along(frame: Frame, point: Placed, place: Vec, direction: Vec) -> Expr:
+    """(R u).(P - p) - u.(a - p0), cleared: how far P is from the place carried by the frame, along u."""
+    arm = dot(direction, minus(place, frame.start))
+    offset = minus(point.over, scaled(point.under, frame.position))
+    return difference(dot(frame.carry(direction), offset), mul(arm, frame.under, point.under))
+
+
+def _check_on_line(world: World, point: Placed, place: Vec, axis: Direction) -> None:
+    stands = point.reference
+    if stands is None:
+        return
+    offsets = [dot(across, minus(stands, place)) for across in axis.across]
+    if not world.any_differs(offsets):
+        return
+
+    def look(size: float) -> None:
+        if not world.within(_apart(minus(stands, place), axis.vector), size):
+            message = f"the drawing puts {point.label} at {figures(stands)}, off the line through {figures(place)}"
+            world.fault(message, "point", hint="move the point or the line, or set `tolerance` if it is measured")
+
+    world.check_later(look)
+
+
+def _apart(arm: Vec, axis: Vec) -> float | None:
+    a, n = [approximate(part) for part in arm], [approximate(part) for part in axis]
+    if None in a or None in n:
+        return None
+    numbers = [(x or 0.0, y or 0.0) for x, y in zip(a, n, strict=True)]
+    along_it = sum(x * y for x, y in numbers)
+    whole, size = sum(x * x for x, _ in numbers), sum(y * y for _, y in numbers)
+    return float(max(0.0, whole - along_it**2 / size) ** 0.5)

@@ -1,0 +1,68 @@
+"""Joints of the plane and of space: revolute, prismatic, weld."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+from pydantic import Field
+
+from dofkit.expressions.vectors import difference
+from dofkit.scene.constraints.joints import Driven, Joint, aligned, apart, held, parallel, shift, together, turned_by
+from dofkit.scene.frames import Frame
+from dofkit.scene.world import World
+from dofkit.system import Relation
+
+
+class Revolute(Driven):
+    """X1 = X2 (d relations); in space the axis keeps its direction too (2 more): 2 in the plane, 5 in space.
+
+    A drive adds: the angle of the second body against the first, about the axis, is f(t).
+    """
+
+    type: Literal["revolute"] = Field(description="a hinge")
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+        yield from together(first, second, world.place(self.at, "at"))
+        if world.dimension == 2:
+            if self.axis is not None:
+                hint = "leave it out: in the plane every hinge turns about the normal of the plane"
+                world.fault("a revolute joint has no `axis` in dimension 2", "axis", hint=hint)
+            for law in self.driven(world):
+                yield Relation(difference(difference(second.angle, first.angle), law), part="drive")
+            return
+        axis = self.directed(world)
+        yield from aligned(first, second, axis)
+        for law in self.driven(world):
+            yield turned_by(first, second, axis, law)
+
+
+class Prismatic(Driven):
+    """No relative rotation, no displacement across the axis: 2 relations in the plane, 5 in space.
+
+    (R u).(p2 - p1) - u.(p02 - p01) = 0 for the directions u across the axis. A drive adds:
+    the displacement of the second body along the axis, from the first, is f(t).
+    """
+
+    type: Literal["prismatic"] = Field(description="a slider")
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+        if self.at is not None:
+            world.place(self.at, "at")
+        axis = self.directed(world)
+        yield from parallel(first, second)
+        for across in axis.across:
+            yield Relation(shift(first, second, across)[0], part="across", vector=across)
+        for law in self.driven(world):
+            yield held(shift(first, second, axis.vector), axis, law)
+
+
+class Weld(Joint):
+    """The second body moves as the first: 3 relations in the plane, 6 in space."""
+
+    type: Literal["weld"] = Field(description="two bodies joined into one")
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+        world.welds.append((first.name, second.name))
+        yield from parallel(first, second)
+        yield from apart(first, second)

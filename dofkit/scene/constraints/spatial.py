@@ -1,0 +1,146 @@
+"""Joints of space only: cylindrical, screw, universal, spherical, planar."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.tree import PI, add, fn, mul
+from dofkit.expressions.vectors import Vec, cross, difference, dot, length, plus, scaled
+from dofkit.scene.constraints.joints import (
+    Axial,
+    Driven,
+    Placed,
+    aligned,
+    angle_of,
+    held,
+    shift,
+    slide,
+    together,
+    turned_by,
+)
+from dofkit.scene.fields import Value, Vector, as_written
+from dofkit.scene.frames import Frame, relative
+from dofkit.scene.parts import show_vector
+from dofkit.scene.world import Direction, World
+from dofkit.system import Relation
+
+
+def coaxial(first: Frame, second: Frame, place: Vec, axis: Direction) -> Iterator[Relation]:
+    """The axis stays one line: 2 relations for its direction, 2 for its place."""
+    yield from aligned(first, second, axis)
+    for across in axis.across:
+        yield Relation(slide(first, second, place, across)[0], part="across", vector=across)
+
+
+class Cylindrical(Driven):
+    """The bodies share an axis, along which and about which they move freely: 4 relations.
+
+    A drive prescribes the displacement of the second body along the axis, from the first.
+    """
+
+    type: Literal["cylindrical"] = Field(description="a sleeve on a shaft")
+    dimensions: ClassVar[tuple[int, ...]] = (3,)
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+        place, axis = world.place(self.at, "at"), self.directed(world)
+        yield from coaxial(first, second, place, axis)
+        for law in self.driven(world):
+            yield held(slide(first, second, place, axis.vector), axis, law)
+
+
+class Screw(Driven):
+    """The bodies share an axis, and displacement - pitch angle / (2 pi) = 0: 5 relations.
+
+    Right-handed: by the positive ``pitch`` along the axis for a turn about it. A drive prescribes the angle.
+    """
+
+    type: Literal["screw"] = Field(description="a nut on a thread")
+    pitch: Value = Field(description="the advance along the axis for one turn, right-handed")
+    dimensions: ClassVar[tuple[int, ...]] = (3,)
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+        place, axis = world.place(self.at, "at"), self.directed(world)
+        pitch = world.asked.number = world.fixed(self.pitch, "pitch")
+        yield from coaxial(first, second, place, axis)
+        moved, under = slide(first, second, place, axis.vector)
+        advance = mul(pitch, angle_of(first, second, axis)) / (2 * PI)
+        yield Relation(difference(moved, mul(length(axis.vector), under, advance)), part="thread")
+        for law in self.driven(world):
+            yield turned_by(first, second, axis, law)
+
+    @property
+    def shown(self) -> str:
+        return f"{super().shown}, pitch {as_written(self.pitch)}"
+
+
+class Universal(Placed):
+    """X1 = X2, and the first axis, carried by the first body, stays across the second: 4 relations."""
+
+    type: Literal["universal"] = Field(description="a Cardan joint")
+    axes: tuple[Vector, Vector] | None = Field(
+        None, description="two perpendicular axes, the first carried by the first body, the second by the second"
+    )
+    dimensions: ClassVar[tuple[int, ...]] = (3,)
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+        yield from together(first, second, world.place(self.at, "at"))
+        a, b = self._pair(world)
+        turned = relative(first, second)
+        if turned is None:
+            e = dot(first.carry(a), second.carry(b))
+        else:
+            scalar, vector = turned
+            e = add(mul(dot(vector, a), dot(vector, b)), mul(scalar, dot(vector, cross(b, a))))
+        yield Relation(e, part="axes")
+
+    def _pair(self, world: World) -> tuple[Vec, Vec]:
+        if self.axes is None:
+            if self.at is not None:
+                hint = "add `axes: [[...], [...]]`, or leave both out for a joint in general position"
+                world.fault("this universal joint has a place (`at`) but no `axes`", hint=hint)
+            one = world.direction(None)
+            return one.vector, plus(one.across[0], scaled(world.fresh(), one.across[1]))
+        one, other = (world.direction(axis, "axes", i) for i, axis in enumerate(self.axes))
+        cosine = dot(one.vector, other.vector)
+        if world.differs(cosine):
+            size = approximate(fn("abs", cosine / (length(one.vector) * length(other.vector))))
+            if not (size is not None and world.within(size, 1.0)):
+                shown = f"{show_vector(self.axes[0])} and {show_vector(self.axes[1])}"
+                world.fault(f"the axes {shown} are not perpendicular", "axes", hint="their dot product must be 0")
+        return one.vector, other.vector
+
+    @property
+    def shown(self) -> str:
+        told = super().shown
+        return told if self.axes is None else f"{told} along {' and '.join(show_vector(axis) for axis in self.axes)}"
+
+
+class Spherical(Placed):
+    """X1 = X2: 3 relations."""
+
+    type: Literal["spherical"] = Field(description="a ball in a socket")
+    axis: Vector | None = Field(None, description="not needed: the joint turns every way")
+    dimensions: ClassVar[tuple[int, ...]] = (3,)
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+        if self.axis is not None:
+            world.direction(self.axis, "axis")
+        yield from together(first, second, world.place(self.at, "at"))
+
+
+class Planar(Axial):
+    """The normal n keeps its direction (2 relations), and (R n).(p2 - p1) - n.(p02 - p01) = 0: 3 relations."""
+
+    type: Literal["planar"] = Field(description="a face that slides on a face")
+    dimensions: ClassVar[tuple[int, ...]] = (3,)
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+        if self.at is not None:
+            world.place(self.at, "at")
+        axis = self.directed(world)
+        yield from aligned(first, second, axis)
+        yield Relation(shift(first, second, axis.vector)[0], part="distance", vector=axis.vector)

@@ -1,0 +1,305 @@
+"""What a person writes, at the border: exact numbers, texts, and faults that say what to write instead.
+
+Every model of a scene derives from `Model`: frozen, closed to unknown keys, and with faults retold
+for the person who reads them. A fault of a `pydantic.ValidationError` carries ``ctx["hint"]`` where
+there is something to suggest, and its ``loc`` is the path of keys and positions as written.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Integral
+from typing import Annotated, Any, Self
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    ModelWrapValidatorHandler,
+    PlainSerializer,
+    PlainValidator,
+    ValidationError,
+    ValidatorFunctionWrapHandler,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from dofkit.base.errors import Fault
+from dofkit.base.spelling import nearest
+
+#: A number is refused beyond this power of ten, up or down.
+LARGEST_EXPONENT = 1000
+#: A literal is taken as a number only up to this many characters.
+LONGEST_LITERAL = 400
+
+_LITERAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,6})?)(?:\s*/\s*(\d+))?", re.ASCII)
+_OURS = "dofkit"
+
+
+def suggestion(word: object, known: Sequence[str], what: str) -> str:
+    """A sentence that names the nearest of ``known``, or lists them."""
+    found = nearest(word, known)
+    if found is not None:
+        return f"did you mean '{found}'?"
+    if not known:
+        return f"there are no {what}"
+    shown = ", ".join(list(known)[:12]) + (", ..." if len(known) > 12 else "")
+    return f"the {what} are {shown}"
+
+
+def fault_error(message: str, hint: str | None = None, **context: Any) -> PydanticCustomError:
+    """An error for a validator to raise; ``hint`` travels in its context."""
+    given = {"message": message, **({"hint": hint} if hint else {}), **context}
+    return PydanticCustomError(_OURS, "{message}", given)
+
+
+def faults_of(error: ValidationError) -> tuple[Fault, ...]:
+    """The faults of a validation error, each with its path as written."""
+    return tuple(
+        Fault(
+            detail["msg"],
+            tuple(detail["loc"]),
+            column=(detail.get("ctx") or {}).get("column"),
+            hint=(detail.get("ctx") or {}).get("hint"),
+        )
+        for detail in error.errors(include_url=False, include_input=False)
+    )
+
+
+def exact(value: object) -> Fraction:
+    """``value`` as an exact number; a float is taken by its shortest decimal form.
+
+    >>> exact(0.1), exact("1e-2"), exact("2/3")
+    (Fraction(1, 10), Fraction(1, 100), Fraction(2, 3))
+    """
+    if isinstance(value, bool):
+        raise fault_error(f"a number is needed, not {str(value).lower()}", "write 1 or 0")
+    if isinstance(value, Fraction):
+        return value
+    if isinstance(value, Integral):
+        return Fraction(int(value))
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise fault_error(f"a finite number is needed, not {value}")
+        return Fraction(float.__repr__(value))
+    if isinstance(value, Decimal):
+        return _from_decimal(value)
+    if isinstance(value, str):
+        found = _literal(value)
+        if found is not None:
+            return found
+    raise fault_error(f"a number is needed, not {_shown(value)}")
+
+
+def _from_decimal(value: Decimal) -> Fraction:
+    if not value.is_finite():
+        raise fault_error(f"a finite number is needed, not {value}")
+    if value and abs(value.adjusted()) > LARGEST_EXPONENT:
+        raise fault_error(f"the number {value} is too large or too small", f"stay within 1e±{LARGEST_EXPONENT}")
+    return Fraction(value)
+
+
+def _literal(text: str) -> Fraction | None:
+    match = _LITERAL.fullmatch(text.strip()) if len(text) <= LONGEST_LITERAL else None
+    if match is None or (match[2] and not int(match[2])):
+        return None
+    return _from_decimal(Decimal(match[1])) / int(match[2] or 1)
+
+
+def _value(value: object) -> Fraction | str:
+    if isinstance(value, str):
+        text = value.strip()
+        if not text:
+            raise fault_error("a number or a text is needed, not an empty text")
+        found = _literal(text)
+        return value if found is None else found
+    if isinstance(value, (list, tuple, dict)):
+        raise fault_error(f"a number or a text is needed, not {_shown(value)}")
+    return exact(value)
+
+
+def _text(value: object) -> str:
+    if isinstance(value, str):
+        if not value.strip():
+            raise fault_error("a text is needed, not an empty one")
+        return value
+    if isinstance(value, (list, tuple, dict)) or value is None:
+        raise fault_error(f"a text is needed, not {_shown(value)}")
+    return str(exact(value))
+
+
+def as_written(value: Fraction | str) -> str:
+    """A value as text: ``1/3``, but ``0.25`` where the decimals end.
+
+    >>> as_written(Fraction(-1, 4)), as_written(Fraction(1, 3))
+    ('-0.25', '1/3')
+    """
+    if isinstance(value, str):
+        return value
+    decimals = 0
+    while (
+        decimals < 20
+        and (value.denominator % 2 == 0 or value.denominator % 5 == 0)
+        and 10**decimals % value.denominator
+    ):
+        decimals += 1
+    if value.denominator == 1 or 10**decimals % value.denominator:
+        return str(value)
+    return f"{Decimal(int(value * 10**decimals)).scaleb(-decimals):f}"
+
+
+def _number_out(value: Fraction | str) -> int | str:
+    """An integer stays one; other numbers are texts such as ``1/2``, which read back exactly."""
+    if isinstance(value, str):
+        return value
+    return int(value) if value.denominator == 1 else str(value)
+
+
+_NUMBER_OR_TEXT = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+
+#: An exact number.
+Number = Annotated[
+    Fraction,
+    PlainValidator(exact),
+    PlainSerializer(_number_out, return_type=int | str, when_used="json"),
+    WithJsonSchema(_NUMBER_OR_TEXT),
+]
+#: An exact number, or text such as ``sqrt(3)/2``.
+Value = Annotated[
+    Fraction | str,
+    PlainValidator(_value),
+    PlainSerializer(_number_out, return_type=int | str, when_used="json"),
+    WithJsonSchema(_NUMBER_OR_TEXT),
+]
+#: Mathematics as text; a number is taken as its text.
+Text = Annotated[str, PlainValidator(_text), WithJsonSchema(_NUMBER_OR_TEXT)]
+#: Components of a point or a direction; their number is checked against the scene's dimension.
+Vector = tuple[Value, ...]
+
+
+def listed(value: object) -> object:
+    """An empty YAML value (``particles:`` and nothing after it) as an empty list."""
+    return () if value is None else value
+
+
+def named(value: object) -> object:
+    """A plain name as ``{name: ...}``."""
+    return {"name": value} if isinstance(value, str) else value
+
+
+Listed = BeforeValidator(listed)
+
+
+def _shown(value: object) -> str:
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f"'{value if len(value) <= 60 else value[:57] + '...'}'"
+    if isinstance(value, Mapping):
+        return "a mapping"
+    if isinstance(value, (list, tuple)):
+        return "a list"
+    return str(value)[:60]
+
+
+_NEEDS = {
+    "string_type": "a text",
+    "tuple_type": "a list",
+    "list_type": "a list",
+    "dict_type": "a mapping",
+    "model_type": "a mapping",
+    "model_attributes_type": "a mapping",
+}
+
+
+_AS = {"a particle": "a name or a mapping", "a body": "a name or a mapping"}
+
+
+def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tuple[str, str | None]:
+    """One fault of Pydantic's in words for the person who wrote the scene, with a hint."""
+    kind, place = detail["type"], detail["loc"]
+    context = detail.get("ctx") or {}
+    if kind == "extra_forbidden":
+        return f"unknown key '{place[-1]}' in {owner}", suggestion(place[-1], known, "keys")
+    if kind == "invalid_key":
+        return f"a key is a text, not {_shown(place[-1])}", "put it in quotes"
+    if kind == "missing":
+        if isinstance(place[-1], int):
+            return f"{place[-1] + 1} entries are needed here", "there are fewer"
+        return f"{owner} needs '{place[-1]}'", None
+    if kind == "model_type" and not place:
+        return f"{owner} is {_AS.get(owner, 'a mapping')}, not {_shown(detail['input'])}", None
+    if kind in _NEEDS:
+        return f"{_NEEDS[kind]} is needed, not {_shown(detail['input'])}", None
+    if kind == "literal_error":
+        known = re.findall(r"'([^']*)'", str(context["expected"]))
+        return f"{_shown(detail['input'])} is not one of {context['expected']}", suggestion(
+            detail["input"], known, "choices"
+        )
+    if kind in ("too_short", "too_long"):
+        bound = context.get("min_length", context.get("max_length"))
+        word = "at least" if kind == "too_short" else "at most"
+        return f"{word} {bound} entries are needed, not {context['actual_length']}", None
+    return str(detail["msg"]).removeprefix("Value error, "), None
+
+
+def fault_at(place: tuple[int | str, ...], message: str, hint: str | None = None) -> ValidationError:
+    """An error for a validator to raise about something inside what it was given."""
+    detail = InitErrorDetails(type=fault_error(message, hint), loc=place, input=None)
+    return ValidationError.from_exception_data("scene", [detail])
+
+
+def retold(
+    error: ValidationError,
+    owner: str,
+    known: Sequence[str],
+    place: Callable[[tuple[int | str, ...]], tuple[int | str, ...]] = lambda loc: loc,
+) -> ValidationError:
+    """The same faults in our words, those that are already ours left as they are; ``place`` maps each path."""
+    told = []
+    for detail in error.errors(include_url=False):
+        context = dict(detail.get("ctx") or {})
+        if detail["type"] != _OURS:
+            message, hint = _message(detail, owner, known)
+            context = {"message": message, **({"hint": hint} if hint else {})}
+        kind = PydanticCustomError(_OURS, "{message}", context)
+        where = tuple(part for part in place(detail["loc"]) if part != "[key]")
+        told.append(InitErrorDetails(type=kind, loc=where, input=detail["input"]))
+    return ValidationError.from_exception_data(error.title, told)
+
+
+def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
+    """Validate a member of a tagged union, with paths free of the tag."""
+    try:
+        return handler(value)
+    except ValidationError as error:
+        raise retold(error, "this entry", (), lambda loc: loc[1:]) from None
+
+
+class Model(BaseModel):
+    """The base of what a person writes: frozen, no unknown keys, an empty value the same as none."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _retell(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        if isinstance(data, Mapping) and None in data.values():
+            data = {key: value for key, value in data.items() if value is not None or key not in cls.model_fields}
+        try:
+            return handler(data)
+        except ValidationError as error:
+            raise retold(error, cls.called(), tuple(cls.model_fields)) from None
+
+    @classmethod
+    def called(cls) -> str:
+        """What a message calls it: ``a particle``."""
+        name = cls.__name__.lower()
+        return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"

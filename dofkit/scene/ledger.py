@@ -1,0 +1,129 @@
+"""Texts of a scene read with their faults: what cannot be read is recorded with its path and column."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+from dofkit.base.errors import Fault, TextError
+from dofkit.expressions.text import Names, parse_expression, parse_relations
+from dofkit.expressions.tree import Expr, num, parameter
+from dofkit.scene.fields import suggestion
+from dofkit.system import Sense
+
+#: The nearest name is looked for while there are fewer faults than this.
+MOST_HINTS = 100
+
+#: What may be mentioned: in a fixed value, in a law of positions, in an equation.
+FIXED = frozenset({"parameter"})
+LAW = frozenset({"parameter", "time"})
+FINITE = frozenset({"parameter", "coordinate", "time"})
+MOVING = FINITE | {"velocity"}
+ANYTHING = MOVING | {"acceleration", "differential", "dt"}
+
+_ONLY = {
+    FIXED: "numbers and parameters",
+    LAW: "parameters and time",
+    FINITE: "positions, parameters and time",
+    MOVING: "positions, velocities, parameters and time",
+}
+_SENSES: dict[str, tuple[Sense, bool]] = {
+    "=": ("=", False), ">=": (">=", False), ">": (">", False), "<=": (">=", True), "<": (">", True),
+}  # fmt: skip
+_CALLED = {
+    "coordinate": "the coordinate {}", "time": "time", "velocity": "the velocity of {}",
+    "acceleration": "the acceleration of {}", "differential": "the differential of {}", "dt": "dt",
+}  # fmt: skip
+
+
+class Ledger:
+    """Faults and warnings, recorded at paths below ``here``."""
+
+    def __init__(self) -> None:
+        self.here: tuple[str | int, ...] = ()
+        self.faults: list[Fault] = []
+        self.warnings: list[str] = []
+
+    def fault(self, message: str, *where: str | int, hint: str | None = None, column: int | None = None) -> None:
+        """Record a fault at ``where`` within the entry that is being read."""
+        self.faults.append(Fault(message, (*self.here, *where), column=column, hint=hint))
+
+    def unknown(self, what: str, name: str, known: Iterable[str], *where: str | int, plural: str = "") -> None:
+        """Record that ``name`` is not declared, with the nearest name that is (for the first faults: it takes time)."""
+        hint = suggestion(name, tuple(known), plural or f"{what}s") if len(self.faults) < MOST_HINTS else None
+        self.fault(f"there is no {what} '{name}'", *where, hint=hint)
+
+
+class Texts(Ledger):
+    """Reads texts with the scene's names; a text is parsed once however often it occurs."""
+
+    names: Names
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._read: dict[str, Expr | TextError] = {}
+
+    def forget(self) -> None:
+        """Forget what was read: the names have changed."""
+        self._read.clear()
+
+    def parse(self, text: str) -> Expr | TextError:
+        """The expression of a text, or why it is none."""
+        found = self._read.get(text)
+        if found is None:
+            try:
+                found = parse_expression(text, self.names)
+            except TextError as error:
+                found = error
+            self._read[text] = found
+        return found
+
+    def symbols_of(self, text: str, names: Names | None) -> frozenset[Expr]:
+        """What a text mentions; nothing if it cannot be read, which is told elsewhere."""
+        try:
+            found = parse_relations(text, names or self.names)
+        except TextError:
+            return frozenset()
+        return frozenset().union(*(side.symbols for c in found for side in (c.left, c.right)))
+
+    def expression(self, value: Fraction | str, *where: str | int, allow: frozenset[str] = FINITE) -> Expr:
+        """A number or text as an expression that mentions only what ``allow`` names."""
+        if isinstance(value, Fraction):
+            return num(value)
+        found = self.parse(value)
+        if isinstance(found, TextError):
+            self.fault(found.message, *where, hint=found.hint, column=found.column)
+            return parameter("_fault")
+        self.only(found, allow, *where)
+        return found
+
+    def fixed(self, value: Fraction | str, *where: str | int) -> Expr:
+        """A number or text that holds numbers and parameters only."""
+        return self.expression(value, *where, allow=FIXED)
+
+    def only(self, e: Expr, allow: frozenset[str], *where: str | int) -> None:
+        """Record a fault if ``e`` mentions anything that ``allow`` does not name."""
+        if allow is ANYTHING:
+            return
+        for kind, name in sorted(symbol.args for symbol in e.symbols):
+            if kind not in allow:
+                message = f"{_CALLED[kind].format(name)} cannot stand here"
+                self.fault(message, *where, hint=f"only {_ONLY[allow]} may be used")
+                return
+
+    def relations(
+        self, text: str, *where: str | int, names: Names | None = None, allow: frozenset[str] = ANYTHING
+    ) -> list[tuple[Expr, Sense]]:
+        """The relations of a text, each as an expression and its sense against 0."""
+        try:
+            found = parse_relations(text, names or self.names)
+        except TextError as error:
+            self.fault(error.message, *where, hint=error.hint, column=error.column)
+            return []
+        told = []
+        for comparison in found:
+            sense, swap = _SENSES[comparison.relation]
+            e = comparison.right - comparison.left if swap else comparison.left - comparison.right
+            self.only(e, allow, *where)
+            told.append((e, sense))
+        return told

@@ -1,0 +1,215 @@
+"""The names of a scene: the coordinates that particles and bodies bring, and names that clash."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from typing import NamedTuple, Protocol
+
+from dofkit.base.spelling import nearest
+from dofkit.expressions.text import Names, spelled, valid_name
+from dofkit.expressions.tree import Expr, parameter
+from dofkit.scene.ledger import Ledger, Texts
+from dofkit.scene.parts import Body, Particle
+from dofkit.system import BODY_ROLES, GROUND, PARTICLE_ROLES, Coordinate, Sign
+
+SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
+RESERVED = frozenset({"t", GROUND})
+
+
+#: What has coordinates of its own.
+Owners = Sequence[Particle | Body]
+
+
+class Declared(Protocol):
+    """What a scene declares."""
+
+    @property
+    def dimension(self) -> int: ...
+    @property
+    def parameters(self) -> Mapping[str, Fraction | str]: ...
+    @property
+    def functions(self) -> Mapping[str, tuple[str, ...]]: ...
+    @property
+    def particles(self) -> tuple[Particle, ...]: ...
+    @property
+    def bodies(self) -> tuple[Body, ...]: ...
+    @property
+    def coordinates(self) -> tuple[str, ...]: ...
+    @property
+    def configuration(self) -> Mapping[str, Fraction | str]: ...
+    @property
+    def tolerance(self) -> Fraction | None: ...
+
+
+class Table(NamedTuple):
+    """The coordinates in order, and the names that each particle and each body owns."""
+
+    coordinates: tuple[Coordinate, ...]
+    particles: dict[str, tuple[str, ...]]
+    bodies: dict[str, tuple[str, ...]]
+
+
+def coordinate_table(scene: Declared) -> Table:
+    """Particles, then bodies, then the further coordinates, in the order declared."""
+    coordinates: list[Coordinate] = []
+    particles: dict[str, tuple[str, ...]] = {}
+    bodies: dict[str, tuple[str, ...]] = {}
+    planar = scene.dimension == 2
+    for owners, roles, owned in (
+        (scene.particles, PARTICLE_ROLES[scene.dimension], particles),
+        (scene.bodies, BODY_ROLES[scene.dimension], bodies),
+    ):
+        for owner in owners:
+            given = owner.coordinates
+            names = given if given and len(given) == len(roles) else tuple(f"{r}_{owner.name}" for r in roles)
+            owned[owner.name] = names
+            told = ("x", "y", "angle") if planar and len(roles) == 3 else roles
+            coordinates += [Coordinate(name, owner.name, role) for name, role in zip(names, told, strict=True)]
+    coordinates += [Coordinate(name) for name in scene.coordinates]
+    return Table(tuple(coordinates), particles, bodies)
+
+
+def read_parameters(scene: Declared, texts: Texts) -> tuple[dict[str, Expr], dict[str, Sign]]:
+    """What every parameter stands for, and the signs of those that stay symbols.
+
+    A value may mention the parameters declared before it.
+    """
+    stands: dict[str, Expr] = {}
+    signs: dict[str, Sign] = {}
+    texts.here = ("parameters",)
+    for name, value in scene.parameters.items():
+        sign = next((sign for sign in SIGNS if sign == value), None)
+        if sign is None:
+            stands[name] = _parameter_value(texts, stands, name, value)
+        else:
+            stands[name], signs[name] = parameter(name), sign
+    texts.here = ()
+    return stands, signs
+
+
+def _parameter_value(texts: Texts, before: Mapping[str, Expr], name: str, value: Fraction | str) -> Expr:
+    if isinstance(value, str) and value.isalpha() and value not in before:
+        near = nearest(value, SIGNS)
+        if near is not None:
+            texts.fault(f"there is no kind of parameter '{value}'", name, hint=f"did you mean '{near}'?")
+            return parameter(name)
+    texts.names = Names(parameters=dict(before))
+    texts.forget()
+    return texts.fixed(value, name)
+
+
+def declared_names(scene: Declared, table: Table, parameters: Mapping[str, Expr]) -> Names:
+    """The names that texts may mention."""
+    return Names(
+        coordinates=frozenset(q.name for q in table.coordinates),
+        parameters=dict(parameters),
+        functions={name: len(arguments) for name, arguments in scene.functions.items()},
+        arguments=dict(scene.functions),
+        allow_accelerations=True,
+    )
+
+
+def within_member(names: Names, letters: tuple[str, ...]) -> Names:
+    """The same names with ``letters`` standing for a member's coordinates, whatever else they may be."""
+    own = frozenset(letters)
+    return Names(
+        coordinates=names.coordinates | own,
+        parameters={name: value for name, value in names.parameters.items() if name not in own},
+        functions={name: arity for name, arity in names.functions.items() if name not in own},
+        arguments={name: given for name, given in names.arguments.items() if name not in own},
+        allow_accelerations=True,
+    )
+
+
+Entry = tuple[str, str, tuple[str | int, ...]]
+
+
+def check_names(scene: Declared, table: Table, ledger: Ledger) -> None:
+    """Record names that are reserved, cannot be read in a text, are repeated or clash."""
+    ledger.here = ()
+    _check_owners(scene, ledger)
+    entries = [*_owned(scene, table), *_further(scene)]
+    seen: dict[str, str] = {}
+    for name, what, where in entries:
+        word = name if name.isascii() else spelled(name)
+        if word in seen:
+            told = f"{what} and {seen[word]}" if what != seen[word] else f"each time as {what}"
+            ledger.fault(f"the name '{name}' is given twice: {told}", *where, hint="rename one of them")
+            continue
+        seen[word] = what
+        if name in RESERVED:
+            told = "time, and never declared" if name == "t" else "the fixed world, and never declared"
+            ledger.fault(f"'{name}' is {told}", *where, hint="choose another name")
+        else:
+            why = valid_name(name)
+            if why is not None:
+                ledger.fault(f"{why} ({what})", *where, hint="choose another name")
+    _check_derived(entries, seen, ledger)
+    for name, arguments in scene.functions.items():
+        for i, argument in enumerate(arguments):
+            why = None if argument == "t" else valid_name(argument)
+            if why is not None:
+                ledger.fault(why, "functions", name, i, hint="the arguments are names, such as [s] or [x, t]")
+
+
+def _check_owners(scene: Declared, ledger: Ledger) -> None:
+    d = scene.dimension
+    seen: dict[str, str] = {}
+    both: tuple[tuple[str, str, Owners, tuple[str, ...]], ...] = (
+        ("particles", "particle", scene.particles, PARTICLE_ROLES[d]),
+        ("bodies", "body", scene.bodies, BODY_ROLES[d]),
+    )
+    for key, one, owners, roles in both:
+        for i, owner in enumerate(owners):
+            name = owner.name
+            if name in RESERVED:
+                told = "time" if name == "t" else "the fixed world"
+                ledger.fault(f"'{name}' is {told}, and never declared", key, i, "name", hint="choose another name")
+            elif valid_name(f"x_{name}") is not None:
+                hint = "a name is letters, digits and _: its coordinates are x_NAME and so on"
+                ledger.fault(f"'{name}' cannot be the name of a {one}", key, i, "name", hint=hint)
+            if name in seen:
+                ledger.fault(f"the name '{name}' is given twice", key, i, "name", hint=f"it is already a {seen[name]}")
+            seen.setdefault(name, one)
+            if owner.coordinates is not None and len(owner.coordinates) != len(roles):
+                message = f"a {one} has {len(roles)} coordinates in dimension {d}, not {len(owner.coordinates)}"
+                ledger.fault(message, key, i, "coordinates", hint=f"name them in the order {', '.join(roles)}")
+
+
+def _owned(scene: Declared, table: Table) -> Iterator[Entry]:
+    told: set[str] = set()
+    both: tuple[tuple[str, str, Owners, Mapping[str, tuple[str, ...]]], ...] = (
+        ("particles", "particle", scene.particles, table.particles),
+        ("bodies", "body", scene.bodies, table.bodies),
+    )
+    for key, one, owners, owned in both:
+        for i, owner in enumerate(owners):
+            if owner.name in told:
+                continue
+            told.add(owner.name)
+            renamed = owner.coordinates is not None and owner.coordinates == owned[owner.name]
+            for j, name in enumerate(owned[owner.name]):
+                where = (key, i, "coordinates", j) if renamed else (key, i, "name")
+                yield name, f"a coordinate of {one} '{owner.name}'", where
+
+
+def _further(scene: Declared) -> Iterator[Entry]:
+    for i, name in enumerate(scene.coordinates):
+        yield name, "a coordinate", ("coordinates", i)
+    for name in scene.parameters:
+        yield name, "a parameter", ("parameters", name)
+    for name in scene.functions:
+        yield name, "a function", ("functions", name)
+
+
+def _check_derived(entries: list[Entry], seen: Mapping[str, str], ledger: Ledger) -> None:
+    derived: dict[str, tuple[str, str]] = {}
+    for name, what, _ in entries:
+        if "coordinate" in what:
+            derived |= {f"d{name}": (name, "differential"), f"{name}dot": (name, "velocity")}
+            derived[f"{name}ddot"] = (name, "acceleration")
+    for name, what, where in entries:
+        if name in derived and name in seen:
+            q, kind = derived[name]
+            ledger.fault(f"{what} is named '{name}', the {kind} of '{q}'", *where, hint="rename one of them")

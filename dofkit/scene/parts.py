@@ -1,0 +1,141 @@
+"""What a scene is made of besides its constraints: points, particles, bodies, forces, energies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Discriminator, Field, Tag, WrapValidator
+
+from dofkit.scene.fields import Model, Text, Value, Vector, as_written, named, untagged
+
+
+class BodyPoint(Model):
+    """The material point of a body that stands at a world position in the reference configuration."""
+
+    on: str = Field(description="the body's name")
+    at: Vector = Field(description="the world position of the point in the reference configuration")
+
+    @classmethod
+    def called(cls) -> str:
+        return "a point of a body"
+
+
+def _point_kind(value: object) -> str:
+    if isinstance(value, (Mapping, BodyPoint)):
+        return "material"
+    return "name" if isinstance(value, str) else "place"
+
+
+#: A particle's name, a point fixed in the world, or a material point of a body.
+Point = Annotated[
+    Annotated[str, Tag("name")] | Annotated[Vector, Tag("place")] | Annotated[BodyPoint, Tag("material")],
+    Discriminator(_point_kind),
+    WrapValidator(untagged),
+]
+
+
+def _shape(value: object) -> str:
+    return "several" if isinstance(value, (list, tuple)) else "one"
+
+
+#: One value, or a list of them, or a list of lists.
+_Entry = Annotated[
+    Annotated[Value, Tag("one")] | Annotated[Vector, Tag("several")], Discriminator(_shape), WrapValidator(untagged)
+]
+Values = Annotated[
+    Annotated[Value, Tag("one")] | Annotated[tuple[_Entry, ...], Tag("several")],
+    Discriminator(_shape),
+    WrapValidator(untagged),
+]
+
+
+def show_point(point: str | Vector | BodyPoint) -> str:
+    """A point as a person reads it: ``A``, ``(0, 1)``, ``crank at (0, 1)``."""
+    if isinstance(point, BodyPoint):
+        return f"{point.on} at {show_vector(point.at)}"
+    return point if isinstance(point, str) else show_vector(point)
+
+
+def show_vector(vector: Vector) -> str:
+    """``(2, 1/2)``."""
+    return "(" + ", ".join(as_written(value) for value in vector) + ")"
+
+
+class Particle(Model):
+    """A point mass with d coordinates."""
+
+    name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, z_NAME")
+    coordinates: tuple[str, ...] | None = Field(None, description="other names for its coordinates, in order")
+    at: Vector | None = Field(None, description="its position in the reference configuration")
+    mass: Value | None = Field(None, description="its mass: it never constrains")
+
+
+class Body(Model):
+    """A rigid body with d(d+1)/2 coordinates: its origin, then its angle or z-x-z Euler angles."""
+
+    name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, theta_NAME and so on")
+    coordinates: tuple[str, ...] | None = Field(None, description="other names for its coordinates, in order")
+    mass: Value | None = Field(None, description="its mass: it never constrains")
+    inertia: Values | None = Field(None, description="its moment of inertia, or principal moments, or matrix rows")
+
+
+#: A particle or a body as written: a plain name will do.
+AnyParticle = Annotated[Particle, BeforeValidator(named, json_schema_input_type=str | Particle)]
+AnyBody = Annotated[Body, BeforeValidator(named, json_schema_input_type=str | Body)]
+
+Ends = tuple[Point, Point]
+
+
+class Force(Model):
+    """A force: it enters the equations of motion and removes no freedom."""
+
+    type: Literal["spring", "damper", "force", "gravity"] = Field(description="what pulls")
+    name: str | None = Field(None, description="its name; by default f1, f2, ... by position")
+    between: Ends | None = Field(None, description="the two points, or bodies, that it acts between")
+    point: Point | None = Field(None, description="the point that it acts at")
+    body: str | None = Field(None, description="the body that it acts on")
+    stiffness: Value | None = Field(None, description="of a spring: force by stretch")
+    rest_length: Value | None = Field(None, description="of a spring: its length without load")
+    damping: Value | None = Field(None, description="of a damper: force by speed")
+    value: Values | None = Field(None, description="of a force: its size, or its components")
+    acceleration: Values | None = Field(None, description="of gravity: its size, or its components")
+    direction: Vector | None = Field(None, description="of a force or gravity")
+    notes: str | None = Field(None, description="what is remarkable about it")
+
+    @property
+    def reason(self) -> str:
+        """Why it is no constraint."""
+        return _REASONS[self.type] + " It enters the equations of motion and removes no degree of freedom."
+
+
+_REASONS = {
+    "spring": "A spring pulls back when stretched but allows every distance between its ends, so it is no constraint.",
+    "damper": "A damper resists the velocity but allows every position and every velocity, so it is no constraint.",
+    "force": "An applied force changes the acceleration, not which positions can be taken, so it is no constraint.",
+    "gravity": "Gravity acts on the masses and allows every position, so it is no constraint.",
+}
+
+
+class Energies(Model):
+    """The energies of the system, for its equations of motion."""
+
+    kinetic: Text | None = Field(None, description="kinetic energy T in the coordinates and their velocities")
+    potential: Text | None = Field(None, description="potential energy V")
+    dissipation: Text | None = Field(None, description="Rayleigh's dissipation function")
+    forces: Annotated[dict[str, Text], BeforeValidator(lambda value: {} if value is None else value)] = Field(
+        default_factory=dict, description="non-conservative generalized forces by coordinate"
+    )
+
+
+def texts_of(value: Any) -> list[str]:
+    """Every text inside a value, a tuple of values, a point or a model's dump."""
+    if isinstance(value, str):
+        return [value]
+    if isinstance(value, BodyPoint):
+        return texts_of(value.at)
+    if isinstance(value, Mapping):
+        return [text for part in value.values() for text in texts_of(part)]
+    if isinstance(value, tuple):
+        return [text for part in value for text in texts_of(part)]
+    return []

@@ -1,0 +1,326 @@
+"""From a file, a catalog name, a text or a mapping to a `Scene`, with every fault in its place."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pydantic import ValidationError
+
+from dofkit.base.documents import Document, read_document
+from dofkit.base.documents.document import MOST_BYTES
+from dofkit.base.documents.fast_flow import DEEPEST
+from dofkit.base.errors import Fault, SceneError
+from dofkit.base.spelling import nearest_title
+from dofkit.scene.catalog import catalog_names, catalog_text, nearest_hint
+from dofkit.scene.scene import Scene, check, faults_of
+
+__all__ = ["SceneFile", "Source", "find", "load", "loads"]
+
+#: More faults than this are counted, not listed.
+MOST_FAULTS = 200
+_UNKNOWN_KEY = "unknown key"
+_UNKNOWN_TYPE = "there is no constraint type"
+#: Parts of a scene without which its other parts can still be checked.
+_DROPPED_WHOLE = frozenset({"name", "title", "source", "notes", "expect", "energies", "configuration"})
+_DROPPED_BY_ENTRY = ("constraints", "forces")
+
+
+def load(source: str | os.PathLike[str] | Mapping[str, Any], *, name: str | None = None) -> Scene:
+    """The scene of a YAML or JSON file, of the catalog, or of a mapping.
+
+    ``name`` stands where the scene itself gives none: by default the file's stem. Raises SceneError
+    with every fault at once.
+
+    >>> load({"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}).dimension
+    3
+    """
+    if isinstance(source, Mapping):
+        return _from_mapping(source, name)
+    found = find(source)
+    return SceneFile.read(found.data, name or found.name).scene()
+
+
+def loads(data: bytes | str, name: str = "scene") -> Scene:
+    """The scene of a YAML or JSON text, which is called ``name`` unless it says otherwise.
+
+    >>> loads("coordinates: [x, y]", "plane").name
+    'plane'
+    """
+    return SceneFile.read(data, name).scene()
+
+
+class Source(NamedTuple):
+    """What was found under a path or a catalog name."""
+
+    name: str
+    data: bytes | str
+
+
+@dataclass(frozen=True)
+class SceneFile:
+    """A document that should be a scene; knows the line and column of what is wrong with it."""
+
+    document: Document
+
+    @classmethod
+    def read(cls, data: bytes | str, name: str) -> SceneFile:
+        """Take the text of a scene apart; nothing is raised yet."""
+        return cls(read_document(data, name))
+
+    def scene(self, *, checked: bool = True) -> Scene:
+        """The scene. Raises SceneError with all faults; texts and geometry are looked at only if ``checked``."""
+        value = self.document.value
+        faults = list(self.document.faults)
+        if not isinstance(value, dict):
+            if not faults:
+                hint = "begin with 'coordinates: [x, y]' or the like"
+                faults.append(Fault("a scene is a mapping of keys to values", hint=hint))
+            raise self._error(faults)
+        if value.get("name") is None:
+            value = {**value, "name": self.document.name}
+        scene, found = _validated(value, checked or bool(faults))
+        if faults or found or scene is None:
+            raise self._error([*faults, *found])
+        return scene
+
+    def located(self, error: SceneError) -> SceneError:
+        """The same faults with their lines and columns."""
+        return self._error(error.faults)
+
+    def _error(self, faults: Iterable[Fault]) -> SceneError:
+        taken = {(fault.line, fault.column) for fault in self.document.faults}
+        told = []
+        for fault in without_echoes(faults):
+            found = self._located(fault)
+            if fault.line is not None or (found.line, found.column) not in taken:
+                told.append(found)
+        told.sort(key=lambda fault: (fault.line or 0, fault.column or 0))
+        return SceneError(_bounded(told), self.document.name)
+
+    def _located(self, fault: Fault) -> Fault:
+        if fault.line is not None:
+            return fault
+        key = fault.message.startswith(_UNKNOWN_KEY)
+        where = (*fault.where, "type") if fault.message.startswith(_UNKNOWN_TYPE) else fault.where
+        line, column = self.document.place(where, key=key, column=fault.column)
+        return replace(with_hint(fault), line=line, column=column)
+
+
+def find(source: str | os.PathLike[str]) -> Source:
+    """The bytes of the file at a path, or of the catalog scene of that name."""
+    shown = os.fspath(source)
+    path = Path(shown)
+    try:
+        if path.exists() and not path.is_dir():
+            with path.open("rb") as file:
+                return Source(_printable(path.stem), file.read(MOST_BYTES + 1))
+        if shown in catalog_names():
+            return Source(shown, catalog_text(shown))
+        folder = path.is_dir()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        message = f"'{_brief(shown)}' cannot be read: {reason[:1].lower()}{reason[1:]}"
+        raise SceneError((Fault(message, hint="check the path and who may read it"),), shown) from None
+    if folder:
+        fault = Fault(f"'{shown}' is a folder, not a scene", hint=f"write '{path / '*.yaml'}' for the files in it")
+        raise SceneError((fault,), shown)
+    raise SceneError((_missing(shown, path),), shown)
+
+
+def _missing(shown: str, path: Path) -> Fault:
+    if "\n" in shown:
+        message = "this is the text of a scene, not a path or a name"
+        return Fault(message, hint="read a text with dofkit.loads(text)")
+    in_folder = path.parent != Path(".") or path.suffix in (".yaml", ".yml", ".json")
+    beside = _beside(path)
+    near = nearest_title(path.name, beside)
+    message = f"there is no file '{_brief(shown)}'"
+    if not in_folder:
+        message += ", and no scene of that name in the catalog"
+    if near:
+        return Fault(message, hint=f"did you mean '{path.parent / near}'?")
+    if in_folder and not path.parent.is_dir():
+        return Fault(message, hint=f"there is no folder '{path.parent}' either")
+    return Fault(message, hint=nearest_hint(path.stem if in_folder else shown))
+
+
+def _beside(path: Path) -> list[str]:
+    try:
+        with os.scandir(path.parent) as entries:
+            return [entry.name for entry, _ in zip(entries, range(2000), strict=False) if entry.is_file()]
+    except OSError:
+        return []
+
+
+def _printable(name: str) -> str:
+    """A file's name without the half characters that stand for bytes of another encoding."""
+    return name.encode("utf-8", "replace").decode("utf-8")
+
+
+def _brief(text: str) -> str:
+    return text if len(text) <= 80 else text[:60] + "..."
+
+
+def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:
+    deep = _too_deep(source)
+    if deep is not None:
+        raise SceneError((Fault(f"nested deeper than {DEEPEST} levels", deep, hint="write the scene flat"),), name)
+    value = dict(source)
+    if name is not None and value.get("name") is None:
+        value["name"] = name
+    scene, faults = _validated(value, True)
+    if scene is None or faults:
+        raise SceneError(_bounded([with_hint(fault) for fault in without_echoes(faults)]), name)
+    return scene
+
+
+def _too_deep(source: object) -> tuple[str | int, ...] | None:
+    """The path of a value nested too deep (or within itself), or None."""
+    level: list[tuple[tuple[str | int, ...], object]] = [((), source)]
+    for _ in range(DEEPEST):
+        below: list[tuple[tuple[str | int, ...], object]] = []
+        for path, value in level:
+            if isinstance(value, Mapping):
+                below += [((*path, str(key)), part) for key, part in value.items() if _holds(part)]
+            elif isinstance(value, (list, tuple)):
+                below += [((*path, i), part) for i, part in enumerate(value) if _holds(part)]
+        if not below:
+            return None
+        level = below
+    return level[0][0]
+
+
+def _holds(value: object) -> bool:
+    return isinstance(value, (Mapping, list, tuple))
+
+
+def _validated(value: Mapping[str, Any], checked: bool) -> tuple[Scene | None, tuple[Fault, ...]]:
+    """The scene and its faults; where its structure is at fault, those of the rest of it as well."""
+    try:
+        scene = Scene.model_validate(value)
+    except ValidationError as error:
+        faults = faults_of(error)
+    else:
+        return scene, check(scene) if checked else ()
+    rest = _Rest.without(value, faults)
+    if rest is None:
+        return None, faults
+    try:
+        found = check(Scene.model_validate(rest.value))
+    except ValidationError:
+        return None, faults
+    return None, faults + tuple(replace(fault, where=rest.written(fault.where)) for fault in found)
+
+
+class _Rest(NamedTuple):
+    """A scene without its faulty parts, and which entries of its lists are left."""
+
+    value: dict[str, Any]
+    kept: dict[str, list[int]]
+
+    @classmethod
+    def without(cls, value: Mapping[str, Any], faults: Sequence[Fault]) -> _Rest | None:
+        """Take out what is at fault; None where the rest would not make sense without it."""
+        rest: Any = dict(value)
+        dropped: dict[str, set[int]] = {key: set() for key in _DROPPED_BY_ENTRY}
+        for fault in faults:
+            first, second = (*fault.where, None, None)[:2]
+            if first in dropped and isinstance(second, int):
+                dropped[str(first)].add(second)
+            elif first in _DROPPED_WHOLE:
+                rest.pop(first, None)
+            elif fault.message.startswith(_UNKNOWN_KEY):
+                rest = _cut(rest, fault.where)
+            else:
+                return None
+        kept: dict[str, list[int]] = {}
+        for key, gone in dropped.items():
+            if gone:
+                kept[key] = [i for i in range(len(rest[key])) if i not in gone]
+                rest[key] = [_with_name(key, i, rest[key][i]) for i in kept[key]]
+        return cls(rest, kept)
+
+    def written(self, where: tuple[str | int, ...]) -> tuple[str | int, ...]:
+        """A path of the rest as a path of the whole."""
+        if len(where) >= 2 and where[0] in self.kept and isinstance(where[1], int):
+            return (where[0], self.kept[str(where[0])][where[1]], *where[2:])
+        return where
+
+
+def _with_name(key: str, index: int, entry: Any) -> Any:
+    """An entry that goes by its position, named by the position that it had."""
+    if isinstance(entry, str):
+        entry = {"type": "equation", "text": entry}
+    return {**entry, "name": entry.get("name") or f"{key[0]}{index + 1}"} if isinstance(entry, dict) else entry
+
+
+def _cut(value: Any, path: tuple[str | int, ...]) -> Any:
+    """``value`` without what is at ``path``; nothing that is shared is changed."""
+    if not path or (isinstance(value, dict) and path[0] not in value):
+        return value
+    if len(path) == 1 and isinstance(value, dict):
+        return {key: part for key, part in value.items() if key != path[0]}
+    if isinstance(value, dict):
+        return {**value, str(path[0]): _cut(value[path[0]], path[1:])}
+    if isinstance(value, list) and isinstance(path[0], int):
+        return [_cut(part, path[1:]) if i == path[0] else part for i, part in enumerate(value)]
+    return value
+
+
+def _bounded(faults: list[Fault]) -> tuple[Fault, ...]:
+    if len(faults) <= MOST_FAULTS:
+        return tuple(faults)
+    more = len(faults) - MOST_FAULTS
+    last = replace(faults[MOST_FAULTS], message=f"and {more} further faults from here on", hint="mend these first")
+    return (*faults[:MOST_FAULTS], last)
+
+
+_HINTS = (
+    (r"needs '(\w+)'", "add '{0}: ...'"),
+    (r"^a list is needed", "write it in square brackets, [a, b]"),
+    (r"^a mapping is needed", "write it as 'key: value', or in braces"),
+    (r"^a text is needed", "put it in double quotes"),
+    (r"is 1, 2 or 3", "write 1, 2 or 3"),
+    (r"number", "write a number such as 2, 0.5 or 1e-3"),
+    (r"^at (?:least|most) \d+ entries", "add or take away entries"),
+)
+
+
+def without_echoes(faults: Iterable[Fault]) -> list[Fault]:
+    """The faults less those that a misspelt key explains: the key that it should have been is not missing."""
+    faults = list(faults)
+    meant = {
+        (fault.where[:-1], match[1])
+        for fault in faults
+        if fault.message.startswith(_UNKNOWN_KEY)
+        and (match := re.fullmatch(r"did you mean '(.*)'\?", fault.hint or ""))
+    }
+    return [
+        fault
+        for fault in faults
+        if not (fault.where and "needs" in fault.message and (fault.where[:-1], fault.where[-1]) in meant)
+    ]
+
+
+def with_hint(fault: Fault) -> Fault:
+    """A fault that says which field it is about, and what to do."""
+    message, keys = (
+        re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message),
+        [key for key in fault.where if isinstance(key, str)],
+    )
+    if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
+        message = f"`{keys[-1]}`: {message}"
+    return replace(fault, message=message, hint=fault.hint or _hint(fault.message))
+
+
+def _hint(message: str) -> str:
+    for pattern, hint in _HINTS:
+        match = re.search(pattern, message)
+        if match:
+            return hint.format(*match.groups())
+    return "'dofkit schema' lists what can stand here"

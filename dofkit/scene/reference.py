@@ -1,0 +1,97 @@
+"""The drawing of a scene: its size, its reference configuration, and the pose in which its joints close."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import combinations, product
+from math import dist
+
+from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.tree import ZERO, Expr, coordinate
+from dofkit.expressions.vectors import Vec
+from dofkit.scene.world import World
+from dofkit.system import GROUND
+
+#: Up to this many points every pair is measured.
+EVERY_PAIR = 1000
+
+
+def size_of(points: Sequence[Vec]) -> float:
+    """The largest distance between points whose positions are numbers; 1 if there are none."""
+    found = {numbers for numbers in map(_numbers, points) if numbers is not None}
+    return _diameter(sorted(found)) or 1.0
+
+
+def _numbers(point: Vec) -> tuple[float, ...] | None:
+    parts = [approximate(part) for part in point]
+    return tuple(part for part in parts if part is not None) if None not in parts else None
+
+
+def _diameter(points: list[tuple[float, ...]]) -> float:
+    """Among many points, only the pairs that a first estimate leaves open: |p - q| <= |p - c| + |q - c|.
+
+    If those are still too many, as on a sphere, the estimate: the extremes of a few dozen directions.
+    """
+    best = 0.0
+    if len(points) > EVERY_PAIR:
+        best = _diameter(_extremes(points))
+        centre = tuple((min(column) + max(column)) / 2 for column in zip(*points, strict=True))
+        reach = [dist(point, centre) for point in points]
+        furthest = max(reach)
+        points = [p for p, far in zip(points, reach, strict=True) if far + furthest > best * (1 + 1e-9)]
+        if len(points) > EVERY_PAIR:
+            return best
+    return max(best, max((dist(p, q) for p, q in combinations(points, 2)), default=0.0))
+
+
+def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
+    ways = [way for way in product((-1, 0, 1), repeat=len(points[0])) if any(way)]
+    return list({max(points, key=lambda point: sum(a * b for a, b in zip(way, point, strict=True))) for way in ways})
+
+
+def drawn_bodies(world: World) -> set[str]:
+    """The bodies that the drawing places: by their own geometry, or welded to the ground or to one that is."""
+    drawn = world.drawn - {GROUND}
+    welded: dict[str, list[str]] = {}
+    for first, second in world.welds:
+        if GROUND in (first, second):
+            drawn |= {first, second} - {GROUND}
+        else:
+            welded.setdefault(first, []).append(second)
+            welded.setdefault(second, []).append(first)
+    stack = list(drawn)
+    while stack:
+        for other in welded.get(stack.pop(), ()):
+            if other not in drawn:
+                drawn.add(other)
+                stack.append(other)
+    return drawn
+
+
+def pose_of(world: World) -> dict[Expr, Expr]:
+    """Values at which the joints close: bodies at their reference, particles and coordinates where given."""
+    found: dict[Expr, Expr] = {}
+    for name, names in world.table.particles.items():
+        stands = world.standing[name]
+        if stands is not None:
+            found.update(zip(map(coordinate, names), stands, strict=True))
+    for frame in world.frames.values():
+        found.update(zip(frame.position, frame.start, strict=True))
+        turned = frame.initial if frame.chart != "gibbs" else (ZERO,) * len(frame.angles)
+        found.update(zip(map(coordinate, frame.angles), turned, strict=True))
+    for name, value in world.configuration.items():
+        found.setdefault(coordinate(name), value)
+    return found
+
+
+def reference_of(world: World, pose: Mapping[Expr, Expr]) -> dict[Expr, Expr] | None:
+    """The pose, where it is a drawing of everything: nothing generic, nothing left to guess."""
+    if world.generic or world.special:
+        return None
+    drawn = drawn_bodies(world)
+    if any(name not in drawn for name in world.frames):
+        return None
+    symbols = [coordinate(q.name) for q in world.table.coordinates]
+    if any(symbol not in pose for symbol in symbols):
+        return None
+    return {symbol: pose[symbol] for symbol in symbols}

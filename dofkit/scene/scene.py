@@ -1,0 +1,158 @@
+"""A scene as a person writes it: particles, bodies, coordinates, and the constraints on them.
+
+`Scene` checks its structure when it is built; `check` finds every fault across its fields and in its
+texts: names that are not declared, joints without their axis, lengths that contradict the drawing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, ValidationError, ValidatorFunctionWrapHandler, WrapValidator
+
+from dofkit.base.errors import Fault
+from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
+from dofkit.scene.fields import (
+    Listed,
+    Model,
+    Number,
+    Value,
+    exact,
+    fault_at,
+    fault_error,
+    faults_of,
+    retold,
+    suggestion,
+)
+from dofkit.scene.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, Force, Particle
+from dofkit.scene.survey import checked
+
+__all__ = ["Body", "BodyPoint", "Energies", "Force", "Particle", "Scene", "check", "faults_of"]
+
+
+def _constraint(value: object) -> object:
+    """A plain text is an equation."""
+    return {"type": "equation", "text": value} if isinstance(value, str) else value
+
+
+def _told(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
+    """A constraint, its faults at paths free of the type's tag."""
+    if isinstance(value, Mapping):
+        given = value.get("type")
+        if given is None:
+            raise fault_error("a constraint needs its `type`", "the types are " + ", ".join(TYPES))
+        if not isinstance(given, str) or given not in TYPES:
+            hint = suggestion(given, list(TYPES), "types")
+            raise fault_at(("type",), f"there is no constraint type '{given}'", hint)
+    elif not isinstance(value, ConstraintBase):
+        raise fault_error("a constraint is a text or a mapping with a `type`")
+    try:
+        return handler(value)
+    except ValidationError as error:
+        raise retold(error, "a constraint", (), lambda loc: loc[1:]) from None
+
+
+def _parameters(value: object) -> object:
+    """A list of names, or a mapping whose empty values mean `real`."""
+    if value is None:
+        return {}
+    if isinstance(value, str):
+        value = [value]
+    if isinstance(value, (list, tuple)):
+        seen: set[str] = set()
+        for i, name in enumerate(value):
+            if not isinstance(name, str):
+                hint = "write `parameters: {NAME: VALUE}` to give values"
+                raise fault_at((i,), "a list of parameters holds names only", hint)
+            if name in seen:
+                raise fault_at((i,), f"the parameter '{name}' is given twice", "leave one of them out")
+            seen.add(name)
+        return dict.fromkeys(value, "real")
+    if isinstance(value, Mapping):
+        return {name: "real" if given is None else given for name, given in value.items()}
+    return value
+
+
+def _functions(value: object) -> object:
+    """A mapping; a single argument needs no list."""
+    if value is None:
+        return {}
+    if isinstance(value, Mapping):
+        return {name: (given,) if isinstance(given, str) else given for name, given in value.items()}
+    return value
+
+
+def _mapping(value: object) -> object:
+    return {} if value is None else value
+
+
+def _dimension(value: object) -> object:
+    found = exact(value)
+    if found not in (1, 2, 3):
+        raise fault_error(f"the dimension is 1, 2 or 3, not {value}")
+    return int(found)
+
+
+def _tolerance(value: object) -> object:
+    found = exact(value)
+    if not 0 <= found < 1:
+        raise fault_error(f"the tolerance is a fraction of the scene's size, from 0 up to 1, not {value}")
+    return found
+
+
+_Mapping = BeforeValidator(_mapping)
+_AnyConstraint = Annotated[
+    AnyConstraint, WrapValidator(_told), BeforeValidator(_constraint, json_schema_input_type=str | AnyConstraint)
+]
+
+
+class Scene(Model):
+    """A mechanical system: what it is made of and what holds it."""
+
+    name: str = Field("scene", min_length=1, description="a short name, used in reports; by default the file's stem")
+    title: str | None = Field(None, description="one line about it")
+    source: str | None = Field(None, description="where it is from")
+    notes: str | None = Field(None, description="what is remarkable about it")
+    dimension: Annotated[Literal[1, 2, 3], BeforeValidator(_dimension)] = Field(
+        3, description="d, the dimension of the world"
+    )
+    parameters: Annotated[
+        dict[str, Value],
+        BeforeValidator(_parameters, json_schema_input_type=list[str] | dict[str, Value]),
+    ] = Field(
+        default_factory=dict,
+        description="constants: a list of names, or a mapping name -> real, positive, nonzero, or a value",
+    )
+    functions: Annotated[
+        dict[str, Annotated[tuple[str, ...], Field(min_length=1)]],
+        BeforeValidator(_functions, json_schema_input_type=dict[str, list[str] | str]),
+    ] = Field(default_factory=dict, description="unknown smooth functions: name -> list of arguments")
+    particles: Annotated[tuple[AnyParticle, ...], Listed] = Field((), description="names, or mappings")
+    bodies: Annotated[tuple[AnyBody, ...], Listed] = Field((), description="names, or mappings")
+    coordinates: Annotated[tuple[str, ...], Listed] = Field(
+        (), description="further configuration coordinates, of no particle or body"
+    )
+    constraints: Annotated[tuple[_AnyConstraint, ...], Listed] = Field(
+        (), description="mappings with a `type`; a plain text is an equation"
+    )
+    forces: Annotated[tuple[Force, ...], Listed] = Field((), description="springs and the like: they never constrain")
+    energies: Energies | None = Field(None, description="energies, for the equations of motion")
+    tolerance: Annotated[Number, BeforeValidator(_tolerance)] | None = Field(
+        None, description="measured geometry: right to within this fraction of the scene's size; absent: exact"
+    )
+    configuration: Annotated[dict[str, Value], _Mapping] = Field(
+        default_factory=dict, description="a reference configuration: coordinate -> value"
+    )
+    expect: Annotated[dict[str, Any], _Mapping] = Field(
+        default_factory=dict, description="what the report must say, by report key"
+    )
+
+    @classmethod
+    def called(cls) -> str:
+        return "a scene"
+
+
+def check(scene: Scene) -> tuple[Fault, ...]:
+    """Every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
+    return checked(scene)
