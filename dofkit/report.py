@@ -17,13 +17,13 @@ FORMS: tuple[Form, ...] = ("finite", "pfaffian", "nonlinear", "inequality")
 BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
 
 
-class Model(BaseModel):
+class ToldModel(BaseModel):
     """The base of what is told: frozen, with no keys beyond the fields."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-class Count(Model):
+class Count(ToldModel):
     """The lecture's f = Nd - k: every finite equation that was written, as numbers and as a line of text."""
 
     particles: int
@@ -38,7 +38,7 @@ class Count(Model):
     """Why the count is wrong, where it is; else None."""
 
 
-class ConstraintEntry(Model):
+class ConstraintEntry(ToldModel):
     """One constraint's labels.
 
     ``form`` of the reduced equations; ``holonomic`` in the system and ``holonomic_alone`` without
@@ -69,14 +69,14 @@ class ConstraintEntry(Model):
     reason: str
 
 
-class Redundancy(Model):
+class Redundancy(ToldModel):
     """Constraints of which some minimal dependent sets overlap; ``nullity`` equations too many."""
 
     nullity: int
     members: list[str]
 
 
-class IntegrablePart(Model):
+class IntegrablePart(ToldModel):
     """What the constraints say in finite relations: the codistribution's largest integrable part I^(inf).
 
     ``rank``: of I^(inf), coordinates less ``dof``. ``basis``: the relations beyond those that were written finite:
@@ -87,7 +87,7 @@ class IntegrablePart(Model):
     basis: list[str] | None
 
 
-class Generic(Model):
+class Generic(ToldModel):
     """The same connections with their geometry in general position: what is special about the drawing.
 
     ``dof`` and ``redundant_equations`` are those of the finite relations at random places and directions (None where
@@ -101,7 +101,7 @@ class Generic(Model):
     verdict: Verdict
 
 
-class Mobility(Model):
+class Mobility(ToldModel):
     """The count of Gruebler and Kutzbach, M = D(N - 1 - j) + f_1 + ... + f_j, D = 3 in the plane and 6 in space.
 
     ``links``: N, bodies with the ground; ``joints``: j, constraints between two of them, of f_i freedoms each.
@@ -116,14 +116,14 @@ class Mobility(Model):
     differs: str | None
 
 
-class ForceEntry(Model):
+class ForceEntry(ToldModel):
     """A force: no constraint, and why."""
 
     name: str
     reason: str
 
 
-class SpecialCase(Model):
+class SpecialCase(ToldModel):
     """Where the answer is another one: values of ``parameters``, or a ``locus`` of configurations.
 
     ``where`` are the conditions as text (``R = 0``, ``x = 0 and y = 0``), ``what`` says what changes there, and
@@ -137,7 +137,7 @@ class SpecialCase(Model):
     verdict: Verdict
 
 
-class Report(Model):
+class Report(ToldModel):
     """How a system can move; the fields and their meanings are those of the contract.
 
     ``dof`` is the dimension of the configuration space (hidden finite relations included),

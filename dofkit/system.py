@@ -124,7 +124,7 @@ class Connection:
 
 
 @dataclass(frozen=True)
-class Force:
+class ListedForce:
     """An entry of ``forces``: it never constrains, and ``reason`` says why."""
 
     name: str
@@ -160,7 +160,7 @@ class System:
     pose: Mapping[Expr, Expr] = field(default_factory=dict)
     particles: tuple[str, ...] = ()
     bodies: tuple[str, ...] = ()
-    forces: tuple[Force, ...] = ()
+    forces: tuple[ListedForce, ...] = ()
     links: tuple[tuple[int, str, str], ...] = ()
     distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
     connections: tuple[Connection, ...] = ()

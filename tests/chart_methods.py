@@ -8,12 +8,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from dofkit.benchmark.trials.trial import Trial
-from dofkit.methods.shared.reply import Knobs, Told
+from dofkit.methods.shared.reply import Knobs, MethodReply
 
 
 def answered(
     scene: Mapping[str, Any], question: str, method: str, knobs: Knobs, answer: Mapping[str, str] | None
-) -> Told:
+) -> MethodReply:
     """What each of them tells; the truth is 2."""
     del question, answer
     size = scene.get("size", 1)
@@ -27,11 +27,11 @@ def answered(
     if method == "raises":
         raise KeyError("x")
     if method == "process":
-        return Told(os.getpid())
+        return MethodReply(os.getpid())
     if method == "coarse":
-        return Told(2 if knobs.tolerance < 1e-3 else 3)
+        return MethodReply(2 if knobs.tolerance < 1e-3 else 3)
     told = {"wrong": 3, "undecided": None, "cannot": None}.get(method, 2)
-    return Told(told, "" if told else f"it is {method}", method == "cannot")
+    return MethodReply(told, "" if told else f"it is {method}", method == "cannot")
 
 
 def family(quick: bool) -> Iterator[Trial]:

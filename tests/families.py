@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from dofkit.benchmark.trials.contexts import identities, near_misses
-from dofkit.benchmark.trials.making import Known
+from dofkit.benchmark.trials.making import KnownTruth
 from dofkit.benchmark.trials.rewritten import other_coordinates
 from dofkit.benchmark.trials.steps import tiny_steps
 
@@ -15,7 +15,7 @@ from dofkit.benchmark.trials.steps import tiny_steps
 class Family:
     """``floor``: the least share of right answers; none may be wrong."""
 
-    trials: Callable[[], Iterator[Known]]
+    trials: Callable[[], Iterator[KnownTruth]]
     floor: float
 
 

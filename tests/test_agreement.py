@@ -8,7 +8,7 @@ import pytest
 
 import dofkit
 from dofkit.benchmark.trials.frameworks import Framework
-from dofkit.benchmark.trials.random_systems import Bodies, coarse, dependent, graph, loop, tree
+from dofkit.benchmark.trials.random_systems import RandomBodies, coarse, dependent, graph, loop, tree
 from dofkit.methods.table import BY_ENGINES, MethodName
 from dofkit.report import Report
 
@@ -82,7 +82,7 @@ def test_special_positions(dimension: int) -> None:
     assert undecided <= CLASSIFIED // 6
 
 
-def agrees(bodies: Bodies) -> None:
+def agrees(bodies: RandomBodies) -> None:
     report = classified(bodies.scene)
     assert report.instantaneous_dof == bodies.first
     assert report.count is not None

@@ -18,7 +18,7 @@ from dofkit.report import Report
 
 HOME = Path(dofkit.methods.__file__).parent
 #: Modules of the package that are no method.
-SHARED = frozenset({"__init__", "told", "written", "pointwise", "reporting", "atdrawing"})
+SHARED = {"__init__", "ask", "dispatch", "in_worker", "jobs", "table"}
 RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if m not in BY_ENGINES)
 #: Rivals that are quick enough for every scene.
 QUICK: tuple[MethodName, ...] = tuple(m for m in RIVALS if m != "symbolic")

@@ -120,7 +120,7 @@ def same_family(scene: Scene, one: str, other: str) -> bool:
 
 def names_in(scene: Scene) -> Names:
     """What an integral may mention; a parameter with a value is that value."""
-    system = dofkit.lowering.lower(scene)
+    system = dofkit.scene.lowering.lower(scene)
     known: dict[str, Expr] = {}
     for name, value in scene.parameters.items():
         held = name in system.parameters
@@ -234,7 +234,7 @@ def test_a_wrong_expectation_is_noticed(wrong: dict[str, Any]) -> None:
 
 # What is no scene
 
-EXPECTED: dict[str, Any] = dofkit.documents.read_document((BAD / "expected.yaml").read_bytes(), "expected").value
+EXPECTED: dict[str, Any] = dofkit.base.documents.read_document((BAD / "expected.yaml").read_bytes(), "expected").value
 
 
 def test_every_bad_file_says_what_is_told() -> None:

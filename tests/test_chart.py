@@ -20,7 +20,7 @@ from dofkit.base.workers.crews import Threads
 from dofkit.benchmark import command, runner, statistics, storing, table, tasks
 from dofkit.benchmark.ablation import AblationRow
 from dofkit.benchmark.judging import judged
-from dofkit.benchmark.record import AUTO, Data, Line, Outcome, Ran, Reduction, Score
+from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, ReductionCost, Score, TrialLine
 from dofkit.benchmark.selecting import Selection
 from dofkit.benchmark.summary import summary
 from dofkit.benchmark.trials.trial import Trial
@@ -51,7 +51,7 @@ def said(method: str, question: str, traits: tuple[str, ...], outcome: str, reas
     return f"{method} {question} {'+'.join(traits)} {outcome}: {reason}"
 
 
-def ran(methods: Sequence[str], limit: float = 0.3) -> list[Line]:
+def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
     """The trials of the family by these methods, in two workers."""
     with Pool(2, modules=("dofkit.benchmark.trial_job", "chart_methods")) as pool, Threads(2, pool.close) as threads:
         bench = runner.Bench(threads, pool.run, limit, said, "chart_methods:answered")
@@ -101,10 +101,15 @@ def test_ladders_climb_by_size_and_other_ladders_go_on() -> None:
     assert sizes[:4] == [1, 1, 2, 2]
     assert sizes[4:].index(4) < sizes[4:].index(8)
     trial = next(chart_methods.family(True))
-    one, other = tasks.Task(trial, "m"), tasks.Task(replace(trial, size=7, name="b"), "m")
+    one, other = tasks.TrialTask(trial, "m"), tasks.TrialTask(replace(trial, size=7, name="b"), "m")
     assert one.ladder == other.ladder
-    swept = tasks.Task(replace(trial, swept={"digits": 3}), "m")
-    assert len({one.ladder, swept.ladder, tasks.Task(trial, "n").ladder, tasks.Task(trial, "m", knob="k").ladder}) == 4
+    swept = tasks.TrialTask(replace(trial, swept={"digits": 3}), "m")
+    assert (
+        len(
+            {one.ladder, swept.ladder, tasks.TrialTask(trial, "n").ladder, tasks.TrialTask(trial, "m", knob="k").ladder}
+        )
+        == 4
+    )
 
 
 @pytest.mark.parametrize(
@@ -204,11 +209,11 @@ def test_exact_power_laws_are_found() -> None:
     assert (exponent, error, factor) == pytest.approx((0.2, math.sqrt(0.08), math.exp(0.2)))
 
 
-def line(trial: str, method: str, outcome: Outcome, seconds: float, size: int = 1) -> Line:
+def line(trial: str, method: str, outcome: Outcome, seconds: float, size: int = 1) -> TrialLine:
     """A line about a family of boxes."""
     told = {"right": 2, "wrong": 3}.get(outcome)
     why = "" if outcome == "right" else 'because, he said, "no"; θ'
-    return Line("boxes", trial, "dof", method, size, ("large",), {"gap": "1/9"}, 2, told, outcome, seconds, why)
+    return TrialLine("boxes", trial, "dof", method, size, ("large",), {"gap": "1/9"}, 2, told, outcome, seconds, why)
 
 
 LINES = [
@@ -227,7 +232,7 @@ SWEEPS = [
     for value, outcome in _STEPS
 ]
 REDUCTIONS = [
-    Reduction(
+    ReductionCost(
         scene="s",
         family="blocks",
         size=3,
@@ -307,7 +312,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
 
 
 def test_reductions_are_kept_as_they_are_measured() -> None:
-    assert {field.name for field in fields(AblationRow)} == set(Reduction.model_fields)
+    assert {field.name for field in fields(AblationRow)} == set(ReductionCost.model_fields)
 
 
 @pytest.mark.skipif(find_spec("matplotlib") is None, reason="needs matplotlib")
@@ -381,7 +386,7 @@ def test_what_cannot_be_charted_is_told(arguments: list[str], told: str, tmp_pat
 
 @pytest.mark.usefixtures("tiny")
 def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def stopped(work: Sequence[tasks.Task], bench: runner.Bench) -> Any:
+    def stopped(work: Sequence[tasks.TrialTask], bench: runner.Bench) -> Any:
         yield bench.line(work[0], bench.submit(work[0]).result())
         raise KeyboardInterrupt
 

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from dofkit.benchmark import storing
-from dofkit.benchmark.record import AUTO, Chart, Data
+from dofkit.benchmark.record import AUTO, ChartRun, Data
 from dofkit.benchmark.statistics import against
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.methods.table import METHODS
@@ -61,7 +61,7 @@ def test_the_figures_of_the_readme_are_there_and_made_by_its_command() -> None:
     shown = re.findall(r"\]\((tests/charts/[^)]+)\)", README)
     assert shown
     assert all((ROOT / path).is_file() for path in shown)
-    chart = Chart.model_validate_json((CHARTS / storing.SUMMARY).read_text(encoding="utf-8"))
+    chart = ChartRun.model_validate_json((CHARTS / storing.SUMMARY).read_text(encoding="utf-8"))
     assert chart.ran.complete
     assert chart.ran.command == "dofkit chart"
     assert "`dofkit chart --out tests/charts`" in README

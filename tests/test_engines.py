@@ -15,18 +15,18 @@ from hypothesis import strategies as st
 
 import dofkit
 from dofkit.base.errors import TextError
-from dofkit.classification.dependence.circuits import Rows as Equations
+from dofkit.classification.dependence.circuits import FormRows as Equations
 from dofkit.classification.dependence.circuits import analyse
 from dofkit.exact.matrices.singular_values import independent_part
 from dofkit.exact.matrices.sparse import sparse
 from dofkit.exact.points.balls import BallPoint, RealSearch
 from dofkit.exact.points.field import field_point
-from dofkit.exact.points.frames import Frame, Rows, certified_rank, field_frame, field_rank
+from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame, field_rank
 from dofkit.exact.points.series import Series, SeriesPoint, series_values
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import Solver
+from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.terms import expand, linear_terms
@@ -261,7 +261,7 @@ def test_a_certified_rank_is_found_where_pivots_are_far_from_zero(n: int, rng: A
 def test_a_frame_solves_for_the_last_columns() -> None:
     one, zero = nmod(1, P), nmod(0, P)
     matrix = [[one, one, zero], [one + one, one + one, zero], [zero, one, one]]
-    assert field_frame(matrix, 3, P) == Frame((0, 2), (1, 2), (0,))
+    assert field_frame(matrix, 3, P) == Pivots((0, 2), (1, 2), (0,))
 
 
 def test_numerical_rank_scales_rows() -> None:
@@ -316,11 +316,11 @@ def test_drawn_points_satisfy_the_relations(texts: Sequence[str]) -> None:
     relations = [read(text) for text in texts]
     ring = Ring(relations)
     nodes = [ring.node(g) for g in relations]
-    point = Solver(ring, nodes).draw(1)
+    point = TriangularSolver(ring, nodes).draw(1)
     assert point is not None
     at = values(ring, point)
     assert [at[n] == 0 for n in nodes] == [True] * len(nodes)
-    other = Solver(ring, nodes).draw(2)
+    other = TriangularSolver(ring, nodes).draw(2)
     assert other is not None
     assert [int(v) for v in values(ring, other)] != [int(v) for v in at]
 
@@ -328,7 +328,7 @@ def test_drawn_points_satisfy_the_relations(texts: Sequence[str]) -> None:
 def test_what_contradicts_itself_has_no_point() -> None:
     relations = [read("x + y - 1"), read("2 x + 2 y - 3")]
     ring = Ring(relations)
-    solver = Solver(ring, [ring.node(g) for g in relations])
+    solver = TriangularSolver(ring, [ring.node(g) for g in relations])
     assert solver.plan.contradictory or solver.draw(1) is None
 
 
@@ -399,7 +399,7 @@ def span_of(
     coefficients = [[read(text) for text in form] for form in forms]
     ring = Ring([e for form in coefficients for e in form])
     entries = tuple({c: ring.node(e) for c, e in enumerate(form) if not e.is_zero} for form in coefficients)
-    rows = Rows(ring, entries, tuple(-1 if (i := ring.var_index(s)) is None else i for s in columns))
+    rows = FormRows(ring, entries, tuple(-1 if (i := ring.var_index(s)) is None else i for s in columns))
     point = field_point([ring], seed)
     at = values(ring, point)
     matrix = rows.matrix(at, point.number(Fraction(0)))

@@ -20,10 +20,10 @@ from test_homework import FILES, document
 
 import dofkit
 from dofkit.homework.answers.sources import Handed, handed
-from dofkit.homework.answers.submission import Place, of_value
+from dofkit.homework.answers.submission import FilePlace, of_value
 from dofkit.homework.grading import Grader
 from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.in_order import Local, Seen, in_order
+from dofkit.homework.runs.in_order import HandedIn, LocalRunner, in_order
 from dofkit.homework.runs.journal import BusyError, Journal
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.interface import cli
@@ -322,11 +322,11 @@ def test_a_starting_assignment_asks_all_there_is(tmp_path: Path, capsys: pytest.
 
 def hostile(*answers: Mapping[str, str]) -> list[Handed]:
     made = enumerate(answers)
-    return [Handed("", Place("t", i), {"student": f"s{i}", "answers": {"p": given}}) for i, given in made]
+    return [Handed("", FilePlace("t", i), {"student": f"s{i}", "answers": {"p": given}}) for i, given in made]
 
 
 def statuses(given: Sequence[Handed], workers: int) -> Iterator[tuple[str, list[str], list[str]]]:
-    with Keeper(orders(), workers) as keeper, Local(keeper, workers) as local:
+    with Keeper(orders(), workers) as keeper, LocalRunner(keeper, workers) as local:
         for _, (line,) in in_order(local, given):
             items = json.loads(line.text)["items"]
             yield line.student, [item["status"] for item in items], [item["feedback"] for item in items]
@@ -438,18 +438,18 @@ def journal(path: Path, mark: str = "m") -> Journal:
 
 def test_only_what_fits_is_taken_over(tmp_path: Path) -> None:
     path, made = tmp_path / "out.jsonl", Orders(b"", 1.0)
-    given = [Handed(name, Place("t", i), error=name) for i, name in enumerate("abc")]
+    given = [Handed(name, FilePlace("t", i), error=name) for i, name in enumerate("abc")]
 
     def left(mark: str = "m", new: Sequence[Handed] = given) -> str:
         one = journal(path, mark)
-        found = "".join(h.name for h in one.taken_over(iter(new), Seen()))
+        found = "".join(h.name for h in one.taken_over(iter(new), HandedIn()))
         one.close()
         return found
 
     def write() -> None:
         path.unlink(missing_ok=True)
         one = journal(path)
-        list(one.taken_over(iter(given), Seen()))
+        list(one.taken_over(iter(given), HandedIn()))
         for h in given:
             one.write(h, [made.refused(h.name, h.error)])
         one.close()

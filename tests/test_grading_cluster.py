@@ -12,10 +12,10 @@ import pytest
 
 import dofkit
 from dofkit.homework.answers.sources import Handed
-from dofkit.homework.answers.submission import Place
+from dofkit.homework.answers.submission import FilePlace
 from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.cluster import Cluster
-from dofkit.homework.runs.in_order import Local, in_order
+from dofkit.homework.runs.cluster import GradingCluster
+from dofkit.homework.runs.in_order import LocalRunner, in_order
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.interface import cli
 
@@ -29,12 +29,12 @@ ASSIGNMENT = {"title": "A circle", "problems": [{"id": "p", "scene": SCENE, "que
 def handed(number: int) -> list[Handed]:
     """Every third equation says too much; all are different."""
     answers = [{"f": i % 3, "eq": f"{i + 2} x^2 + {i + 2} y^{2 + 2 * (i % 3 == 0)} = {i + 2}"} for i in range(number)]
-    return [Handed("", Place("t", i), {"student": f"s{i}", "answers": {"p": a}}) for i, a in enumerate(answers)]
+    return [Handed("", FilePlace("t", i), {"student": f"s{i}", "answers": {"p": a}}) for i, a in enumerate(answers)]
 
 
 def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     made, given = Orders.of(dofkit.load_assignment(ASSIGNMENT)), handed(60)
-    with Keeper(made, 1) as keeper, Local(keeper, 1) as local:
+    with Keeper(made, 1) as keeper, LocalRunner(keeper, 1) as local:
         here = [lines for _, lines in in_order(local, given)]
     assert sum(json.loads(line.text)["items"][1]["status"] == "right" for (line,) in here) == 40
     silent = {"silence_logs": 50, "dashboard_address": None}
@@ -43,7 +43,7 @@ def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFix
             processes = sorted(client.run(os.getpid).values())
         assert len(processes) == 2
         there = []
-        with Cluster(machines.scheduler_address, made) as cluster:
+        with GradingCluster(machines.scheduler_address, made) as cluster:
             for i, (_, lines) in enumerate(in_order(cluster, given)):
                 there.append(lines)
                 if i == 3:

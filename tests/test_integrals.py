@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.search import Found, integrate
+from dofkit.integrability.integrals.search import Integral, integrate
 from dofkit.relations.normal.normal_form import Pfaffian, cleared, in_velocities, linear_form
 
 COORDINATES = ("x", "y", "z", "s", "r", "phi", "theta")
@@ -92,7 +92,7 @@ def left_side(text: str) -> Expr:
     return parse_expression(text.removesuffix(" = C"), NAMES)
 
 
-def check(form: Pfaffian, found: Found) -> None:
+def check(form: Pfaffian, found: Integral) -> None:
     """df = mu omega at every point, and mu is not 0."""
     integral = left_side(found.integral)
     mu = parse_expression(found.factor or "1", NAMES)
@@ -223,8 +223,8 @@ NONE = (
 def test_simple_integrals_to_the_letter(text: str) -> None:
     form = pfaffian(text)
     integral, factor = EXACT_TEXT[text]
-    assert integrate(form, frozenset()) == Found(factor, integral)
-    check(form, Found(factor, integral))
+    assert integrate(form, frozenset()) == Integral(factor, integral)
+    check(form, Integral(factor, integral))
 
 
 @pytest.mark.parametrize("text", BY_HAND)
@@ -251,13 +251,13 @@ def test_the_empty_form_has_no_integral() -> None:
 
 def test_a_hidden_zero_is_no_coefficient() -> None:
     hidden = parse_expression("(x + y)^2 - x^2 - 2 x y - y^2", NAMES)
-    assert integrate(Pfaffian({"x": ex.ONE, "y": hidden}, ex.ZERO), frozenset()) == Found(None, "x = C")
+    assert integrate(Pfaffian({"x": ex.ONE, "y": hidden}, ex.ZERO), frozenset()) == Integral(None, "x = C")
 
 
 def test_the_constant_takes_a_free_name() -> None:
     c, x = ex.parameter("C"), ex.coordinate("x")
-    assert integrate(Pfaffian({"x": ex.ONE, "y": c}, ex.ZERO), frozenset()) == Found(None, "x + C*y = C1")
-    assert integrate(Pfaffian({"C1": c, "x": x}, ex.ZERO), frozenset()) == Found(None, "C*C1 + x^2/2 = C2")
+    assert integrate(Pfaffian({"x": ex.ONE, "y": c}, ex.ZERO), frozenset()) == Integral(None, "x + C*y = C1")
+    assert integrate(Pfaffian({"C1": c, "x": x}, ex.ZERO), frozenset()) == Integral(None, "C*C1 + x^2/2 = C2")
 
 
 def test_positive_symbols_are_their_own_absolute_value() -> None:
@@ -312,8 +312,8 @@ def test_easy_forms_are_quick() -> None:
 
 def test_an_integral_does_without_sympy() -> None:
     code = (
-        "import sys; from dofkit import expr as ex; from dofkit.integrals import integrate;"
-        "from dofkit.normal import Pfaffian; x, y = map(ex.coordinate, 'xy');"
+        "import sys; from dofkit.expressions import tree as ex; from dofkit.integrability.integrals.search import integrate;"
+        "from dofkit.relations.normal.normal_form import Pfaffian; x, y = map(ex.coordinate, 'xy');"
         "assert integrate(Pfaffian({'x': y, 'y': x}, ex.ZERO), frozenset()).integral == 'x*y = C';"
         "assert 'sympy' not in sys.modules"
     )

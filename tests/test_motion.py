@@ -13,7 +13,7 @@ from flint import arb, ctx, nmod
 
 import dofkit
 from dofkit.configuration.local.dimension import local_dimension, numeric_dimension
-from dofkit.configuration.local.manifold import Local, Manifold
+from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.local.quadratic_cone import bound, definite_combination, signature_of
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import field_point
@@ -49,13 +49,13 @@ def manifolds(relations: Sequence[Expr], at: dict[Expr, int]) -> list[Manifold]:
     return [Manifold(ring, nodes, columns, frame, base) for base in (point, ball)]
 
 
-def near(texts: Sequence[str], at: Sequence[int], rigid: int = 0, time: int | None = None) -> Local:
+def near(texts: Sequence[str], at: Sequence[int], rigid: int = 0, time: int | None = None) -> LocalDimension:
     relations = [parse_expression(text, NAMES) for text in texts]
     field, ball = manifolds(relations, dict(zip(SYMBOLS, at, strict=False)))
     return local_dimension(field, ball, rigid, time)
 
 
-def on_plane(n: int, *functions: str) -> Local:
+def on_plane(n: int, *functions: str) -> LocalDimension:
     """The set {f = 0} in n of the letters: with the last letter, w = 0 and w + f = 0."""
     relations = [parse_expression(t, NAMES) for t in ("w", *(f"w + {f}" for f in functions))]
     field, ball = manifolds(relations, dict.fromkeys((*SYMBOLS[:n], SYMBOLS[-1]), 0))

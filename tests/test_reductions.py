@@ -14,7 +14,7 @@ import pytest
 import dofkit
 from dofkit.benchmark.ablation import SCENES, ablated, answered, differences
 from dofkit.benchmark.trials import FAMILIES
-from dofkit.classification.dependence.circuits import Rows, analyse
+from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.relations.reductions import ALL, REDUCTIONS, ReductionName
 
@@ -111,7 +111,7 @@ def test_what_can_go_together_leaves_the_rank(seed: int) -> None:
             total = {c: sum(factor * row.get(c, 0) for row, factor in chosen) % p for c in columns}
             matrix.append({c: v for c, v in total.items() if v})
             owners.append(owner)
-    found = analyse([Rows(matrix, owners, [True] * len(owners), p)])
+    found = analyse([OwnedRows(matrix, owners, [True] * len(owners), p)])
 
     def rank_without(gone: set[int]) -> int:
         return rank_of_rows([row for row, owner in zip(matrix, owners, strict=True) if owner not in gone], p)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import dofkit
-from dofkit.motion.sampled.configurations import MotionError
+from dofkit.motion.sampled.configurations import NoMotionError
 
 Configuration = dict[str, float]
 Array = np.ndarray[Any, Any]
@@ -228,5 +228,5 @@ def test_what_cannot_be_sampled_is_said(constraints: list[str], options: dict[st
     scene = {"coordinates": ["x", "y"], "constraints": constraints}
     if message == "undecided":
         scene["configuration"] = {"x": 0, "y": 0}
-    with pytest.raises(MotionError, match=message):
+    with pytest.raises(NoMotionError, match=message):
         along(scene, **options)

@@ -12,7 +12,7 @@ from families import FAMILIES
 from trials import differences
 
 import dofkit
-from dofkit.benchmark.trials.making import Known
+from dofkit.benchmark.trials.making import KnownTruth
 from dofkit.benchmark.trials.traps import TRAPS, Trap
 from dofkit.expressions.enclosures import interval
 from dofkit.expressions.text import Names, parse_expression
@@ -35,14 +35,14 @@ SMALL = 8
 
 
 @cache
-def groups(family: str) -> dict[str, list[Known]]:
-    found: dict[str, list[Known]] = defaultdict(list)
+def groups(family: str) -> dict[str, list[KnownTruth]]:
+    found: dict[str, list[KnownTruth]] = defaultdict(list)
     for trial in FAMILIES[family].trials():
         found[trial.group].append(trial)
     return found
 
 
-def tried(family: str, group: str) -> list[Known]:
+def tried(family: str, group: str) -> list[KnownTruth]:
     """All of a small group, every other one of a large one: the odd ones of some groups, the even ones of others."""
     trials = groups(family)[group]
     return trials if len(trials) <= SMALL else trials[crc32(group.encode()) % 2 :: 2]

@@ -275,7 +275,7 @@ def test_a_python_keyword_may_be_declared() -> None:
 
 def test_nothing_depends_on_the_hash_seed() -> None:
     code = (
-        "from dofkit.text import *; n = Names(frozenset('abcdefghijk'), {}, {'u': 3}, allow_accelerations=True);"
+        "from dofkit.expressions.text import *; n = Names(frozenset('abcdefghijk'), {}, {'u': 3}, allow_accelerations=True);"
         "print(to_text(parse_expression('diff(u(a*b, c*k, j) , t, 2)', n)))"
     )
     runs = {
@@ -288,7 +288,7 @@ def test_nothing_depends_on_the_hash_seed() -> None:
 
 
 def test_importing_loads_no_heavy_package() -> None:
-    code = "import sys, dofkit.text; print(sorted({'sympy', 'lark', 'numpy'} & set(sys.modules)))"
+    code = "import sys, dofkit.expressions.text; print(sorted({'sympy', 'lark', 'numpy'} & set(sys.modules)))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout.strip() == b"[]"
 
 

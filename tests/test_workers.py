@@ -290,7 +290,7 @@ def test_without_time_everything_is_undecided_but_named() -> None:
 
 def test_work_that_hears_no_deadline_is_killed(monkeypatch: pytest.MonkeyPatch) -> None:
     """8 coordinates, one finite equation as written: the lecture's count is 7."""
-    monkeypatch.setattr("dofkit.bounded.CLASSIFIED", "worker_jobs:sketched")
+    monkeypatch.setattr("dofkit.methods.in_worker.CLASSIFIED", "worker_jobs:sketched")
     monkeypatch.setattr(
         "dofkit.base.workers.pool._shared", cache(lambda _: Pool(1, modules=["worker_jobs", "dofkit.methods.jobs"]))
     )
@@ -424,8 +424,8 @@ def read(data, name):
         getattr(worker_jobs, name)(60)
     return real(data, name)
 telling.SceneFile.read = read
-import dofkit.watched
-dofkit.watched.limit = lambda seconds: 1.0
+import dofkit.interface.supervised
+dofkit.interface.supervised.limit = lambda seconds: 1.0
 sys.argv = ["dofkit", "classify", *sys.argv[1:]]
 dofkit.interface.cli.main()
 """

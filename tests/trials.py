@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from dofkit.benchmark.trials.making import Known
+from dofkit.benchmark.trials.making import KnownTruth
 from dofkit.report import Report
 
 Outcome = Literal["right", "undecided", "wrong"]
 
 
-def differences(known: Known, report: Report) -> tuple[list[str], list[str]]:
+def differences(known: KnownTruth, report: Report) -> tuple[list[str], list[str]]:
     """(what is answered and not true, what is left open)."""
     wrong: list[str] = []
     opened: list[str] = []
@@ -30,7 +30,7 @@ def differences(known: Known, report: Report) -> tuple[list[str], list[str]]:
     return wrong, opened
 
 
-def outcome(known: Known, report: Report) -> Outcome:
+def outcome(known: KnownTruth, report: Report) -> Outcome:
     """Right where everything that is asked is answered and true; wrong where one answer is not true."""
     wrong, opened = differences(known, report)
     return "wrong" if wrong else "undecided" if opened else "right"

@@ -23,7 +23,7 @@ from dofkit.base.workers.pool import cores
 from dofkit.benchmark import runner, storing, tasks
 from dofkit.benchmark import trial_job as asking
 from dofkit.benchmark.failures import explained
-from dofkit.benchmark.record import Chart, Data, Line, Ran, Reduction
+from dofkit.benchmark.record import ChartRun, Data, Ran, ReductionCost, TrialLine
 from dofkit.benchmark.selecting import Selection
 from dofkit.benchmark.storing import ChartError
 from dofkit.benchmark.summary import summary
@@ -38,7 +38,7 @@ NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]
 
 
 @dataclass(frozen=True)
-class Options:
+class ChartOptions:
     """What the command line says. ``source``: a folder with the data of a run, to be drawn again."""
 
     selection: Selection
@@ -60,22 +60,22 @@ class Options:
 
 
 @dataclass
-class Found:
+class ChartFiles:
     """What was found so far."""
 
-    lines: list[Line] = field(default_factory=list)
-    sweeps: list[Line] = field(default_factory=list)
-    reductions: list[Reduction] = field(default_factory=list)
+    lines: list[TrialLine] = field(default_factory=list)
+    sweeps: list[TrialLine] = field(default_factory=list)
+    reductions: list[ReductionCost] = field(default_factory=list)
     complete: bool = False
 
 
-def run(options: Options) -> bool:
+def run(options: ChartOptions) -> bool:
     """Run, write, draw and tell; was it brought to its end? Raises ChartError, StoppedError and OSError."""
     writable(options.out)
     if options.source is not None:
         finish(storing.read(options.source), options.out)
         return True
-    started, found = time.monotonic(), Found()
+    started, found = time.monotonic(), ChartFiles()
     date = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
     chosen = options.selection.chosen(FAMILIES)
     trials = chosen.thinned(chosen.trials(FAMILIES))
@@ -122,7 +122,7 @@ def finish(data: Data, out: Path) -> None:
         Console(stderr=True).print(NO_MATPLOTLIB, highlight=False, markup=False)
 
 
-def draw(chart: Chart, out: Path) -> Iterator[Path]:
+def draw(chart: ChartRun, out: Path) -> Iterator[Path]:
     """All figures. Raises OSError."""
     from dofkit.benchmark import figures
 
@@ -139,7 +139,9 @@ def writable(out: Path) -> None:
         raise ChartError(f"nothing can be written to {out}: {error.strerror}") from None
 
 
-def _gather(options: Options, work: Sequence[tasks.Task], swept: Sequence[tasks.Task], found: Found) -> None:
+def _gather(
+    options: ChartOptions, work: Sequence[tasks.TrialTask], swept: Sequence[tasks.TrialTask], found: ChartFiles
+) -> None:
     """Reductions are measured beside the trials: each of their runs needs the one before."""
     with _bench(options) as bench, _bar() as bar:
         job = Job(asking.ablated, options.selection.quick, REDUCTION_SECONDS)
@@ -156,8 +158,10 @@ def _gather(options: Options, work: Sequence[tasks.Task], swept: Sequence[tasks.
     found.complete = True
 
 
-def _reduction(row: Mapping[str, Any]) -> Reduction:
-    return Reduction.model_validate({name: value for name, value in row.items() if name in Reduction.model_fields})
+def _reduction(row: Mapping[str, Any]) -> ReductionCost:
+    return ReductionCost.model_validate(
+        {name: value for name, value in row.items() if name in ReductionCost.model_fields}
+    )
 
 
 def _reduces(selection: Selection) -> bool:
@@ -166,7 +170,7 @@ def _reduces(selection: Selection) -> bool:
 
 
 @contextmanager
-def _bench(options: Options) -> Iterator[runner.Bench]:
+def _bench(options: ChartOptions) -> Iterator[runner.Bench]:
     if options.scheduler is not None:
         with runner.there(options.scheduler, options.seconds, explained) as bench:
             yield bench

@@ -18,7 +18,7 @@ ALL = "all"
 
 
 @dataclass(frozen=True)
-class Line:
+class TrialLine:
     """A trial answered by a method: a line of ``trials.csv``, or of ``sweeps.csv``.
 
     ``told`` is None where nothing was; ``seconds`` of processor time, of what was cut short the limit; ``why`` says
@@ -105,7 +105,7 @@ class Front(_Row):
     never_wrong: list[str]
 
 
-class Point(_Row):
+class MedianTime(_Row):
     """The median seconds of a method on the trials of one size; ``timed_out`` of them only give a lower bound."""
 
     question: str
@@ -156,7 +156,7 @@ class Against(_Row):
     sound_ratio: float | None = Field(None, description="the same ratio for that one")
 
 
-class Reduction(_Row):
+class ReductionCost(_Row):
     """A scene answered with one reduction switched off (``off`` empty: none): what it costs."""
 
     scene: str
@@ -175,17 +175,17 @@ class Reduction(_Row):
     followed: int = 0
 
 
-class Chart(_Row):
+class ChartRun(_Row):
     """``chart.json``: the summary of a run."""
 
     ran: Ran
     scores: list[Score]
     fronts: list[Front]
-    points: list[Point]
+    points: list[MedianTime]
     fits: list[Fit]
     steps: list[Step]
     against: list[Against]
-    reductions: list[Reduction]
+    reductions: list[ReductionCost]
     captions: dict[str, str] = Field(description="of every figure, by its name")
 
 
@@ -194,6 +194,6 @@ class Data:
     """All lines of a run, and how it was made."""
 
     ran: Ran
-    lines: list[Line] = field(default_factory=list)
-    sweeps: list[Line] = field(default_factory=list)
-    reductions: list[Reduction] = field(default_factory=list)
+    lines: list[TrialLine] = field(default_factory=list)
+    sweeps: list[TrialLine] = field(default_factory=list)
+    reductions: list[ReductionCost] = field(default_factory=list)

@@ -11,13 +11,13 @@ from functools import lru_cache
 from typing import Protocol
 
 from dofkit.base.workers import MEMORY, Job, Pool
-from dofkit.base.workers import Outcome as Ended
+from dofkit.base.workers import JobOutcome as Ended
 from dofkit.base.workers.crews import Cluster, Crew, StoppedError, Threads, given_up
 from dofkit.base.workers.pool import cores
 from dofkit.benchmark.judging import judged
-from dofkit.benchmark.record import Line, Outcome
-from dofkit.benchmark.tasks import Task
-from dofkit.benchmark.trial_job import AGAIN, MODULES, Asked, answered
+from dofkit.benchmark.record import Outcome, TrialLine
+from dofkit.benchmark.tasks import TrialTask
+from dofkit.benchmark.trial_job import AGAIN, MODULES, TrialQuestion, answered
 
 #: Trials under way for each worker.
 AHEAD = 2
@@ -42,14 +42,14 @@ class Bench:
     explain: Explain
     answering: str = "dofkit.methods.dispatch:answered"
 
-    def submit(self, task: Task) -> Future[Ended]:
+    def submit(self, task: TrialTask) -> Future[Ended]:
         """Begin with a trial."""
         t = task.trial
         again = 0 if task.knob else AGAIN
-        asked = Asked(t.scene, t.question, task.method, task.knobs, t.answer, self.limit, again, self.answering)
+        asked = TrialQuestion(t.scene, t.question, task.method, task.knobs, t.answer, self.limit, again, self.answering)
         return self.crew.submit(self.ask, Job(answered, asked, PATIENCE * self.limit + SPARE))
 
-    def line(self, task: Task, ended: Ended) -> Line:
+    def line(self, task: TrialTask, ended: Ended) -> TrialLine:
         """What became of a trial."""
         if ended.ended == "absent":
             raise StoppedError(ended.reason)
@@ -64,24 +64,26 @@ class Bench:
             return self._told(task, None, "timed out", self.limit, reason)
         return self._told(task, None, "undecided", self.limit, f"it failed: {ended.reason}")
 
-    def skipped(self, task: Task) -> Line:
+    def skipped(self, task: TrialTask) -> TrialLine:
         """A trial that is not run: a smaller one took too long."""
         return self._told(task, None, "timed out", self.limit, SKIPPED)
 
-    def _told(self, task: Task, told: object, outcome: Outcome, seconds: float, reason: str) -> Line:
+    def _told(self, task: TrialTask, told: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:
         t = task.trial
         why = "" if outcome == "right" else self.explain(task.method, t.question, t.traits, outcome, reason)
         if reason == SKIPPED:
             why = f"{SKIPPED}: {why}"
         about = (t.family, t.name, t.question, task.method, t.size, tuple(t.traits), dict(t.swept), t.truth)
-        return Line(*about, told, outcome, seconds, " ".join(why.split()), task.knob, float(task.value), task.group)
+        return TrialLine(
+            *about, told, outcome, seconds, " ".join(why.split()), task.knob, float(task.value), task.group
+        )
 
 
 @dataclass
 class _Ladder:
     """Trials that differ in size, the smallest first; ``climbing`` of them are under way, all of one size."""
 
-    tasks: deque[Task]
+    tasks: deque[TrialTask]
     climbing: int = 0
     at: int = 0
     broken: bool = False
@@ -98,14 +100,14 @@ class _Ladders:
     left: deque[_Ladder] = field(default_factory=deque)
 
     @classmethod
-    def of(cls, tasks: Iterable[Task]) -> _Ladders:
+    def of(cls, tasks: Iterable[TrialTask]) -> _Ladders:
         """Sorted into ladders."""
-        found: dict[tuple[str, ...], list[Task]] = {}
+        found: dict[tuple[str, ...], list[TrialTask]] = {}
         for task in tasks:
             found.setdefault(task.ladder, []).append(task)
         return cls(deque(_Ladder(deque(sorted(row, key=lambda task: task.trial.size))) for row in found.values()))
 
-    def next(self) -> tuple[_Ladder, Task] | None:
+    def next(self) -> tuple[_Ladder, TrialTask] | None:
         """A trial that may begin now."""
         for _ in range(len(self.left)):
             ladder = self.left.popleft()
@@ -118,10 +120,10 @@ class _Ladders:
         return None
 
 
-def run(tasks: Iterable[Task], bench: Bench) -> Iterator[Line]:
+def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
     """A line for every task, as they end. Raises StoppedError where no worker can be had."""
     ladders = _Ladders.of(tasks)
-    running: dict[Future[Ended], tuple[_Ladder, Task]] = {}
+    running: dict[Future[Ended], tuple[_Ladder, TrialTask]] = {}
     while True:
         while len(running) < AHEAD * bench.crew.width and (found := ladders.next()):
             ladder, task = found

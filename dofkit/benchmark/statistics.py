@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from statistics import fmean, median
 from typing import TypeVar
 
-from dofkit.benchmark.record import ALL, AUTO, Against, Fit, Front, Line, Point, Score, Step
+from dofkit.benchmark.record import ALL, AUTO, Against, Fit, Front, MedianTime, Score, Step, TrialLine
 
 T = TypeVar("T")
 K = TypeVar("K")
@@ -15,14 +15,14 @@ K = TypeVar("K")
 SIZES, DECADE = 3, 10
 
 
-def scores(lines: Sequence[Line]) -> list[Score]:
+def scores(lines: Sequence[TrialLine]) -> list[Score]:
     """Of every question and method, over all families and for each."""
     whole = _grouped(lines, lambda line: (line.question, ALL, line.method))
     parts = _grouped(lines, lambda line: (line.question, line.family, line.method))
     return [_score(*key, members) for key, members in {**whole, **parts}.items()]
 
 
-def _score(question: str, family: str, method: str, lines: Sequence[Line]) -> Score:
+def _score(question: str, family: str, method: str, lines: Sequence[TrialLine]) -> Score:
     counts = {name: sum(line.outcome == name for line in lines) for name in {line.outcome for line in lines}}
     seconds = sorted(line.seconds for line in lines if line.outcome != "cannot")
     return Score(
@@ -71,7 +71,7 @@ def _goodness(score: Score) -> tuple[float, float, float]:
     return -(score.median_seconds or 0.0), score.share_right, -score.share_wrong
 
 
-def points(lines: Sequence[Line]) -> list[Point]:
+def points(lines: Sequence[TrialLine]) -> list[MedianTime]:
     """The cost at each size, where a family has at least three."""
     sized = [line for line in lines if line.outcome != "cannot" and line.size > 0]
     families = _grouped(sized, lambda line: (line.question, line.family))
@@ -83,11 +83,11 @@ def points(lines: Sequence[Line]) -> list[Point]:
             late = sum(line.outcome == "timed out" for line in same)
             seconds = median(line.seconds for line in same)
             about = {"question": question, "family": family, "method": method}
-            found.append(Point(**about, size=size, seconds=seconds, trials=len(same), timed_out=late))
+            found.append(MedianTime(**about, size=size, seconds=seconds, trials=len(same), timed_out=late))
     return found
 
 
-def fits(found: Sequence[Point]) -> list[Fit]:
+def fits(found: Sequence[MedianTime]) -> list[Fit]:
     """A power law for every curve of at least three sizes, without those that timed out."""
     curves = _grouped(found, lambda point: (point.question, point.family, point.method))
     fitted = []
@@ -120,7 +120,7 @@ def power_law(pairs: Sequence[tuple[float, float]]) -> tuple[float, float, float
     return a, math.sqrt(left / (len(pairs) - 2) / spread), math.exp(mv - a * mu)
 
 
-def steps(lines: Sequence[Line]) -> list[Step]:
+def steps(lines: Sequence[TrialLine]) -> list[Step]:
     """Every sweep, step by step; what a method cannot answer at all is left out."""
     able = [line for line in lines if line.outcome != "cannot"]
     groups = _grouped(able, lambda line: (line.knob, line.method, line.group, line.value))
@@ -139,7 +139,7 @@ def steps(lines: Sequence[Line]) -> list[Step]:
     ]
 
 
-def against(lines: Sequence[Line]) -> list[Against]:
+def against(lines: Sequence[TrialLine]) -> list[Against]:
     """`auto` against the fastest method that is right on all trials of a family, trial by trial.
 
     A method that is wrong on another family is right on this one by luck: to know that it is, is the work.
@@ -173,7 +173,7 @@ def against(lines: Sequence[Line]) -> list[Against]:
     return found
 
 
-def _ratio(auto: Mapping[str, float], row: Sequence[Line]) -> float:
+def _ratio(auto: Mapping[str, float], row: Sequence[TrialLine]) -> float:
     """The median over trials of the time of `auto` by that of another method."""
     return float(median(auto[line.trial] / max(line.seconds, 1e-9) for line in row if line.trial in auto))
 

@@ -12,20 +12,20 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from dofkit.base.errors import DofkitError
-from dofkit.benchmark.record import Chart, Data, Line, Reduction
+from dofkit.benchmark.record import ChartRun, Data, ReductionCost, TrialLine
 
 TRIALS, SWEEPS, REDUCTIONS, SUMMARY = "trials.csv", "sweeps.csv", "reductions.csv", "chart.json"
 #: Columns that hold JSON; the others are plain text or numbers.
 _JSON = ("traits", "swept", "truth", "told")
 _PLAIN: dict[str, Callable[[str], Any]] = {"size": int, "seconds": float, "value": float}
-_COLUMNS = [one.name for one in fields(Line)]
+_COLUMNS = [one.name for one in fields(TrialLine)]
 
 
 class ChartError(DofkitError):
     """What was asked for cannot be charted, read or written."""
 
 
-def write(data: Data, chart: Chart, out: Path) -> list[Path]:
+def write(data: Data, chart: ChartRun, out: Path) -> list[Path]:
     """Write all data of a run into a folder, which is there. Raises OSError."""
     paths = [_lines(out / TRIALS, data.lines), _lines(out / SWEEPS, data.sweeps)]
     paths.append(_rows(out / REDUCTIONS, data.reductions))
@@ -36,7 +36,7 @@ def write(data: Data, chart: Chart, out: Path) -> list[Path]:
 def read(folder: Path) -> Data:
     """The data of a run. Raises ChartError where they are not there, or not whole."""
     try:
-        chart = Chart.model_validate_json((folder / SUMMARY).read_text(encoding="utf-8"))
+        chart = ChartRun.model_validate_json((folder / SUMMARY).read_text(encoding="utf-8"))
         lines, swept = (list(_read(folder / name)) for name in (TRIALS, SWEEPS))
     except OSError as error:
         raise ChartError(f"there is no run in {folder}: {error.strerror} ({error.filename})") from None
@@ -46,7 +46,7 @@ def read(folder: Path) -> Data:
     return Data(chart.ran, lines, swept, chart.reductions)
 
 
-def _lines(path: Path, lines: Iterable[Line]) -> Path:
+def _lines(path: Path, lines: Iterable[TrialLine]) -> Path:
     with path.open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(_COLUMNS)
@@ -58,20 +58,20 @@ def _lines(path: Path, lines: Iterable[Line]) -> Path:
     return path
 
 
-def _read(path: Path) -> Iterable[Line]:
+def _read(path: Path) -> Iterable[TrialLine]:
     with path.open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             cells: dict[str, Any] = {name: row[name] for name in _COLUMNS}
             cells |= {name: json.loads(row[name]) for name in _JSON}
             cells |= {name: number(row[name]) for name, number in _PLAIN.items()}
             cells["traits"] = tuple(cells["traits"])
-            yield Line(**cells)
+            yield TrialLine(**cells)
 
 
 def _rows(path: Path, rows: Sequence[BaseModel]) -> Path:
     with path.open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(Reduction.model_fields)
+        table.writerow(ReductionCost.model_fields)
         for row in rows:
             cells = row.model_dump()
             table.writerow(json.dumps(v, ensure_ascii=False) if isinstance(v, list) else v for v in cells.values())

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dofkit.benchmark import statistics
-from dofkit.benchmark.record import Chart, Data, Ran
+from dofkit.benchmark.record import ChartRun, Data, Ran
 
 
-def summary(data: Data) -> Chart:
+def summary(data: Data) -> ChartRun:
     """All that is drawn and told."""
     found, points = statistics.scores(data.lines), statistics.points(data.lines)
-    return Chart(
+    return ChartRun(
         ran=data.ran,
         scores=found,
         fronts=statistics.fronts(found),

@@ -8,10 +8,10 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from dofkit.benchmark.record import ALL, AUTO, Chart, Data, Score
+from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Score
 
 
-def tell(chart: Chart, data: Data, out: Path, drawn: Sequence[Path]) -> None:
+def tell(chart: ChartRun, data: Data, out: Path, drawn: Sequence[Path]) -> None:
     """Print it on standard output."""
     console = Console(highlight=False, markup=False)
     if chart.scores:
@@ -26,7 +26,7 @@ def tell(chart: Chart, data: Data, out: Path, drawn: Sequence[Path]) -> None:
         console.print("the run was interrupted: this is only a part of it", soft_wrap=True)
 
 
-def table(chart: Chart) -> Table:
+def table(chart: ChartRun) -> Table:
     """Question by question, the fastest method first."""
     columns = ("question", "method", "right", "wrong", "undecided", "timed out", "cannot", "median", "Pareto")
     shown = Table(*columns, box=None, pad_edge=False)
@@ -55,7 +55,7 @@ def _cells(score: Score) -> tuple[str, ...]:
 TWICE = 2
 
 
-def sentences(chart: Chart) -> list[str]:
+def sentences(chart: ChartRun) -> list[str]:
     """How ``auto`` did: how many of its answers are wrong, and where it is slower than the fastest that is right."""
     auto = [score for score in chart.scores if score.method == AUTO and score.family == ALL]
     if not auto:

@@ -25,7 +25,7 @@ BY_GEOMETRY = ("dof", "redundancy")
 
 
 @dataclass(frozen=True)
-class Task:
+class TrialTask:
     """A trial for a method; in a sweep with the name of the knob, its value, and the curve that it belongs to."""
 
     trial: Trial
@@ -43,14 +43,14 @@ class Task:
         return (t.family, t.question, repr(t.traits), swept, self.method, self.knob, repr(self.value), self.group)
 
 
-def crossed(trials: Iterable[Trial], methods: Sequence[str]) -> Iterator[Task]:
+def crossed(trials: Iterable[Trial], methods: Sequence[str]) -> Iterator[TrialTask]:
     """Every trial by every method."""
     for trial in trials:
         for method in methods:
-            yield Task(trial, method)
+            yield TrialTask(trial, method)
 
 
-def sweeps(trials: Sequence[Trial], methods: Sequence[str], quick: bool) -> Iterator[Task]:
+def sweeps(trials: Sequence[Trial], methods: Sequence[str], quick: bool) -> Iterator[TrialTask]:
     """The tolerance of numbers, the tolerance of scenes, the precision of balls and the size of a field's primes."""
     few = Few(MOST_SWEPT_QUICK, 3, 1) if quick else Few(MOST_SWEPT, 1, 3)
     for method, swept in (("numeric", _rounding), ("auto", _tolerant), ("balls", _precision), ("field", _primes)):
@@ -66,23 +66,23 @@ class Few(NamedTuple):
     seeds: int
 
 
-def _rounding(trials: Sequence[Trial], few: Few) -> Iterator[Task]:
+def _rounding(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
     for trial, group in _groups(trials, _digits, few.most):
         for value in TOLERANCES[:: few.stride]:
-            yield Task(trial, "numeric", Knobs(tolerance=value), "tolerance", value, group)
+            yield TrialTask(trial, "numeric", Knobs(tolerance=value), "tolerance", value, group)
 
 
-def _tolerant(trials: Sequence[Trial], few: Few) -> Iterator[Task]:
+def _tolerant(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
     for trial, group in _groups([t for t in trials if t.question in BY_GEOMETRY], _digits, few.most):
         for value in TOLERANCES[:: few.stride]:
             scene: dict[str, Any] = {**trial.scene, "tolerance": value}
-            yield Task(replace(trial, scene=scene), "auto", Knobs(), "scene tolerance", value, group)
+            yield TrialTask(replace(trial, scene=scene), "auto", Knobs(), "scene tolerance", value, group)
 
 
-def _precision(trials: Sequence[Trial], few: Few) -> Iterator[Task]:
+def _precision(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
     for trial, group in _groups(trials, _gap, few.most):
         for bits in BITS[:: few.stride]:
-            yield Task(trial, "balls", Knobs(bits=bits), "bits", bits, group)
+            yield TrialTask(trial, "balls", Knobs(bits=bits), "bits", bits, group)
 
 
 def _digits(trial: Trial) -> str | None:
@@ -96,12 +96,12 @@ def _gap(trial: Trial) -> str | None:
     return f"{gap:g}" if 0 < gap < NEAR else None
 
 
-def _primes(trials: Sequence[Trial], few: Few) -> Iterator[Task]:
+def _primes(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
     small = (t for t in trials if t.size <= SMALL and t.question != "equivalence")
     for trial in _spread(small, few.most):
         for seed in range(few.seeds):
             for bits in PRIME_BITS[:: few.stride]:
-                yield Task(trial, "field", Knobs(prime_bits=bits, seed=seed), "prime bits", bits, trial.question)
+                yield TrialTask(trial, "field", Knobs(prime_bits=bits, seed=seed), "prime bits", bits, trial.question)
 
 
 def _groups(trials: Iterable[Trial], key: Callable[[Trial], str | None], most: int) -> Iterator[tuple[Trial, str]]:

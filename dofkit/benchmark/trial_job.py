@@ -12,7 +12,7 @@ from typing import Any
 from dofkit.base.workers import Json
 from dofkit.base.workers.child import named
 from dofkit.base.workers.limits import LateError, interrupting
-from dofkit.methods.shared.reply import Knobs, Told
+from dofkit.methods.shared.reply import Knobs, MethodReply
 
 #: What is shorter, in seconds, is done again, so many times, and the least is taken.
 SHORT, AGAIN = 0.05, 2
@@ -32,7 +32,7 @@ _warm: set[tuple[str, str, str]] = set()
 
 
 @dataclass(frozen=True)
-class Asked:
+class TrialQuestion:
     """What a worker is asked: a question about a scene, for one method; ``limit`` in seconds of processor time.
 
     ``again``: how often a short one is repeated; ``answering``: what knows the methods, as ``module:function``.
@@ -48,7 +48,7 @@ class Asked:
     answering: str = "dofkit.methods.dispatch:answered"
 
 
-def answered(asked: Asked) -> Json:
+def answered(asked: TrialQuestion) -> Json:
     """What is told, as a mapping ``value, reason, cannot``, with ``seconds``; None where these went beyond the limit.
 
     What is late is interrupted, so that the process stays warm; only what cannot be is killed with it.
@@ -65,7 +65,7 @@ def answered(asked: Asked) -> Json:
     return {**asdict(told), "seconds": seconds}
 
 
-def _timed(function: Any, asked: Asked) -> tuple[Told, float]:
+def _timed(function: Any, asked: TrialQuestion) -> tuple[MethodReply, float]:
     """What SymPy remembers is forgotten first: each trial counts for itself."""
     if "sympy" in sys.modules:
         sys.modules["sympy"].core.cache.clear_cache()
@@ -73,22 +73,22 @@ def _timed(function: Any, asked: Asked) -> tuple[Told, float]:
         warnings.simplefilter("ignore")
         start = time.thread_time()
         try:
-            told: Told = function(asked.scene, asked.question, asked.method, asked.knobs, asked.answer)
+            told: MethodReply = function(asked.scene, asked.question, asked.method, asked.knobs, asked.answer)
         except MemoryError:
             raise
         except Exception as error:
             said = " ".join(str(error).split())[:200]
-            told = Told(None, f"it failed: {type(error).__name__}: {said}")
+            told = MethodReply(None, f"it failed: {type(error).__name__}: {said}")
         return told, time.thread_time() - start
 
 
-def _warm_up(function: Any, asked: Asked) -> None:
+def _warm_up(function: Any, asked: TrialQuestion) -> None:
     key = (asked.answering, asked.question, asked.method)
     if key in _warm:
         return
     _warm.add(key)
     answer = _WARM_ANSWER if asked.question == "equivalence" else None
-    first = Asked(_WARM_SCENE, asked.question, asked.method, Knobs(), answer, asked.limit)
+    first = TrialQuestion(_WARM_SCENE, asked.question, asked.method, Knobs(), answer, asked.limit)
     _timed(function, first)
 
 

@@ -29,7 +29,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.methods.in_worker import checked, in_worker
 from dofkit.methods.shared.reporting import report_alone
 from dofkit.methods.table import BY_ENGINES, METHODS, MethodName
-from dofkit.mobility.textbook_count import Facts, count
+from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, uses_time
 from dofkit.relations.integration_constants import about_constants
@@ -218,7 +218,7 @@ def _report(system: System, reduced: Sequence[Reduced], setting: Setting, outcom
         verdict = "undecided"
     told = count(
         system,
-        Facts(
+        CountedFacts(
             sum(_finite_equations(r) for r in reduced),
             dof,
             outcome.consistent,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.textbook_count import Facts, count
+from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.report import FORMS, ConstraintEntry, Count, ForceEntry, Form, Report
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import names_by_position
@@ -17,7 +17,7 @@ def sketch(system: System, why: str) -> Report:
     """All that a system says without being computed with: names, texts, forms as written, the count of equations."""
     entries = [_entry(c, why) for c in system.constraints]
     written = sum(e.equations for e in entries if e.form == "finite")
-    told = count(system, Facts(written, None, None, 0, 0, entries))
+    told = count(system, CountedFacts(written, None, None, 0, 0, entries))
     forces = [ForceEntry(name=f.name, reason=f.reason) for f in system.forces]
     return _report(system.name, told, entries, forces, [*system.warnings, _sentence(why)])
 

@@ -10,11 +10,11 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.configuration.local.dimension import numeric_dimension
-from dofkit.configuration.local.manifold import Local, Manifold
+from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
 from dofkit.exact.matrices.singular_values import independent_part
 from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint, jacobian
-from dofkit.exact.points.frames import Frame
+from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
@@ -35,7 +35,7 @@ MAX_ROWS = 40
 TINY = 1e-12
 
 
-def numeric_local(chart: Chart, real: RealPoint) -> Local | None:
+def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
     """The local dimension near a singular point that a real search ran into; None where it cannot be told."""
     if len(chart.nodes) > MAX_ROWS:
         return None
@@ -49,7 +49,7 @@ def numeric_local(chart: Chart, real: RealPoint) -> Local | None:
         ctx.prec = old
 
 
-def _look(chart: Chart, real: RealPoint) -> Local | None:
+def _look(chart: Chart, real: RealPoint) -> LocalDimension | None:
     point = _converge(chart, real)
     if point is None:
         return None
@@ -64,7 +64,7 @@ def _look(chart: Chart, real: RealPoint) -> Local | None:
         return None
     dependent = tuple(place[c] for c in pivots)
     free = tuple(i for i in range(len(chart.columns)) if i not in set(dependent))
-    frame = Frame(tuple(rows), dependent, free)
+    frame = Pivots(tuple(rows), dependent, free)
     manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point, chart.scales)
     rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
     return numeric_dimension(manifold, rigid, chart.time)

@@ -18,7 +18,7 @@ from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint, 
 from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring, Scalar
-from dofkit.exact.solving.triangular import Solver, Unit, unit_of
+from dofkit.exact.solving.triangular import TriangularSolver, Unit, unit_of
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -138,20 +138,20 @@ class States:
         except NoPointError:
             return None
 
-    def _solver(self, nodes: Sequence[int], fixed: frozenset[Unit] = frozenset()) -> Solver:
-        return Solver(self.ring, [n for n in nodes if self.ring.code[n] != (0, 0)], fixed, seed=5)
+    def _solver(self, nodes: Sequence[int], fixed: frozenset[Unit] = frozenset()) -> TriangularSolver:
+        return TriangularSolver(self.ring, [n for n in nodes if self.ring.code[n] != (0, 0)], fixed, seed=5)
 
     @cached_property
-    def _standing(self) -> Solver:
+    def _standing(self) -> TriangularSolver:
         return self._solver(self.finite)
 
     @cached_property
-    def _moving(self) -> Solver:
+    def _moving(self) -> TriangularSolver:
         still = [v for v in self.ring.vars if not moves(self.ring, v.index)]
         return self._solver(self.moving, frozenset(unit_of(self.ring, v.index) for v in still))
 
     @cached_property
-    def _together(self) -> Solver:
+    def _together(self) -> TriangularSolver:
         return self._solver(self.relations)
 
     def _holds(self, point: FieldPoint) -> bool:

@@ -16,17 +16,17 @@ from flint.utils.flint_exceptions import DomainError
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.local.dimension import local_dimension
-from dofkit.configuration.local.manifold import Local, Manifold
+from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.singular_points import numeric_local
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
 from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
-from dofkit.exact.points.frames import Frame, sparse_frame
+from dofkit.exact.points.frames import Pivots, sparse_frame
 from dofkit.exact.ring.program import gradient, value_of, values
 from dofkit.exact.ring.ring import VAR, Ring, reachable
 from dofkit.exact.solving.ideals import complex_dimension
-from dofkit.exact.solving.triangular import Solver
+from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import excludes_zero
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
@@ -173,7 +173,7 @@ def _found(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
         return _numerical(chart, seed, chart.nodes)
     core = [n for i, n in enumerate(chart.nodes) if i not in linear.superfluous]
     others = [n for i, n in enumerate(chart.nodes) if i not in linear.linear]
-    solver = Solver(chart.ring, [*(chart.ring.node(e) for e in linear.reduced), *others], seed=seed)
+    solver = TriangularSolver(chart.ring, [*(chart.ring.node(e) for e in linear.reduced), *others], seed=seed)
     refuted = _refuted(chart, solver)
     if refuted is not None:
         return refuted
@@ -190,7 +190,7 @@ def _has_joint_positions(chart: Chart) -> bool:
     return any(u.args[1].startswith("_a") for u in chart.unknowns if chart.ring.var_index(u) is not None)
 
 
-def _refuted(chart: Chart, solver: Solver) -> Variety | None:
+def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
     """What elimination alone says against the relations; None where it says nothing."""
     if solver.plan.special:
         why = "the relations hold only for special values of the parameters"
@@ -243,7 +243,7 @@ def split_time(chart: Chart, matrix: list[list[Any]]) -> list[list[Any]]:
 
 
 def _from_samples(
-    chart: Chart, samples: list[FieldPoint], solver: Solver | None, seed: int, core: Sequence[int]
+    chart: Chart, samples: list[FieldPoint], solver: TriangularSolver | None, seed: int, core: Sequence[int]
 ) -> Variety:
     ranks = [rank_of_rows(field_jacobian(chart, p), p.p) for p in samples]
     rank = max(ranks)
@@ -267,7 +267,7 @@ def _from_samples(
     return _with_reality(chart, Variety(True, dimension, verdict, samples, real, reasons), rank)
 
 
-def _smooth(chart: Chart, point: FieldPoint, solver: Solver | None) -> bool:
+def _smooth(chart: Chart, point: FieldPoint, solver: TriangularSolver | None) -> bool:
     """Is the set with all parameters free a manifold at the point, of the dimension of the family drawn from?
 
     Then a generic fibre over the parameters is one too (Sard), and its dimension is the number of columns less the
@@ -292,7 +292,7 @@ def _smooth(chart: Chart, point: FieldPoint, solver: Solver | None) -> bool:
     return rank_of(rows, point.p) == len(solver.plan.steps)
 
 
-def _free_dimension(chart: Chart, solver: Solver | None) -> int | None:
+def _free_dimension(chart: Chart, solver: TriangularSolver | None) -> int | None:
     """How many columns were drawn at random when every parameter stayed free: a lower bound of the dimension."""
     if solver is None:
         return None
@@ -381,12 +381,14 @@ def _numerical(chart: Chart, seed: int, core: Sequence[int]) -> Variety:
     return Variety(None, None, "undecided", [], real, ["the only points found are singular"])
 
 
-def frame_at(chart: Chart, point: FieldPoint) -> Frame:
+def frame_at(chart: Chart, point: FieldPoint) -> Pivots:
     """Independent relations and dependent columns at a point."""
     return sparse_frame(field_jacobian(chart, point), len(chart.columns), point.p)
 
 
-def local_at(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None) -> Local:
+def local_at(
+    chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None
+) -> LocalDimension:
     """The local dimension at a point of the variety, time counted where it is a column.
 
     ``time``: the number of that column, where it matters whether time moves on.
@@ -399,4 +401,6 @@ def local_at(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int
             ball_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
         return local_dimension(field_manifold, ball_manifold, rigid, time)
     except (ZeroDivisionError, OutsideDomainError, NoPointError):
-        return Local(None, "undecided", "the relations could not be followed along a curve through this configuration")
+        return LocalDimension(
+            None, "undecided", "the relations could not be followed along a curve through this configuration"
+        )

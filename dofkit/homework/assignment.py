@@ -14,7 +14,7 @@ from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
-from dofkit.scene.fields import Model, fault_at, fault_error, faults_of, retold, suggestion
+from dofkit.scene.fields import WrittenModel, fault_at, fault_error, faults_of, retold, suggestion
 from dofkit.scene.reading import find, load, with_hint, without_echoes
 from dofkit.scene.scene import Scene
 
@@ -49,7 +49,7 @@ def _question(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
         raise retold(error, "a question", (), lambda loc: loc[1:]) from None
 
 
-class Problem(Model):
+class Problem(WrittenModel):
     """A scene and what is asked of it."""
 
     id: Identifier = Field(description="its name, unique within the assignment")
@@ -60,7 +60,7 @@ class Problem(Model):
     )
 
 
-class Assignment(Model):
+class Assignment(WrittenModel):
     """What a lecturer hands out."""
 
     title: str = Field(description="its title")

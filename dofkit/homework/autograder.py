@@ -19,7 +19,7 @@ from typing import Any
 from dofkit.base.errors import DofkitError
 from dofkit.base.workers.crews import StoppedError
 from dofkit.homework.answers.sources import DOCUMENTS, LINES, TABLES, Handed, handed
-from dofkit.homework.answers.submission import Place, clean
+from dofkit.homework.answers.submission import FilePlace, clean
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import coursera, gradescope, prairielearn
 from dofkit.homework.formats.documents import text
@@ -73,7 +73,7 @@ def _prairielearn_form(root: Path, prepared: Prepared) -> Handed | None:
             if name in given:
                 answers.setdefault(problem.id, {})[question.id] = given[name]
                 break
-    return Handed("student", Place("data.json"), {"answers": answers})
+    return Handed("student", FilePlace("data.json"), {"answers": answers})
 
 
 SITES: dict[str, Site] = {

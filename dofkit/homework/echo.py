@@ -12,10 +12,10 @@ from dofkit.homework.grading import ANSWER_SECONDS, unasked
 from dofkit.homework.judgement import Given
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions import QuestionBase
-from dofkit.report import Model
+from dofkit.report import ToldModel
 
 
-class Reading(Model):
+class Reading(ToldModel):
     """One answer as it was understood; ``column`` is where one that is not understood could not be read further."""
 
     problem: str
@@ -26,7 +26,7 @@ class Reading(Model):
     column: int | None = None
 
 
-class Echo(Model):
+class Echo(ToldModel):
     """One student's answers as they were understood. ``error``: why the submission could not be read."""
 
     student: str

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Literal
 
-from dofkit.report import Model
+from dofkit.report import ToldModel
 
 Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review"]
 
 
-class Item(Model):
+class Item(ToldModel):
     """One answer. ``score`` is None where it needs a person's review: never zero then, never full marks.
 
     ``codes`` are stable names of what went wrong, the most likely first; ``read_as`` is the answer as it was
@@ -27,7 +27,7 @@ class Item(Model):
     column: int | None = None
 
 
-class Result(Model):
+class Result(ToldModel):
     """One student's submission. ``score`` is the sum of what is decided; ``needs_review`` answers are open beside it.
 
     ``error``: why the submission could not be graded; then there are no items and ``score`` is None.

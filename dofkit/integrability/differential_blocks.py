@@ -20,7 +20,7 @@ from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import sparse
 from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint
 from dofkit.exact.points.field import FieldPoint, NoPointError
-from dofkit.exact.points.frames import Frame, Rows, field_frame, pairing
+from dofkit.exact.points.frames import FormRows, Pivots, field_frame, pairing
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Scalar
 from dofkit.exact.zero.independence import independent_generators
@@ -30,7 +30,7 @@ from dofkit.integrability.growth_vector import derived_flag, growth
 from dofkit.integrability.lie_algebra import Span, lie_span
 from dofkit.integrability.prolongation import hidden_relation
 from dofkit.integrability.single_form import proof
-from dofkit.relations.answer import Answer, Label
+from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, uses_time
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
@@ -49,7 +49,7 @@ class Codistribution:
     """The rows of a block as one-forms over a chart: finite differentials, then Pfaffian forms."""
 
     chart: Chart
-    rows: Rows
+    rows: FormRows
     finite: int
 
     @property
@@ -67,7 +67,7 @@ def codistribution(block: Block, setting: Setting, extra: Sequence[Expr], more: 
     forms = [{place[s]: e for s, e in r.piece.items()} for r in block.forms if isinstance(r.piece, Pfaffian)]
     chart = make_chart(block, setting, extra, [*(e for g in gradients for e in g.values()), *more])
     entries = tuple({c: chart.ring.node(e) for c, e in row.items() if not e.is_zero} for row in (*gradients, *forms))
-    return Codistribution(chart, Rows(chart.ring, entries, chart.columns), len(finite))
+    return Codistribution(chart, FormRows(chart.ring, entries, chart.columns), len(finite))
 
 
 def first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> int | None:
@@ -141,20 +141,20 @@ def _together(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, .
 
 
 @dataclass(frozen=True)
-class Sampled:
+class SampledSpan:
     """A span at a point, with the matrix and the frame there."""
 
     span: Span
     matrix: list[list[Any]]
-    frame: Frame
+    frame: Pivots
 
 
-def span_at(forms: Codistribution, point: FieldPoint) -> Sampled | None:
+def span_at(forms: Codistribution, point: FieldPoint) -> SampledSpan | None:
     try:
         zero = point.number(ex.ZERO.args[0])
         matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
         frame = field_frame(matrix, len(forms.chart.symbols), point.p)
-        return Sampled(lie_span(forms.rows, frame, point), matrix, frame)
+        return SampledSpan(lie_span(forms.rows, frame, point), matrix, frame)
     except (ZeroDivisionError, NoPointError):
         return None
 
@@ -168,7 +168,7 @@ def ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span,
             return None
         free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(part.columns))
         point.rng.seed("dofkit curve")
-        return lie_span(forms.rows, Frame(tuple(part.rows), tuple(part.columns), free), point), matrix
+        return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point), matrix
     except (ZeroDivisionError, OutsideDomainError):
         return None
 
@@ -177,7 +177,7 @@ def field_labels(
     block: Block,
     forms: Codistribution,
     found: Variety,
-    good: list[tuple[FieldPoint, Sampled]],
+    good: list[tuple[FieldPoint, SampledSpan]],
     result: Answer,
     setting: Setting,
 ) -> None:
@@ -209,7 +209,7 @@ def field_labels(
         result.reasons.append("the freedom differs between points: the generic one is given")
     for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear)):
         if isinstance(row.piece, Finite):
-            result.labels[i] = Label(True, "proved")
+            result.labels[i] = HolonomyLabel(True, "proved")
             continue
         place = i if i < len(block.finite) else i + forms.finite - len(block.finite)
         result.labels[i] = _label(place, good, ball, sampled, rank, total, trusted)
@@ -221,7 +221,7 @@ def field_labels(
 
 
 def certificate(
-    forms: Codistribution, found: Variety, sampled: Sampled, trusted: bool
+    forms: Codistribution, found: Variety, sampled: SampledSpan, trusted: bool
 ) -> tuple[Span, Sequence[Sequence[Scalar]]] | None:
     """A span and a matrix whose non-zero values are proved not to be 0.
 
@@ -244,7 +244,11 @@ def _nonzero(value: Scalar) -> bool:
 
 
 def _rank_verdict(
-    block: Block, setting: Setting, sampled: Sampled, ball: tuple[Span, Sequence[Sequence[Scalar]]] | None, rank: int
+    block: Block,
+    setting: Setting,
+    sampled: SampledSpan,
+    ball: tuple[Span, Sequence[Sequence[Scalar]]] | None,
+    rank: int,
 ) -> Verdict:
     """How sure the rank and the Lie algebra's dimension are.
 
@@ -267,28 +271,28 @@ def _rank_verdict(
 
 def _label(
     place: int,
-    good: list[tuple[FieldPoint, Sampled]],
+    good: list[tuple[FieldPoint, SampledSpan]],
     ball: tuple[Span, Sequence[Sequence[Scalar]]] | None,
-    sampled: Sampled,
+    sampled: SampledSpan,
     rank: int,
     total: int,
     trusted: bool,
-) -> Label:
+) -> HolonomyLabel:
     """Is the row in the largest integrable part: does it annihilate the Lie algebra of D?"""
     zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in good]
     if all(zero):
         line = total - rank <= 1
-        return Label(True, "proved" if line and ball is not None else "probable", "line" if line else "")
+        return HolonomyLabel(True, "proved" if line and ball is not None else "probable", "line" if line else "")
     disagree = "exact arithmetic and balls disagree: an identity between functions was not seen"
     if ball is None:
-        return Label(False, "probable") if trusted else Label(None, "undecided", disagree)
+        return HolonomyLabel(False, "probable") if trusted else HolonomyLabel(None, "undecided", disagree)
     nonzero = any(_nonzero(v) for v in pairing(ball[1][place], ball[0].vectors))
     if nonzero:
-        return Label(False, "proved")
-    return Label(None, "undecided", disagree)
+        return HolonomyLabel(False, "proved")
+    return HolonomyLabel(None, "undecided", disagree)
 
 
-def _modulo_the_others(place: int, sampled: Sampled, p: int) -> bool:
+def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
     """Is the row a sum of one in the largest integrable part and of the other rows, and independent of these?
 
     So it is where it annihilates what both allow: the Lie algebra's vectors that the other rows annihilate.
@@ -303,7 +307,7 @@ def _modulo_the_others(place: int, sampled: Sampled, p: int) -> bool:
     return all(sum(int(null[r, c]) * own[r] for r in range(len(own))) % p == 0 for c in range(nullity))
 
 
-def _integrable_names(forms: Codistribution, sampled: Sampled, point: FieldPoint) -> tuple[str, ...]:
+def _integrable_names(forms: Codistribution, sampled: SampledSpan, point: FieldPoint) -> tuple[str, ...]:
     """Dependent coordinates: pivots of the annihilator of the Lie algebra."""
     if not sampled.span.vectors:
         return tuple(str(s.args[1]) for s in forms.chart.symbols if s != ex.TIME)
@@ -337,4 +341,4 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         place = i if i < len(block.finite) else i + forms.finite - len(block.finite)
         zero = all(v.contains(0) for v in pairing(matrix[place], span.vectors))
         sure: Verdict = "proved" if isinstance(row.piece, Finite) or not zero else "numeric"
-        result.labels[i] = Label(zero, sure)
+        result.labels[i] = HolonomyLabel(zero, sure)

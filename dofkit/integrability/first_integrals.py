@@ -26,7 +26,7 @@ from dofkit.exact.points.frames import field_frame, kernel
 from dofkit.exact.ring.canonical import Canon, TooLargeError
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.solving.triangular import Solver
+from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.differential_blocks import Codistribution
@@ -59,7 +59,7 @@ def first_integrals(forms: Codistribution, number: int, seed: int = 0) -> list[F
 
     The simplest come first.
     """
-    search = _Search(forms, seed)
+    search = IntegralSearch(forms, seed)
     found: list[FirstIntegral] = []
     for degree in range(1, MAX_DEGREE + 1):
         monomials = search.monomials(degree)
@@ -78,7 +78,7 @@ def assigned(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[
 
     f can stand for a row where df is not in the span of the others; different rows get different ones while they last.
     """
-    search = _Search(forms, 0)
+    search = IntegralSearch(forms, 0)
     sample = search.sample()
     if sample is None:
         return {}
@@ -112,14 +112,14 @@ def shown(f: Expr) -> Expr:
     return arranged(upright(f))
 
 
-class _Search:
+class IntegralSearch:
     def __init__(self, forms: Codistribution, seed: int) -> None:
         forms = self.forms = _with_all_symbols(forms)
         self.seed, chart = seed, forms.chart
         self.ring = chart.ring
         self.functions = [v.index for v in self.ring.vars if v.kind not in ("sign", "pi")][:MAX_FUNCTIONS]
         self.constant = {i for i in self.functions if not _moves(self.ring.var_expr[i])}
-        self.solver = Solver(self.ring, list(chart.nodes), seed=seed) if chart.nodes else None
+        self.solver = TriangularSolver(self.ring, list(chart.nodes), seed=seed) if chart.nodes else None
         self.points: list[_Sample] = []
         self._drawn = 0
 

@@ -13,11 +13,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dofkit.exact.points.frames import Frame, Rows, rank_over
+from dofkit.exact.points.frames import FormRows, Pivots, rank_over
 from dofkit.exact.points.series import Series, SeriesPoint
 from dofkit.exact.ring.program import gradient, partials, values
 from dofkit.exact.ring.ring import Scalar, Var
-from dofkit.integrability.lie_algebra import Flow, Matrix, MatrixSeries, Span, columns_of, convolved, picked, scaled
+from dofkit.integrability.lie_algebra import (
+    AdmissibleCurve,
+    Matrix,
+    MatrixSeries,
+    Span,
+    columns_of,
+    convolved,
+    picked,
+    scaled,
+)
 
 #: Curves tried before the flag is left open.
 MAX_CURVES = 24
@@ -80,7 +89,7 @@ class DualPoint:
     """Symbols with their variation; every other generator's variation follows by the chain rule."""
 
     point: SeriesPoint
-    flow: Flow
+    flow: AdmissibleCurve
     symbols: Mapping[int, Series]
 
     def number(self, value: Any) -> Dual:
@@ -120,23 +129,23 @@ class Variation:
     coefficients: MatrixSeries
     slope: Matrix
 
-    def bracket(self, flow: Flow, k: int) -> Matrix:
+    def bracket(self, flow: AdmissibleCurve, k: int) -> Matrix:
         """[b, V_k] at the point: (b . grad) V_k - (grad b) V_k."""
         return self.coefficients[k] - self.slope * flow.pulled[k]
 
 
-def vary(flow: Flow) -> Variation:
+def vary(flow: AdmissibleCurve) -> Variation:
     """The variation in a random direction of D."""
     start = flow.full_frame[0] * random_column(flow, len(flow.frame.free))
     return Variation(varied(flow, start), _slope(flow, start))
 
 
-def random_column(flow: Flow, size: int) -> Matrix:
+def random_column(flow: AdmissibleCurve, size: int) -> Matrix:
     """Random numbers, one below the other."""
     return flow.numbers.matrix(size, 1, [flow.base.number(flow.base.rng.randrange(1, 1 << 12)) for _ in range(size)])
 
 
-def varied(flow: Flow, start: Matrix) -> MatrixSeries:
+def varied(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
     """(start . grad) V_k at the point: the curve's start moved to first order, the controls kept."""
     numbers, order = flow.numbers, flow.order
     moved = _moved(flow, start)
@@ -146,7 +155,7 @@ def varied(flow: Flow, start: Matrix) -> MatrixSeries:
     return _varied(flow, at, point, series)
 
 
-def _moved(flow: Flow, start: Matrix) -> MatrixSeries:
+def _moved(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
     """The variation of the path: eta' = S eta."""
     moved = [start]
     for k in range(flow.order):
@@ -154,7 +163,7 @@ def _moved(flow: Flow, start: Matrix) -> MatrixSeries:
     return moved
 
 
-def _varied(flow: Flow, at: list[Any], point: DualPoint, moved: list[Series]) -> MatrixSeries:
+def _varied(flow: AdmissibleCurve, at: list[Any], point: DualPoint, moved: list[Series]) -> MatrixSeries:
     n, order, frame = len(flow.path), flow.order, flow.frame
     ring = flow.rows.ring
     velocity = [Dual(v, m.derivative()) for v, m in zip(flow.velocities(), moved, strict=True)]
@@ -174,7 +183,7 @@ def _varied(flow: Flow, at: list[Any], point: DualPoint, moved: list[Series]) ->
     return [convolved(back, flow.full_frame, k) + convolved(flow.back, full_turned, k) for k in range(order)]
 
 
-def _slope(flow: Flow, direction: Matrix) -> Matrix:
+def _slope(flow: AdmissibleCurve, direction: Matrix) -> Matrix:
     """grad b at the point, for the field b = sum beta_l B_l with constant beta: A_d grad b_d = -grad(A b)."""
     rows, base = flow.rows, flow.base
     at = values(rows.ring, base)
@@ -186,7 +195,7 @@ def _slope(flow: Flow, direction: Matrix) -> Matrix:
     return flow.full(-(flow.inverse * right), None)
 
 
-def growth(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[int, ...] | None:
+def growth(rows: FormRows, frame: Pivots, base: Any, span: Span) -> tuple[int, ...] | None:
     """dim D, dim D + [D, D], ... with D_k+1 = D_k + [D, D_k], at ``base`` over GF(p); None where it is not certain."""
     free, terminal = len(frame.free), span.dimension
     if not frame.rows or free == terminal or span.flow is None:
@@ -198,14 +207,16 @@ def growth(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[int, ...] |
     return spanning_curves(rows, frame, base, span)[1]
 
 
-def spanning_curves(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[list[Flow], tuple[int, ...] | None]:
+def spanning_curves(
+    rows: FormRows, frame: Pivots, base: Any, span: Span
+) -> tuple[list[AdmissibleCurve], tuple[int, ...] | None]:
     """Curves whose brackets span every D_k together, and the dimensions; None where no number of them was enough."""
     terminal = span.dimension
-    curves: list[tuple[Flow, Variation]] = []
+    curves: list[tuple[AdmissibleCurve, Variation]] = []
     quiet = 0
     dimensions: tuple[int, ...] = ()
     for number in range(MAX_CURVES):
-        flow = span.flow if number == 0 and span.flow is not None else Flow(rows, frame, base)
+        flow = span.flow if number == 0 and span.flow is not None else AdmissibleCurve(rows, frame, base)
         flow.follow(span.dimensions.index(terminal) + 2)
         curves.append((flow, vary(flow)))
         before, dimensions = dimensions, _dimensions([f for f, _ in curves], terminal)
@@ -217,7 +228,7 @@ def spanning_curves(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[li
     return [f for f, _ in curves], None
 
 
-def _dimensions(flows: Sequence[Flow], terminal: int) -> tuple[int, ...]:
+def _dimensions(flows: Sequence[AdmissibleCurve], terminal: int) -> tuple[int, ...]:
     """The dimensions of S_1, S_2, ... up to the Lie algebra's own."""
     vectors: list[tuple[Scalar, ...]] = []
     found: list[int] = []
@@ -229,7 +240,7 @@ def _dimensions(flows: Sequence[Flow], terminal: int) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _complete(curves: Sequence[tuple[Flow, Variation]], dimensions: Sequence[int], terminal: int) -> bool:
+def _complete(curves: Sequence[tuple[AdmissibleCurve, Variation]], dimensions: Sequence[int], terminal: int) -> bool:
     """Does no bracket across the curves leave S_k+1, for every k before the Lie algebra is reached?"""
     flows = [f for f, _ in curves]
     vectors = [v for f in flows for v in columns_of(f.pulled[0])]
@@ -243,7 +254,7 @@ def _complete(curves: Sequence[tuple[Flow, Variation]], dimensions: Sequence[int
     return dimensions[-1] == terminal
 
 
-def derived_flag(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[int, ...] | None:
+def derived_flag(rows: FormRows, frame: Pivots, base: Any, span: Span) -> tuple[int, ...] | None:
     """The ranks of I, I', I'', ... down to the largest integrable part; None where they are not certain.
 
     I' holds the forms of I whose differential vanishes modulo I, so it annihilates D + [D, D], and so on with
@@ -267,7 +278,7 @@ def derived_flag(rows: Rows, frame: Frame, base: Any, span: Span) -> tuple[int, 
     return tuple(n - d for d in found)
 
 
-def _derived(flows: Sequence[Flow], dimensions: Sequence[int], step: int) -> int | None:
+def _derived(flows: Sequence[AdmissibleCurve], dimensions: Sequence[int], step: int) -> int | None:
     """dim of S_step + [S_step, S_step]; None where that is none of S_step+1, S_step+2, ..."""
     if step == 1:
         return dimensions[1]
@@ -287,7 +298,7 @@ def _derived(flows: Sequence[Flow], dimensions: Sequence[int], step: int) -> int
     return larger if rank_over([*vectors, *within], sample) == larger else None
 
 
-def _random_bracket(flows: Sequence[Flow], step: int) -> tuple[Scalar, ...]:
+def _random_bracket(flows: Sequence[AdmissibleCurve], step: int) -> tuple[Scalar, ...]:
     """[Y, Z] at the point for random fields of S_step."""
     weights = [[[random_column(f, f.pulled[k].ncols()) for k in range(step)] for f in flows] for _ in range(2)]
     values_at = [_combined([f.pulled for f in flows], w) for w in weights]

@@ -28,8 +28,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.differential_blocks import Codistribution, ball_span, codistribution, span_at
 from dofkit.integrability.lie_algebra import Span
-from dofkit.relations.answer import Answer, Label
-from dofkit.relations.beside_others import Slot
+from dofkit.relations.answer import Answer, HolonomyLabel
+from dofkit.relations.beside_others import RewrittenRow
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
@@ -44,13 +44,13 @@ NOT_EQUIVALENT = (
 NO_VELOCITY = "no velocities were found to hold it against"
 
 
-def part(slot: Slot, blocks: Sequence[Block]) -> list[int]:
+def part(slot: RewrittenRow, blocks: Sequence[Block]) -> list[int]:
     """The numbers of the blocks that a reduced relation has to do with."""
     names = set(coordinates_of(slot.written.piece)).union(*(coordinates_of(r.piece) for r in slot.rows))
     return [k for k, block in enumerate(blocks) if names & set(block.coordinates)]
 
 
-def _joined(slot: Slot, blocks: Sequence[Block], numbers: Sequence[int]) -> Block:
+def _joined(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int]) -> Block:
     names = dict.fromkeys(c for k in numbers for c in blocks[k].coordinates)
     names |= dict.fromkeys(sorted(coordinates_of(slot.written.piece)))
     rows = [r for k in numbers for r in blocks[k].rows]
@@ -59,7 +59,7 @@ def _joined(slot: Slot, blocks: Sequence[Block], numbers: Sequence[int]) -> Bloc
 
 
 def verified(
-    slots: Sequence[Slot], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
+    slots: Sequence[RewrittenRow], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
 ) -> list[Answer]:
     """The answers, but undecided where a relation as written does not hold at the states that its reduction leaves."""
     found = list(answers)
@@ -73,7 +73,7 @@ def verified(
 
 
 def _holds(
-    slot: Slot, blocks: Sequence[Block], numbers: Sequence[int], answers: Sequence[Answer], setting: Setting
+    slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int], answers: Sequence[Answer], setting: Setting
 ) -> bool:
     joint, f = _joined(slot, blocks, numbers), slot.written.piece
     if not isinstance(f, Nonlinear):
@@ -90,7 +90,9 @@ def _holds(
     return bool(seen) and all(v is not None and vanishes(v) for v in seen)
 
 
-def label(slot: Slot, blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting) -> tuple[Label, Answer]:
+def label(
+    slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
+) -> tuple[HolonomyLabel, Answer]:
     """Whether a reduced relation is a consequence of finite relations, and the answer of the blocks it touches."""
     numbers = part(slot, blocks)
     own = [answers[k] for k in numbers]
@@ -99,11 +101,11 @@ def label(slot: Slot, blocks: Sequence[Block], answers: Sequence[Answer], settin
     curved = all(answers[k].curved for k in numbers if blocks[k].nonlinear)
     impossible = any(a.consistent is False for a in answers)
     if not isinstance(f, Nonlinear) or not curved or impossible or any(a.dof is None for a in own):
-        return Label(None, "undecided"), together
+        return HolonomyLabel(None, "undecided"), together
     try:
         told = _on_the_kernel(f.expr, _joined(slot, blocks, numbers), together.hidden, setting)
     except (OutOfTimeError, ArithmeticError, NoPointError):
-        return Label(None, "undecided"), together
+        return HolonomyLabel(None, "undecided"), together
     labels = [x for a in own for x in a.labels.values()]
     if told.holonomic and all(x.holonomic for x in labels):
         told = replace(told, verdict=weakest(*(x.verdict for x in labels)))
@@ -112,7 +114,7 @@ def label(slot: Slot, blocks: Sequence[Block], answers: Sequence[Answer], settin
     return told, together
 
 
-def _why(slot: Slot, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
+def _why(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
     """Why a relation that reads otherwise beside the others is none of positions."""
     if not slot.rows:
         return "It holds because of the other constraints, which are not integrable, and no finite relation gives it"
@@ -130,7 +132,7 @@ def _why(slot: Slot, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
     return "Beside the others it is linear in the velocities, but not integrable"
 
 
-def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setting) -> Label:
+def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setting) -> HolonomyLabel:
     """Does f vanish on the kernel of the largest integrable part?"""
     forms = codistribution(joint, setting, hidden, [f])
     found = find(forms.chart, setting.pose)
@@ -139,14 +141,14 @@ def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setti
     good = [(p, s) for p in found.samples if (s := span_at(forms, p)) is not None]
     seen = [v for p, s in good for v in _along(forms, s.span, p, node)]
     if seen and all(v == 0 for v in seen):
-        return Label(True, "probable")
+        return HolonomyLabel(True, "probable")
     rank = len(good[0][1].frame.rows) if good else None
     if any(not v.contains(0) for v in _real_values(forms, found, rank, node)):
-        return Label(False, "proved")
+        return HolonomyLabel(False, "proved")
     certain = _rational(ring, node) and independent_generators(ring)
     if not seen or not certain:
-        return Label(None, "undecided", NO_VELOCITY)
-    return Label(False, "probable" if forms.finite else "proved")
+        return HolonomyLabel(None, "undecided", NO_VELOCITY)
+    return HolonomyLabel(False, "probable" if forms.finite else "proved")
 
 
 def _real_values(forms: Codistribution, found: Variety, rank: int | None, node: int) -> Iterator[arb]:

@@ -15,8 +15,8 @@ from dofkit.configuration.states import States
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import Frame, certified_rank, kernel
-from dofkit.relations.answer import Answer, Label
+from dofkit.exact.points.frames import Pivots, certified_rank, kernel
+from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.setting import Setting
 
@@ -100,7 +100,7 @@ def _open_labels(result: Answer, why: str) -> None:
     """Allowed velocities that may lie in less than the linear relations leave may make more integrable, never less."""
     for i, label in result.labels.items():
         if label.holonomic is False:
-            result.labels[i] = Label(None, "undecided", why)
+            result.labels[i] = HolonomyLabel(None, "undecided", why)
 
 
 def _by_field_alone(states: States, point: FieldPoint | None, result: Answer) -> None:
@@ -133,7 +133,7 @@ def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted
     """Tangents, and higher derivatives of curves in random directions, at the allowed velocity of a state."""
     part = ball_part(rows)
     columns = [-1 if c is None else c for c in states.velocities]
-    frame = Frame(
+    frame = Pivots(
         tuple(part.rows), tuple(part.columns), tuple(c for c in range(len(columns)) if c not in set(part.columns))
     )
     free, zero = len(frame.free), arb(0)

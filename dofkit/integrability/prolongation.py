@@ -16,7 +16,7 @@ from flint import arb
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
-from dofkit.exact.points.frames import Rows
+from dofkit.exact.points.frames import FormRows
 from dofkit.exact.ring.canonical import Canon, TooLargeError
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import values
@@ -27,7 +27,7 @@ from dofkit.expressions.tree import Expr
 MAX_CHOICES, MAX_MINORS, MAX_SIZE = 400, 12, 8
 
 
-def hidden_relation(rows: Rows, n: int, point: Point) -> tuple[tuple[Expr, ...], ...]:
+def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, ...], ...]:
     """Ways in which the largest minors with the time column vanish: their common factor does, or all that is left.
 
     No way where they grow too large.

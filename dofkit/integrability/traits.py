@@ -14,7 +14,7 @@ from dofkit.exact.points.field import NoPointError
 from dofkit.exact.ring.canonical import Canon, TooLargeError
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import Solver
+from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import is_zero, told_zero
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
@@ -63,7 +63,7 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
         return True, sure
     ring = Ring([g, slope], positive)
     node, rate = ring.node(g), ring.node(slope)
-    point = Solver(ring, [node]).draw(1) if "field" in engines else None
+    point = TriangularSolver(ring, [node]).draw(1) if "field" in engines else None
     if point is not None:
         try:
             if values(ring, point)[rate] == 0:

@@ -141,10 +141,10 @@ def grade(
     ] = False,
 ) -> None:
     """Grade submissions: a result for each, in the order given."""
-    from dofkit.homework.runs.run import Options, run
+    from dofkit.homework.runs.run import GradingOptions, run
 
     try:
-        clean = run(assignment, submissions, Options(form, out, workers, scheduler, check_only))
+        clean = run(assignment, submissions, GradingOptions(form, out, workers, scheduler, check_only))
     except (DofkitError, OSError) as error:
         if isinstance(error, BrokenPipeError):
             raise
@@ -185,12 +185,12 @@ def chart(
     ] = None,
 ) -> None:
     """Chart speed against accuracy: every method on scenes whose answers are known."""
-    from dofkit.benchmark.command import Options, run
+    from dofkit.benchmark.command import ChartOptions, run
     from dofkit.benchmark.selecting import Selection
 
     selection = Selection(question or (), families or (), methods or (), quick, most)
     try:
-        whole = run(Options(selection, out, source, scheduler, workers, timeout))
+        whole = run(ChartOptions(selection, out, source, scheduler, workers, timeout))
     except (DofkitError, OSError) as error:
         if isinstance(error, BrokenPipeError):
             raise
@@ -297,10 +297,10 @@ def schema(
 
         typer.echo(json.dumps(Scene.model_json_schema(), indent=2))
         return
-    from dofkit.benchmark.record import Chart
+    from dofkit.benchmark.record import ChartRun
     from dofkit.homework.schemas import SCHEMAS
 
-    known = {**SCHEMAS, "chart": Chart.model_json_schema}
+    known = {**SCHEMAS, "chart": ChartRun.model_json_schema}
     if of not in known:
         raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(known)}", param_hint="WHAT")
     typer.echo(json.dumps(known[of](), indent=2))

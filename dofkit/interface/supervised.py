@@ -57,7 +57,7 @@ class Cut:
     reason: str
 
 
-class Told(NamedTuple):
+class Printed(NamedTuple):
     """What is printed of a file, on standard output and on standard error, and whether it could not be read."""
 
     out: str
@@ -65,7 +65,7 @@ class Told(NamedTuple):
     failed: bool
 
 
-def told(files: Sequence[str], budget: float | None, method: MethodName, as_json: bool) -> Generator[Told]:
+def told(files: Sequence[str], budget: float | None, method: MethodName, as_json: bool) -> Generator[Printed]:
     """What is printed of each file, in their order."""
     fork = can_fork()
     worker = Worker(modules=("dofkit.interface.classify_file",), fork=fork)
@@ -79,7 +79,7 @@ def told(files: Sequence[str], budget: float | None, method: MethodName, as_json
         worker.kill()
 
 
-def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[Told]:
+def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[Printed]:
     """What is printed of the equations of motion of each file, in their order."""
     worker = Worker(modules=("dofkit.interface.lagrange_file",), fork=can_fork())
     ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
@@ -87,12 +87,12 @@ def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[T
         for file in files:
             given = Given(file, DEFAULT_SECONDS, "auto", as_json, ascii_only, data=_data(file))
             outcome = worker.run(Job("dofkit.interface.lagrange_file:told", (given, linearize), limit(given.budget)))
-            yield Told(**outcome.value) if outcome.finished else _plain(given, outcome.reason)
+            yield Printed(**outcome.value) if outcome.finished else _plain(given, outcome.reason)
     finally:
         worker.kill()
 
 
-def _one(worker: Worker, given: Given) -> Told:
+def _one(worker: Worker, given: Given) -> Printed:
     reading = limit(max(given.budget, DEFAULT_SECONDS))
     outcome = worker.run(Job("dofkit.interface.classify_file:told", given, limit(given.budget), reading))
     if not outcome.finished:
@@ -100,16 +100,16 @@ def _one(worker: Worker, given: Given) -> Told:
         outcome = worker.run(Job("dofkit.interface.classify_file:cut_short", cut, TELLING_SECONDS))
         if not outcome.finished:
             return _plain(given, cut.reason)
-    return Told(**outcome.value)
+    return Printed(**outcome.value)
 
 
-def _plain(given: Given, reason: str) -> Told:
+def _plain(given: Given, reason: str) -> Printed:
     """Where not even a worker can tell."""
     message = f"it could not be looked at: {reason}"
     if not given.as_json:
-        return Told("", f"{given.name}: error: {message}\n", True)
+        return Printed("", f"{given.name}: error: {message}\n", True)
     error: dict[str, Any] = {"message": message, "line": None, "column": None, "hint": None, "faults": []}
-    return Told(json.dumps({"scene": given.name, "error": error}) + "\n", "", True)
+    return Printed(json.dumps({"scene": given.name, "error": error}) + "\n", "", True)
 
 
 def _data(file: str) -> bytes | None:

@@ -13,7 +13,7 @@ from flint import ctx
 
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.classification.dependence.circuits import Rows, analyse
+from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.classification.dependence.equivalence import Sameness, compare
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome, solve
@@ -27,7 +27,7 @@ from dofkit.methods.table import Question
 from dofkit.mobility.frameworks import left_out
 from dofkit.mobility.graph.answers import linkage
 from dofkit.mobility.rank_at_drawing import drawn_rank
-from dofkit.relations.normal.domain import Condition
+from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -104,7 +104,7 @@ def asked(
 def _is_finite(r: Reduced) -> bool:
     """Does a constraint consist of relations between coordinates and time? Then it is holonomic (d of dg is 0)."""
     pieces = [p for n in r.normals for b in n.branches for p in b]
-    return bool(pieces) and not r.inequalities and all(isinstance(p, Finite | Condition) for p in pieces)
+    return bool(pieces) and not r.inequalities and all(isinstance(p, Finite | DomainCondition) for p in pieces)
 
 
 def _by_graph(system: System, question: Question) -> Reply | None:
@@ -132,7 +132,7 @@ def _by_drawing(system: System, question: Question) -> Reply | None:
     gone = list(known.copies)
     sure: Verdict = "proved" if known.independent else "probable"
     if not known.independent:
-        gone += analyse([Rows(known.rows, known.owners, [True] * len(known.rows), known.p)]).redundant
+        gone += analyse([OwnedRows(known.rows, known.owners, [True] * len(known.rows), known.p)]).redundant
     return Reply([system.constraints[i].name for i in sorted(gone)], sure)
 
 

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dofkit.base.verdicts import weakest
 from dofkit.integrability.traits import exact
 from dofkit.methods.shared.as_written import Written, as_written, labelled
-from dofkit.methods.shared.reply import Knobs, Told
-from dofkit.methods.shared.reporting import Found, Label, many
+from dofkit.methods.shared.reply import Knobs, MethodReply
+from dofkit.methods.shared.reporting import MethodFindings, MethodLabel, many
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 
@@ -28,32 +28,32 @@ def naive(written: Written) -> int:
     return len(written.coordinates) - len(written.finite)
 
 
-def dof(scene: Scene, knobs: Knobs) -> Told:
+def dof(scene: Scene, knobs: Knobs) -> MethodReply:
     """f = N d - k, each rigid body with d(d+1)/2 coordinates."""
     del knobs
     number = naive(as_written(scene))
-    return Told(None, _BELOW.format(number)) if number < 0 else Told(number)
+    return MethodReply(None, _BELOW.format(number)) if number < 0 else MethodReply(number)
 
 
-def integrability(scene: Scene, knobs: Knobs) -> Told:
+def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
     """Closed forms are called holonomic, all others are not: equality of mixed partials, which is exactness."""
     del knobs
     written = as_written(scene)
     closed: dict[int, bool] = {}
     for i, form in written.forms:
         closed[i] = closed.get(i, True) and bool(exact(form, written.positive)[0])
-    return Told(labelled(written, closed))
+    return MethodReply(labelled(written, closed))
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> Told:
+def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
     """None where as much is left as can move for certain: all of a frame that nothing holds to the ground."""
     del knobs
     written = as_written(scene)
     number, least = naive(written), least_freedom(written)
     if number >= least:
-        return Told([])
+        return MethodReply([])
     why = f"the count leaves {number}, and at least {least} can move: something is redundant, but the count names none"
-    return Told(None, why)
+    return MethodReply(None, why)
 
 
 def least_freedom(written: Written) -> int:
@@ -65,11 +65,11 @@ def least_freedom(written: Written) -> int:
     return d * (d + 1) // 2
 
 
-def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
+def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> MethodReply:
     """Are the texts the same, blanks and the sides' order aside?"""
     del knobs
     asked = next(c.text for c in as_written(scene).system.constraints if c.name == answer["constraint"])
-    return Told(plain(asked) == plain(answer["text"]))
+    return MethodReply(plain(asked) == plain(answer["text"]))
 
 
 def plain(text: str) -> tuple[str, ...]:
@@ -79,20 +79,24 @@ def plain(text: str) -> tuple[str, ...]:
     return tuple(sorted(sides))
 
 
-def found(system: System) -> Found:
+def found(system: System) -> MethodFindings:
     """The count with its assumption; closed forms are holonomic (Poincaré's lemma), and no others are known to be."""
     written = as_written(system)
-    labels: dict[int, Label] = {}
+    labels: dict[int, MethodLabel] = {}
     for i, form in written.forms:
         closed, sure = exact(form, written.positive)
-        label = Label(True, CLOSED, sure, True, True) if closed else Label(None, NOT_CLOSED, "undecided", exact=closed)
+        label = (
+            MethodLabel(True, CLOSED, sure, True, True)
+            if closed
+            else MethodLabel(None, NOT_CLOSED, "undecided", exact=closed)
+        )
         labels[i] = label if i not in labels else _both(labels[i], label)
-    return Found({}, {i: x for i, x in labels.items() if i not in written.others}, _sentences(written))
+    return MethodFindings({}, {i: x for i, x in labels.items() if i not in written.others}, _sentences(written))
 
 
-def _both(a: Label, b: Label) -> Label:
+def _both(a: MethodLabel, b: MethodLabel) -> MethodLabel:
     worse = a if a.holonomic is None else b
-    return Label(worse.holonomic, worse.reason, weakest(a.verdict, b.verdict), worse.alone, worse.exact)
+    return MethodLabel(worse.holonomic, worse.reason, weakest(a.verdict, b.verdict), worse.alone, worse.exact)
 
 
 def _sentences(written: Written) -> list[str]:

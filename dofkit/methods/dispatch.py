@@ -12,12 +12,12 @@ from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.exact.points.field import NoPointError
-from dofkit.methods.shared.reply import Knobs, Told, cannot
+from dofkit.methods.shared.reply import Knobs, MethodReply, cannot
 from dofkit.methods.table import METHODS, MethodName, Question
 from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene
 
-__all__ = ["Knobs", "Told", "answered", "answering", "module_of"]
+__all__ = ["Knobs", "MethodReply", "answered", "answering", "module_of"]
 
 #: What a method may end with where a scene is not what it is for.
 FAILURES = (ArithmeticError, NoPointError, OutOfTimeError, NotImplementedError, ValueError)
@@ -28,9 +28,9 @@ def module_of(method: MethodName) -> Any:
     return import_module(f"dofkit.methods.{method}")
 
 
-def answering(method: MethodName, question: Question) -> Callable[..., Told] | None:
+def answering(method: MethodName, question: Question) -> Callable[..., MethodReply] | None:
     """The function that answers a question by a method; None where the method has none."""
-    found: Callable[..., Told] | None = None
+    found: Callable[..., MethodReply] | None = None
     if question in METHODS[method].uses:
         found = getattr(module_of(method), question)
     return found
@@ -42,7 +42,7 @@ def answered(
     method: MethodName,
     knobs: Knobs | None = None,
     answer: Mapping[str, str] | None = None,
-) -> Told:
+) -> MethodReply:
     """What a method by itself answers to a question: what one would believe who trusted it, be it right or wrong.
 
     ``answer``: for ``equivalence``, ``{"constraint": NAME, "text": TEXT}``. Where the method cannot or does not
@@ -56,6 +56,6 @@ def answered(
     try:
         return work(given, turned, answer) if question == "equivalence" else work(given, turned)
     except OverflowError as error:
-        return Told(None, f"a number that occurs is too large or too small to compute with ({error})")
+        return MethodReply(None, f"a number that occurs is too large or too small to compute with ({error})")
     except FAILURES as error:
-        return Told(None, str(error) or type(error).__name__)
+        return MethodReply(None, str(error) or type(error).__name__)

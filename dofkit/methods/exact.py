@@ -16,9 +16,19 @@ from dofkit.expressions.tree import Expr
 from dofkit.methods.ask import CONTRADICTORY
 from dofkit.methods.shared.as_written import Written, as_written, posed
 from dofkit.methods.shared.at_drawing import at_points
-from dofkit.methods.shared.pointwise import Looked, Matrix, Rows, drawn_value, droppable, freedom, labels, look, same
-from dofkit.methods.shared.reply import Knobs, Told, cannot
-from dofkit.methods.shared.reporting import Found
+from dofkit.methods.shared.pointwise import (
+    Matrix,
+    SampledPoints,
+    WrittenRows,
+    drawn_value,
+    droppable,
+    freedom,
+    labels,
+    look,
+    same,
+)
+from dofkit.methods.shared.reply import Knobs, MethodReply, cannot
+from dofkit.methods.shared.reporting import MethodFindings
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -123,7 +133,7 @@ class Rationals:
         del scale
         return bool(value == 0)
 
-    def points(self, written: Written, rows: Rows, drawn: bool) -> list[RationalPoint]:
+    def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[RationalPoint]:
         if drawn:
             return [self._drawn(written)]
         order, found = solvable(written), list[RationalPoint]()
@@ -152,7 +162,7 @@ class Rationals:
         return point
 
 
-def value_of_all(rows: Rows, point: RationalPoint) -> None:
+def value_of_all(rows: WrittenRows, point: RationalPoint) -> None:
     """Run the program once, so that every generator has its value."""
     rows.at(point, fmpq(0))
 
@@ -219,7 +229,7 @@ def solved_together(written: Written, point: RationalPoint) -> None:
         point.given[columns[c]] = -reduced[r, len(columns)] - moved
 
 
-def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked, Rationals] | Told:
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Rationals] | MethodReply:
     numbers = Rationals(knobs.seed)
     written = as_written(scene)
     if written.system.tolerance is not None:
@@ -229,7 +239,7 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked, Rationals] | Tol
     except IrrationalError as error:
         return cannot(str(error))
     except ContradictionError as error:
-        return Told(CONTRADICTORY, str(error))
+        return MethodReply(CONTRADICTORY, str(error))
     if found is None:
         return cannot(NOWHERE)
     if any(found.samples[0].residuals):
@@ -237,38 +247,38 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked, Rationals] | Tol
     return found, numbers
 
 
-def dof(scene: Scene, knobs: Knobs) -> Told:
+def dof(scene: Scene, knobs: Knobs) -> MethodReply:
     """Coordinates less the rank of the Jacobian there, forms that pass Frobenius' test included."""
     found = _look(scene, knobs)
-    return found if isinstance(found, Told) else Told(freedom(*found))
+    return found if isinstance(found, MethodReply) else MethodReply(freedom(*found))
 
 
-def integrability(scene: Scene, knobs: Knobs) -> Told:
+def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
     """By Frobenius' test at that point."""
     found = _look(scene, knobs)
-    return _unless_contradictory(found) if isinstance(found, Told) else Told(labels(found[0]))
+    return _unless_contradictory(found) if isinstance(found, MethodReply) else MethodReply(labels(found[0]))
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> Told:
+def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
     """By the ranks there with and without each constraint."""
     found = _look(scene, knobs)
-    return _unless_contradictory(found) if isinstance(found, Told) else Told(droppable(*found))
+    return _unless_contradictory(found) if isinstance(found, MethodReply) else MethodReply(droppable(*found))
 
 
-def _unless_contradictory(told: Told) -> Told:
+def _unless_contradictory(told: MethodReply) -> MethodReply:
     """Where nothing can hold, nothing is told of labels."""
-    return Told(None, told.reason, told.cannot)
+    return MethodReply(None, told.reason, told.cannot)
 
 
-def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
+def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> MethodReply:
     """By what holds at a few rational points."""
     return same(posed(scene, answer), Rationals(knobs.seed, COMPARED))
 
 
-def found(system: System) -> Found:
+def found(system: System) -> MethodFindings:
     """What the rational point proves; where the drawing is the point, functions have their own values there."""
     looked = _look(system, Knobs())
-    if isinstance(looked, Told):
-        return Found({}, {}, [f"Nothing is told: {looked.reason}."])
+    if isinstance(looked, MethodReply):
+        return MethodFindings({}, {}, [f"Nothing is told: {looked.reason}."])
     trusted = system.reference is not None or independent_generators(looked[0].rows.ring)
     return at_points(*looked, "proved", trusted)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dofkit.base.verdicts import weakest
-from dofkit.classification.dependence.circuits import Rows, analyse
+from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.points.field import prime_for
-from dofkit.methods.shared.reply import Knobs, Told, cannot
-from dofkit.methods.shared.reporting import Found, many
+from dofkit.methods.shared.reply import Knobs, MethodReply, cannot
+from dofkit.methods.shared.reporting import MethodFindings, many
 from dofkit.mobility.frameworks import framework_answer
 from dofkit.mobility.graph.answers import Linkage, linkage
 from dofkit.mobility.placement import general
@@ -70,29 +70,29 @@ def rank(system: System, seed: int) -> int:
     return rank_of_rows(rows, p)
 
 
-def dof(scene: Scene, knobs: Knobs) -> Told:
+def dof(scene: Scene, knobs: Knobs) -> MethodReply:
     """Coordinates less the rank in general position."""
     system = lower(scene)
     why = outside(system)
-    return Told(len(system.coordinates) - rank(system, knobs.seed)) if why is None else cannot(why)
+    return MethodReply(len(system.coordinates) - rank(system, knobs.seed)) if why is None else cannot(why)
 
 
-def integrability(scene: Scene, knobs: Knobs) -> Told:
+def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
     """Links and joints are finite."""
     del knobs
     system = lower(scene)
     why = outside(system)
-    return Told({c.name: True for c in system.constraints}) if why is None else cannot(why)
+    return MethodReply({c.name: True for c in system.constraints}) if why is None else cannot(why)
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> Told:
+def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
     """By the rank in general position with and without each."""
     system = lower(scene)
     why = outside(system)
     if why is not None:
         return cannot(why)
     names = [c.name for c in system.constraints]
-    return Told(sorted(names[i] for i in redundant(system, knobs.seed)))
+    return MethodReply(sorted(names[i] for i in redundant(system, knobs.seed)))
 
 
 def redundant(system: System, seed: int) -> list[int]:
@@ -101,14 +101,14 @@ def redundant(system: System, seed: int) -> list[int]:
     if pairs is not None and len({i for i, _ in pairs}) == len(pairs):
         return sorted(pairs[k][0] for k in framework(system, pairs).redundant_places)
     rows, owners, p = generic_rows(system, seed)
-    return analyse([Rows(rows, owners, [True] * len(rows), p)]).redundant
+    return analyse([OwnedRows(rows, owners, [True] * len(rows), p)]).redundant
 
 
-def found(system: System) -> Found:
+def found(system: System) -> MethodFindings:
     """The count in general position; it is the scene's own where all lengths were left out."""
     why = outside(system)
     if why is not None:
-        return Found({}, {}, [f"Nothing is told: {why}."])
+        return MethodFindings({}, {}, [f"Nothing is told: {why}."])
     pairs = links(system)
     gone = redundant(system, 0) if pairs is not None else []
     equations = sum(len(c.relations) for c in system.constraints)
@@ -122,7 +122,7 @@ def found(system: System) -> Found:
     answers = general_position(system)
     if answers is None:
         more = "whether the given geometry is special (parallel, concurrent, collinear) a graph does not see."
-        return Found({"generic": generic}, {}, [f"{said}; {more}"])
+        return MethodFindings({"generic": generic}, {}, [f"{said}; {more}"])
     verdict = weakest(*(a.verdict for a in answers))
     fields = {
         "consistent": True,
@@ -131,7 +131,9 @@ def found(system: System) -> Found:
         "redundant_equations": too_many,
         "redundant": names,
     }
-    return Found(fields, {}, [f"{said}; all lengths are generic, so this is the scene's own."], not too_many, verdict)
+    return MethodFindings(
+        fields, {}, [f"{said}; all lengths are generic, so this is the scene's own."], not too_many, verdict
+    )
 
 
 def general_position(system: System) -> list[Answer] | None:

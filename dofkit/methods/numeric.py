@@ -16,9 +16,19 @@ from dofkit.expressions.tree import Expr
 from dofkit.methods.ask import CONTRADICTORY
 from dofkit.methods.shared.as_written import Written, as_written, posed
 from dofkit.methods.shared.at_drawing import at_points
-from dofkit.methods.shared.pointwise import Looked, Matrix, Rows, drawn_value, droppable, freedom, labels, look, same
-from dofkit.methods.shared.reply import Knobs, Told
-from dofkit.methods.shared.reporting import Found
+from dofkit.methods.shared.pointwise import (
+    Matrix,
+    SampledPoints,
+    WrittenRows,
+    drawn_value,
+    droppable,
+    freedom,
+    labels,
+    look,
+    same,
+)
+from dofkit.methods.shared.reply import Knobs, MethodReply
+from dofkit.methods.shared.reporting import MethodFindings
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -55,7 +65,7 @@ class Floats:
     def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
         return bool(abs(value) <= self.tolerance * max(map(abs, scale), default=1.0))
 
-    def points(self, written: Written, rows: Rows, drawn: bool) -> list[FloatPoint]:
+    def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[FloatPoint]:
         if drawn:
             return [self._drawn(written, rows)]
         found: list[FloatPoint] = []
@@ -67,7 +77,7 @@ class Floats:
                 break
         return found
 
-    def _drawn(self, written: Written, rows: Rows) -> FloatPoint:
+    def _drawn(self, written: Written, rows: WrittenRows) -> FloatPoint:
         rng = random.Random(f"dofkit floats {self.seed}")
         symbols: dict[Expr, float] = {v.key: rng.uniform(0.5, 2) for v in rows.ring.vars if v.kind == "symbol"}
         reference = written.system.reference or {}
@@ -78,7 +88,7 @@ class Floats:
         symbols[ex.TIME] = 0.0
         return FloatPoint(symbols, self.seed)
 
-    def _found(self, written: Written, rows: Rows, k: int) -> FloatPoint | None:
+    def _found(self, written: Written, rows: WrittenRows, k: int) -> FloatPoint | None:
         """Where Gauss and Newton's method ends that begins at random."""
         unknowns = [*written.coordinates, *(ex.parameter(p) for p in written.system.generic)]
         nodes = [node for _, node in rows.finite]
@@ -96,44 +106,44 @@ def singular_values(matrix: Matrix) -> Any:
     return np.linalg.svd(np.array(matrix, dtype=float), compute_uv=False)
 
 
-def _look(scene: Scene | System, knobs: Knobs) -> tuple[Looked | None, Floats]:
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints | None, Floats]:
     numbers = Floats(knobs.tolerance, knobs.seed)
     return look(as_written(scene), numbers), numbers
 
 
-def dof(scene: Scene, knobs: Knobs) -> Told:
+def dof(scene: Scene, knobs: Knobs) -> MethodReply:
     """Coordinates less the numeric rank, forms that pass Frobenius' test included."""
     found, numbers = _look(scene, knobs)
     if found is None:
-        return Told(CONTRADICTORY, NOWHERE.format(STARTS))
-    return Told(freedom(found, numbers))
+        return MethodReply(CONTRADICTORY, NOWHERE.format(STARTS))
+    return MethodReply(freedom(found, numbers))
 
 
-def integrability(scene: Scene, knobs: Knobs) -> Told:
+def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
     """By Frobenius' test within the tolerance, at a few points."""
     found, _ = _look(scene, knobs)
-    return Told(None, NOWHERE.format(STARTS)) if found is None else Told(labels(found))
+    return MethodReply(None, NOWHERE.format(STARTS)) if found is None else MethodReply(labels(found))
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> Told:
+def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
     """By the numeric ranks with and without each constraint."""
     found, numbers = _look(scene, knobs)
-    return Told(None, NOWHERE.format(STARTS)) if found is None else Told(droppable(found, numbers))
+    return MethodReply(None, NOWHERE.format(STARTS)) if found is None else MethodReply(droppable(found, numbers))
 
 
-def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
+def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> MethodReply:
     """By differences within the tolerance, at a few points."""
     return same(posed(scene, answer), Floats(knobs.tolerance, knobs.seed))
 
 
-def found(system: System) -> Found:
+def found(system: System) -> MethodFindings:
     """What singular values tell that are clearly parted: none is between rounding and what is clearly not 0."""
     looked, numbers = _look(system, Knobs())
     if looked is None:
-        return Found({}, {}, [f"{NOWHERE.format(STARTS)}: whether there is one is not told."])
+        return MethodFindings({}, {}, [f"{NOWHERE.format(STARTS)}: whether there is one is not told."])
     sample = looked.samples[0]
     if any(not numbers.vanishes(r, [*row, 1.0]) for r, row in zip(sample.residuals, sample.finite, strict=True)):
-        return Found({}, {}, ["Nothing is told: the drawing does not satisfy the equations."])
+        return MethodFindings({}, {}, ["Nothing is told: the drawing does not satisfy the equations."])
     sentence, clear = _gap([row[: looked.rows.n] for row in sample.rows])
     if system.tolerance is not None or any(v.kind == "sign" for v in looked.rows.ring.vars):
         clear = False

@@ -16,8 +16,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
 from dofkit.methods.shared.as_written import Written, as_written, labelled, posed
-from dofkit.methods.shared.reply import Knobs, Told
-from dofkit.methods.shared.reporting import Found, many
+from dofkit.methods.shared.reply import Knobs, MethodReply
+from dofkit.methods.shared.reporting import MethodFindings, many
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -105,11 +105,11 @@ def passing(symbols: Symbols) -> list[bool]:
     return found
 
 
-def dof(scene: Scene, knobs: Knobs) -> Told:
+def dof(scene: Scene, knobs: Knobs) -> MethodReply:
     """Coordinates less the rank that SymPy finds, forms that pass Frobenius' test included."""
     del knobs
     symbols = Symbols(as_written(scene))
-    return Told(_freedom(symbols, passing(symbols)))
+    return MethodReply(_freedom(symbols, passing(symbols)))
 
 
 def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
@@ -117,17 +117,17 @@ def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
     return symbols.n - int(symbols.rows(range(len(symbols.finite)), kept).rank())
 
 
-def integrability(scene: Scene, knobs: Knobs) -> Told:
+def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
     """By wedge products."""
     del knobs
     symbols = Symbols(as_written(scene))
     told: dict[int, bool] = {}
     for (i, _), passes in zip(symbols.forms, passing(symbols), strict=True):
         told[i] = told.get(i, True) and passes
-    return Told(labelled(symbols.written, told))
+    return MethodReply(labelled(symbols.written, told))
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> Told:
+def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
     """Constraints without which the rank that SymPy finds stays as it is, the last written first."""
     del knobs
     symbols = Symbols(as_written(scene))
@@ -144,21 +144,21 @@ def redundancy(scene: Scene, knobs: Knobs) -> Told:
         if rank(everything - dropped - {i}) == whole:
             dropped.add(i)
     names = [c.name for c in symbols.written.system.constraints]
-    return Told(sorted(names[i] for i in dropped))
+    return MethodReply(sorted(names[i] for i in dropped))
 
 
-def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Told:
+def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> MethodReply:
     """simplify(a - b) == 0, or simplify(a + b) == 0, equation by equation."""
     del knobs
     question = posed(scene, answer)
     if question.answer.others or question.asked.others:
-        return Told(None, "inequalities and equations nonlinear in the velocities are not compared", True)
+        return MethodReply(None, "inequalities and equations nonlinear in the velocities are not compared", True)
     given, asked = _entries(question.answer), _entries(question.asked)
     if len(given) != len(asked):
-        return Told(False, "they are not as many equations")
+        return MethodReply(False, "they are not as many equations")
     met = [any(_alike(a, b) for b in given) for a in asked]
     used = [any(_alike(a, b) for a in asked) for b in given]
-    return Told(all(met) and all(used))
+    return MethodReply(all(met) and all(used))
 
 
 def _entries(written: Written) -> list[list[Any]]:
@@ -175,7 +175,7 @@ def _alike(a: Sequence[Any], b: Sequence[Any]) -> bool:
     return any(all(sympy.simplify(x + sign * y) == 0 for x, y in zip(a, b, strict=True)) for sign in (-1, 1))
 
 
-def found(system: System) -> Found:
+def found(system: System) -> MethodFindings:
     """What SymPy says, as warnings only: none of it is sure."""
     symbols = Symbols(as_written(system))
     passes = passing(symbols)
@@ -191,4 +191,4 @@ def found(system: System) -> Found:
             told.append(
                 f"SymPy's wedge products call {', '.join(dict.fromkeys(named))} {said}, by one step of Frobenius."
             )
-    return Found({}, {}, told)
+    return MethodFindings({}, {}, told)

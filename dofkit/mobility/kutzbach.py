@@ -27,7 +27,7 @@ Drawing = Callable[[], Placement | None]
 
 
 @dataclass(frozen=True)
-class Joint:
+class CountedJoint:
     """A constraint between two bodies, or a body and the ground: ``freedom`` without its drive."""
 
     constraint: int
@@ -37,7 +37,7 @@ class Joint:
     driven: bool
 
 
-def joints_of(system: System, equations: Sequence[int]) -> list[Joint]:
+def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
     """The constraints that count as joints; ``equations`` of every constraint."""
     moving = set(system.bodies)
     whole = full(system)
@@ -48,7 +48,7 @@ def joints_of(system: System, equations: Sequence[int]) -> list[Joint]:
             continue
         first, second = (GROUND, *members)[-2:]
         freedom = whole - equations[c.constraint] + c.driven
-        found.append(Joint(c.constraint, first, second, freedom, c.driven))
+        found.append(CountedJoint(c.constraint, first, second, freedom, c.driven))
     return found
 
 
@@ -84,7 +84,7 @@ def mobility(
     )
 
 
-def _terms(system: System, joints: Sequence[Joint], rest: int) -> list[tuple[str, int, str]]:
+def _terms(system: System, joints: Sequence[CountedJoint], rest: int) -> list[tuple[str, int, str]]:
     """(sign, number, what it counts) of what is counted besides."""
     driven = sum(j.driven for j in joints)
     owned = full(system) * len(system.bodies) + system.dimension * len(system.particles)
@@ -98,7 +98,7 @@ def _terms(system: System, joints: Sequence[Joint], rest: int) -> list[tuple[str
     return [term for term in found if term[1]]
 
 
-def _why(system: System, joints: Sequence[Joint], kutzbach: int, freedom: int, drawn: Drawing) -> str:
+def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom: int, drawn: Drawing) -> str:
     if freedom < kutzbach:
         return (
             "the equations take more freedom away than their number: at this position, or because what they say of "
@@ -111,7 +111,7 @@ def _why(system: System, joints: Sequence[Joint], kutzbach: int, freedom: int, d
     return f"{start}: {said}" if said else start
 
 
-def _of_screws(system: System, joints: Sequence[Joint], freedom: int, drawn: Placement) -> str:
+def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, drawn: Placement) -> str:
     """What the joints' screws say: the dimension of their span, all together or loop by loop."""
     whole, d = full(system), system.dimension
     names = [c.name for c in system.constraints]
@@ -183,7 +183,7 @@ def _less(row: SparseRow, other: SparseRow, factor: int, p: int) -> SparseRow:
     return {c: v for c, v in found.items() if v}
 
 
-def _loops(joints: Sequence[Joint]) -> list[list[Joint]]:
+def _loops(joints: Sequence[CountedJoint]) -> list[list[CountedJoint]]:
     """A basis of the loops: for every joint that closes one, the path between its ends in a spanning tree."""
     tree: nx.Graph = nx.Graph()
     parts: nx.utils.UnionFind[str] = nx.utils.UnionFind()

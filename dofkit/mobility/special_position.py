@@ -31,7 +31,7 @@ Numbers = Sequence[Any]
 
 
 @dataclass(frozen=True)
-class Line:
+class DrawnLine:
     """A line of the drawing with what it is called, and the points between which it is a bar."""
 
     name: str
@@ -61,16 +61,16 @@ class Geometry:
     def parallel(self, a: Numbers, b: Numbers) -> bool:
         return self.zero(*_wedge(a, b))
 
-    def on(self, line: Line, point: Numbers) -> bool:
+    def on(self, line: DrawnLine, point: Numbers) -> bool:
         return self.parallel(line.direction, _less(point, line.through))
 
-    def meet(self, a: Line, b: Line) -> bool:
+    def meet(self, a: DrawnLine, b: DrawnLine) -> bool:
         """Have the two lines a point in common (at infinity too)?"""
         if len(a.through) == 2:
             return True
         return self.zero(_dot(_less(b.through, a.through), cross(a.direction, b.direction)))
 
-    def concurrent(self, a: Line, b: Line, c: Line) -> bool:
+    def concurrent(self, a: DrawnLine, b: DrawnLine, c: DrawnLine) -> bool:
         """Three lines of the plane through one point, or parallel: their coordinates are dependent."""
         return self.zero(_dot(_line(a), cross(_line(b), _line(c))))
 
@@ -96,14 +96,14 @@ def _facts(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
     yield from _of_points(g, own)
 
 
-def _axes(g: Geometry, own: Sequence[Connection]) -> Iterator[Line]:
+def _axes(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
     for c in own:
         at = g.placement.located[c.constraint]
         if g.system.dimension == 3 and c.type in AXIAL and at.places:
-            yield from (Line(g.names[c.constraint], at.places[0], g.unit(n)) for n in at.directions)
+            yield from (DrawnLine(g.names[c.constraint], at.places[0], g.unit(n)) for n in at.directions)
 
 
-def _of_axes(g: Geometry, axes: Sequence[Line]) -> Iterator[str]:
+def _of_axes(g: Geometry, axes: Sequence[DrawnLine]) -> Iterator[str]:
     if len(axes) < 2:
         return
     classes = _classes(axes, lambda a, b: g.parallel(a.direction, b.direction))
@@ -121,16 +121,16 @@ def _of_axes(g: Geometry, axes: Sequence[Line]) -> Iterator[str]:
         yield f"the axes of {_listed([a for a in axes if any(a is b for b in through)])} meet in one point"
 
 
-def _in_one_plane(g: Geometry, axes: Sequence[Line]) -> bool:
+def _in_one_plane(g: Geometry, axes: Sequence[DrawnLine]) -> bool:
     first = axes[0]
     other = next(a for a in axes if not g.parallel(first.direction, a.direction))
     normal = cross(first.direction, other.direction)
     return all(g.zero(_dot(normal, a.direction), _dot(normal, _less(a.through, first.through))) for a in axes)
 
 
-def _through_one_point(g: Geometry, axes: Sequence[Line]) -> list[Line]:
+def _through_one_point(g: Geometry, axes: Sequence[DrawnLine]) -> list[DrawnLine]:
     """The most axes of space, no two parallel, that meet each other and do not lie in one plane, or at one point."""
-    best: list[Line] = []
+    best: list[DrawnLine] = []
     for a, b in combinations(axes, 2):
         if not g.meet(a, b):
             continue
@@ -144,7 +144,7 @@ def _through_one_point(g: Geometry, axes: Sequence[Line]) -> list[Line]:
 
 def _of_slides(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
     slides = [
-        Line(g.names[c.constraint], (), g.unit(at.directions[0]))
+        DrawnLine(g.names[c.constraint], (), g.unit(at.directions[0]))
         for c in own
         if c.type in ("prismatic", "slot") and (at := g.placement.located[c.constraint]).directions
     ]
@@ -161,12 +161,14 @@ def _of_slides(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
         yield f"{_listed(slides)} slide parallel to one plane"
 
 
-def _links(g: Geometry, own: Sequence[Connection]) -> Iterator[Line]:
+def _links(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
     """The links between points, those of rigid sets, and in the plane the normals of slots."""
     for c in own:
         at = g.placement.located[c.constraint]
         if c.type == "slot" and g.system.dimension == 2:
-            yield Line(f"the normal of {g.names[c.constraint]}", at.points[0][1], g.unit(spanning(at.directions[0])[0]))
+            yield DrawnLine(
+                f"the normal of {g.names[c.constraint]}", at.points[0][1], g.unit(spanning(at.directions[0])[0])
+            )
         if c.type not in ("link", "rigid"):
             continue
         for (k, p), (m, q) in combinations(enumerate(at.points), 2):
@@ -174,10 +176,10 @@ def _links(g: Geometry, own: Sequence[Connection]) -> Iterator[Line]:
             name = g.names[c.constraint] if c.type == "link" else "-".join(ends)
             direction = _less(q[1], p[1])
             if not g.zero(*direction):
-                yield Line(name, p[1], g.unit(direction), frozenset(ends))
+                yield DrawnLine(name, p[1], g.unit(direction), frozenset(ends))
 
 
-def _bars(g: Geometry, own: Sequence[Connection]) -> Iterator[Line]:
+def _bars(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
     """Bodies of the plane with hinges at two places."""
     hinges: dict[str, dict[str, tuple[Any, ...]]] = {}
     for c in own:
@@ -188,7 +190,7 @@ def _bars(g: Geometry, own: Sequence[Connection]) -> Iterator[Line]:
     for name, places in hinges.items():
         if name != GROUND and len(places) == 2:
             (one, p), (other, q) = places.items()
-            yield Line(name, p, g.unit(_less(q, p)), frozenset((one, other)))
+            yield DrawnLine(name, p, g.unit(_less(q, p)), frozenset((one, other)))
 
 
 def _of_places(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
@@ -201,7 +203,7 @@ def _of_places(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
             return
 
 
-def _of_bars(g: Geometry, bars: Sequence[Line], own: Sequence[Connection]) -> Iterator[str]:
+def _of_bars(g: Geometry, bars: Sequence[DrawnLine], own: Sequence[Connection]) -> Iterator[str]:
     for same in _classes(bars, lambda a, b: g.parallel(a.direction, b.direction)):
         apart = [c[0] for c in _classes(same, lambda a, b: g.on(a, b.through))]
         if len(apart) > 2:
@@ -255,9 +257,9 @@ def _text(place: Sequence[Any] | None) -> str:
     return "?" if place is None else f"({', '.join(to_text(part) for part in place)})"
 
 
-def _classes(lines: Sequence[Line], same: Callable[[Line, Line], bool]) -> list[list[Line]]:
+def _classes(lines: Sequence[DrawnLine], same: Callable[[DrawnLine, DrawnLine], bool]) -> list[list[DrawnLine]]:
     """Lines that are the same in some respect, together."""
-    found: list[list[Line]] = []
+    found: list[list[DrawnLine]] = []
     for line in lines:
         known = next((c for c in found if same(c[0], line)), None)
         if known is None:
@@ -267,7 +269,7 @@ def _classes(lines: Sequence[Line], same: Callable[[Line, Line], bool]) -> list[
     return found
 
 
-def _listed(lines: Sequence[Line]) -> str:
+def _listed(lines: Sequence[DrawnLine]) -> str:
     names = list(dict.fromkeys(line.name for line in lines))
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
@@ -284,7 +286,7 @@ def _wedge(a: Numbers, b: Numbers) -> list[Any]:
     return [a[i] * b[j] - a[j] * b[i] for i, j in combinations(range(len(a)), 2)]
 
 
-def _line(line: Line) -> tuple[Any, ...]:
+def _line(line: DrawnLine) -> tuple[Any, ...]:
     """The coordinates (a, b, c) of the line a x + b y + c = 0 of the plane."""
     (x, y), (u, v) = line.through, line.direction
     return (v, -u, u * y - v * x)

@@ -10,7 +10,7 @@ from dofkit.system import System
 
 
 @dataclass(frozen=True)
-class Facts:
+class CountedFacts:
     """What the count is held against."""
 
     written: int
@@ -21,7 +21,7 @@ class Facts:
     entries: Sequence[ConstraintEntry]
 
 
-def count(system: System, facts: Facts) -> Count:
+def count(system: System, facts: CountedFacts) -> Count:
     """Every finite equation that was written, a rigid body as d(d+1)/2 coordinates."""
     coordinates = len(system.coordinates)
     naive = coordinates - facts.written
@@ -56,7 +56,7 @@ def formula(system: System, written: int) -> str:
     return f"f = {' + '.join(terms)} - k = {' + '.join(numbers)} - {written} = {len(system.coordinates) - written}"
 
 
-def why(system: System, facts: Facts, naive: int) -> str | None:
+def why(system: System, facts: CountedFacts, naive: int) -> str | None:
     """Why the count differs from the freedom; None where it does not."""
     if facts.consistent is False:
         return "no motion satisfies all constraints, so there is no freedom to count"
@@ -75,7 +75,7 @@ def why(system: System, facts: Facts, naive: int) -> str | None:
     return "; ".join(reasons)
 
 
-def _unseen(facts: Facts) -> list[str]:
+def _unseen(facts: CountedFacts) -> list[str]:
     """What takes freedom away and is no finite equation as written."""
     forms = [e for e in facts.entries if e.form in ("pfaffian", "nonlinear")]
     integrable = [e.name for e in forms if e.holonomic]

@@ -12,7 +12,7 @@ from dofkit.expressions.tree import Expr
 
 
 @dataclass(frozen=True)
-class Label:
+class HolonomyLabel:
     """Whether a row is a consequence of finite relations, how sure, and why.
 
     ``modulo``: it is none, but one of finite relations together with the other rows.
@@ -32,7 +32,7 @@ class Size(NamedTuple):
     forms: int = 0
 
 
-class Looked(NamedTuple):
+class FollowedClasses(NamedTuple):
     """What was looked at: relations ``left_out``, classes that are ``rigid``, and those that were ``followed``.
 
     The latter in so many ``coordinates``, where there would have been ``spared`` more.
@@ -61,7 +61,7 @@ class Answer:
     dof: int | None = None
     velocity_dof: int | None = None
     verdict: Verdict = "proved"
-    labels: dict[int, Label] = field(default_factory=dict)
+    labels: dict[int, HolonomyLabel] = field(default_factory=dict)
     reasons: list[str] = field(default_factory=list)
     hidden: list[Expr] = field(default_factory=list)
     matrix: list[SparseRow] = field(default_factory=list)
@@ -77,5 +77,5 @@ class Answer:
     method: str = ""
     late: bool = False
     conflict: tuple[int, ...] = ()
-    looked: Looked = field(default_factory=Looked)
+    looked: FollowedClasses = field(default_factory=FollowedClasses)
     size: Size = field(default_factory=Size)

@@ -35,7 +35,7 @@ def form_rate(form: Pfaffian) -> Expr:
 
 
 @dataclass(frozen=True)
-class Slot:
+class RewrittenRow:
     """A row as it was written and what it says beside the others: no row where it says nothing new."""
 
     written: Row
@@ -50,14 +50,14 @@ class Slot:
 class Way:
     """All rows on one choice of branches, in the order in which they were written."""
 
-    slots: tuple[Slot, ...]
+    slots: tuple[RewrittenRow, ...]
 
     @property
     def rows(self) -> list[Row]:
         return [row for slot in self.slots for row in slot.rows]
 
     @property
-    def reduced(self) -> tuple[Slot, ...]:
+    def reduced(self) -> tuple[RewrittenRow, ...]:
         """What was written nonlinear in the velocities and is so no more."""
         return tuple(
             s for s in self.slots if not s.unchanged and not any(isinstance(r.piece, Nonlinear) for r in s.rows)
@@ -71,7 +71,7 @@ def reduced(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
     xdot^2 + ydot^2 = zdot^2 with y = 2 x is zdot = +-sqrt(5) xdot. Where combinations of nonlinear rows are linear,
     they take their place: xdot^2 + ydot^2 = 1 and xdot^2 + ydot^2 = zdot give zdot = 1. And so on with what is new.
     """
-    ways, done = [Way(tuple(Slot(r, (r,)) for r in rows))], list[Way]()
+    ways, done = [Way(tuple(RewrittenRow(r, (r,)) for r in rows))], list[Way]()
     for _ in range(MAX_ROUNDS):
         following: list[Way] = []
         for way in ways:
@@ -96,10 +96,10 @@ def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
         by_linear = _combined([r for r in rows if isinstance(r.piece, Nonlinear)], positive)
         if not by_linear:
             return None
-    options: list[list[Slot]] = []
+    options: list[list[RewrittenRow]] = []
     for slot in way.slots:
         choices = cartesian(*(by_linear.get(id(r), [(r,)]) for r in slot.rows))
-        options.append([Slot(slot.written, tuple(r for part in choice for r in part)) for choice in choices])
+        options.append([RewrittenRow(slot.written, tuple(r for part in choice for r in part)) for choice in choices])
     return [Way(choice) for choice in islice(cartesian(*options), MAX_WAYS)]
 
 

@@ -9,7 +9,7 @@ import networkx as nx
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.domain import Condition
+from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, Piece
 from dofkit.relations.reductions import Reductions
 
@@ -19,7 +19,7 @@ class Row:
     """One scalar equation after reduction, or a condition: which constraint wrote it, and what it says."""
 
     constraint: int
-    piece: Finite | Pfaffian | Nonlinear | Condition
+    piece: Finite | Pfaffian | Nonlinear | DomainCondition
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Block:
 
     coordinates: tuple[str, ...]
     rows: tuple[Row, ...]
-    conditions: tuple[Condition, ...] = ()
+    conditions: tuple[DomainCondition, ...] = ()
 
     @property
     def finite(self) -> tuple[Row, ...]:
@@ -71,8 +71,8 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
     blocks = []
     for component in nx.connected_components(graph):
         numbers = sorted(i for i in component if isinstance(i, int))
-        conditions = tuple(dict.fromkeys(p for i in numbers if isinstance(p := rows[i].piece, Condition)))
-        members = [rows[i] for i in numbers if not isinstance(rows[i].piece, Condition)]
+        conditions = tuple(dict.fromkeys(p for i in numbers if isinstance(p := rows[i].piece, DomainCondition)))
+        members = [rows[i] for i in numbers if not isinstance(rows[i].piece, DomainCondition)]
         ordered = [r for r in members if isinstance(r.piece, Finite)]
         ordered += [r for r in members if not isinstance(r.piece, Finite)]
         names = sorted((name for name in component if isinstance(name, str)), key=place.__getitem__)

@@ -1,6 +1,6 @@
 """What a person writes, at the border: exact numbers, texts, and faults that say what to write instead.
 
-Every model of a scene derives from `Model`: frozen, closed to unknown keys, and with faults retold
+Every model of a scene derives from `WrittenModel`: frozen, closed to unknown keys, and with faults retold
 for the person who reads them. A fault of a `pydantic.ValidationError` carries ``ctx["hint"]`` where
 there is something to suggest, and its ``loc`` is the path of keys and positions as written.
 """
@@ -283,7 +283,7 @@ def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
         raise retold(error, "this entry", (), lambda loc: loc[1:]) from None
 
 
-class Model(BaseModel):
+class WrittenModel(BaseModel):
     """The base of what a person writes: frozen, no unknown keys, an empty value the same as none."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)

@@ -8,7 +8,7 @@ from dofkit.scene.reference import pose_of, reference_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import Survey, names_by_position, taken
 from dofkit.scene.world import World
-from dofkit.system import Force, Rotation, System
+from dofkit.system import ListedForce, Rotation, System
 
 
 def lower(scene: Scene) -> System:
@@ -43,7 +43,7 @@ def system_of(scene: Scene, found: Survey) -> System:
         pose=pose if reference is None else reference,
         particles=tuple(world.table.particles),
         bodies=tuple(world.table.bodies),
-        forces=tuple(Force(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
+        forces=tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
         links=tuple(world.links),
         distances=world.distances if reference is None else {},
         connections=found.connections,

@@ -42,7 +42,7 @@ class Declared(Protocol):
     def tolerance(self) -> Fraction | None: ...
 
 
-class Table(NamedTuple):
+class NameTable(NamedTuple):
     """The coordinates in order, and the names that each particle and each body owns."""
 
     coordinates: tuple[Coordinate, ...]
@@ -50,7 +50,7 @@ class Table(NamedTuple):
     bodies: dict[str, tuple[str, ...]]
 
 
-def coordinate_table(scene: Declared) -> Table:
+def coordinate_table(scene: Declared) -> NameTable:
     """Particles, then bodies, then the further coordinates, in the order declared."""
     coordinates: list[Coordinate] = []
     particles: dict[str, tuple[str, ...]] = {}
@@ -67,7 +67,7 @@ def coordinate_table(scene: Declared) -> Table:
             told = ("x", "y", "angle") if planar and len(roles) == 3 else roles
             coordinates += [Coordinate(name, owner.name, role) for name, role in zip(names, told, strict=True)]
     coordinates += [Coordinate(name) for name in scene.coordinates]
-    return Table(tuple(coordinates), particles, bodies)
+    return NameTable(tuple(coordinates), particles, bodies)
 
 
 def read_parameters(scene: Declared, texts: Texts) -> tuple[dict[str, Expr], dict[str, Sign]]:
@@ -99,7 +99,7 @@ def _parameter_value(texts: Texts, before: Mapping[str, Expr], name: str, value:
     return texts.fixed(value, name)
 
 
-def declared_names(scene: Declared, table: Table, parameters: Mapping[str, Expr]) -> Names:
+def declared_names(scene: Declared, table: NameTable, parameters: Mapping[str, Expr]) -> Names:
     """The names that texts may mention."""
     return Names(
         coordinates=frozenset(q.name for q in table.coordinates),
@@ -125,7 +125,7 @@ def within_member(names: Names, letters: tuple[str, ...]) -> Names:
 Entry = tuple[str, str, tuple[str | int, ...]]
 
 
-def check_names(scene: Declared, table: Table, ledger: Ledger) -> None:
+def check_names(scene: Declared, table: NameTable, ledger: Ledger) -> None:
     """Record names that are reserved, cannot be read in a text, are repeated or clash."""
     ledger.here = ()
     _check_owners(scene, ledger)
@@ -177,7 +177,7 @@ def _check_owners(scene: Declared, ledger: Ledger) -> None:
                 ledger.fault(message, key, i, "coordinates", hint=f"name them in the order {', '.join(roles)}")
 
 
-def _owned(scene: Declared, table: Table) -> Iterator[Entry]:
+def _owned(scene: Declared, table: NameTable) -> Iterator[Entry]:
     told: set[str] = set()
     both: tuple[tuple[str, str, Owners, Mapping[str, tuple[str, ...]]], ...] = (
         ("particles", "particle", scene.particles, table.particles),

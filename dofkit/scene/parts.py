@@ -7,10 +7,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, WrapValidator
 
-from dofkit.scene.fields import Model, Text, Value, Vector, as_written, named, untagged
+from dofkit.scene.fields import Text, Value, Vector, WrittenModel, as_written, named, untagged
 
 
-class BodyPoint(Model):
+class BodyPoint(WrittenModel):
     """The material point of a body that stands at a world position in the reference configuration."""
 
     on: str = Field(description="the body's name")
@@ -62,7 +62,7 @@ def show_vector(vector: Vector) -> str:
     return "(" + ", ".join(as_written(value) for value in vector) + ")"
 
 
-class Particle(Model):
+class Particle(WrittenModel):
     """A point mass with d coordinates."""
 
     name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, z_NAME")
@@ -71,7 +71,7 @@ class Particle(Model):
     mass: Value | None = Field(None, description="its mass: it never constrains")
 
 
-class Body(Model):
+class Body(WrittenModel):
     """A rigid body with d(d+1)/2 coordinates: its origin, then its angle or z-x-z Euler angles."""
 
     name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, theta_NAME and so on")
@@ -87,7 +87,7 @@ AnyBody = Annotated[Body, BeforeValidator(named, json_schema_input_type=str | Bo
 Ends = tuple[Point, Point]
 
 
-class Force(Model):
+class Force(WrittenModel):
     """A force: it enters the equations of motion and removes no freedom."""
 
     type: Literal["spring", "damper", "force", "gravity"] = Field(description="what pulls")
@@ -117,7 +117,7 @@ _REASONS = {
 }
 
 
-class Energies(Model):
+class Energies(WrittenModel):
     """The energies of the system, for its equations of motion."""
 
     kinetic: Text | None = Field(None, description="kinetic energy T in the coordinates and their velocities")

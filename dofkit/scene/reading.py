@@ -19,7 +19,7 @@ from dofkit.base.spelling import nearest_title
 from dofkit.scene.catalog import catalog_names, catalog_text, nearest_hint
 from dofkit.scene.scene import Scene, check, faults_of
 
-__all__ = ["SceneFile", "Source", "find", "load", "loads"]
+__all__ = ["FoundFile", "SceneFile", "find", "load", "loads"]
 
 #: More faults than this are counted, not listed.
 MOST_FAULTS = 200
@@ -54,7 +54,7 @@ def loads(data: bytes | str, name: str = "scene") -> Scene:
     return SceneFile.read(data, name).scene()
 
 
-class Source(NamedTuple):
+class FoundFile(NamedTuple):
     """What was found under a path or a catalog name."""
 
     name: str
@@ -111,16 +111,16 @@ class SceneFile:
         return replace(with_hint(fault), line=line, column=column)
 
 
-def find(source: str | os.PathLike[str]) -> Source:
+def find(source: str | os.PathLike[str]) -> FoundFile:
     """The bytes of the file at a path, or of the catalog scene of that name."""
     shown = os.fspath(source)
     path = Path(shown)
     try:
         if path.exists() and not path.is_dir():
             with path.open("rb") as file:
-                return Source(_printable(path.stem), file.read(MOST_BYTES + 1))
+                return FoundFile(_printable(path.stem), file.read(MOST_BYTES + 1))
         if shown in catalog_names():
-            return Source(shown, catalog_text(shown))
+            return FoundFile(shown, catalog_text(shown))
         folder = path.is_dir()
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
@@ -207,7 +207,7 @@ def _validated(value: Mapping[str, Any], checked: bool) -> tuple[Scene | None, t
         faults = faults_of(error)
     else:
         return scene, check(scene) if checked else ()
-    rest = _Rest.without(value, faults)
+    rest = SoundPart.without(value, faults)
     if rest is None:
         return None, faults
     try:
@@ -217,14 +217,14 @@ def _validated(value: Mapping[str, Any], checked: bool) -> tuple[Scene | None, t
     return None, faults + tuple(replace(fault, where=rest.written(fault.where)) for fault in found)
 
 
-class _Rest(NamedTuple):
+class SoundPart(NamedTuple):
     """A scene without its faulty parts, and which entries of its lists are left."""
 
     value: dict[str, Any]
     kept: dict[str, list[int]]
 
     @classmethod
-    def without(cls, value: Mapping[str, Any], faults: Sequence[Fault]) -> _Rest | None:
+    def without(cls, value: Mapping[str, Any], faults: Sequence[Fault]) -> SoundPart | None:
         """Take out what is at fault; None where the rest would not make sense without it."""
         rest: Any = dict(value)
         dropped: dict[str, set[int]] = {key: set() for key in _DROPPED_BY_ENTRY}

@@ -15,9 +15,9 @@ from dofkit.base.errors import Fault
 from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
 from dofkit.scene.fields import (
     Listed,
-    Model,
     Number,
     Value,
+    WrittenModel,
     exact,
     fault_at,
     fault_error,
@@ -107,7 +107,7 @@ _AnyConstraint = Annotated[
 ]
 
 
-class Scene(Model):
+class Scene(WrittenModel):
     """A mechanical system: what it is made of and what holds it."""
 
     name: str = Field("scene", min_length=1, description="a short name, used in reports; by default the file's stem")

@@ -20,7 +20,7 @@ from dofkit.scene.ledger import MOVING
 from dofkit.scene.names import Declared, Owners, check_names, within_member
 from dofkit.scene.parts import Energies, Force, texts_of
 from dofkit.scene.reference import size_of
-from dofkit.scene.world import Asked, World
+from dofkit.scene.world import Joined, World
 from dofkit.system import GROUND, Connection, Constraint
 
 
@@ -72,7 +72,7 @@ def survey(scene: Surveyed, euler: bool = False) -> Survey:
     _check_repeats(world, "constraints", [c.name for c in scene.constraints], names)
     constraints, connections = [], []
     for i, c in enumerate(scene.constraints):
-        world.asked = Asked()
+        world.asked = Joined()
         constraints.append(_lowered(world, i, c, names[i]))
         connections.append(_connection(world.asked, i, constraints[-1]))
     _check_forces(scene, world)
@@ -142,7 +142,7 @@ def _lowered(world: World, index: int, constraint: ConstraintBase, name: str) ->
     return Constraint(name, kind, constraint.shown, relations, tuple(constraint.notes(world)))
 
 
-def _connection(asked: Asked, index: int, constraint: Constraint) -> Connection:
+def _connection(asked: Joined, index: int, constraint: Constraint) -> Connection:
     """What a constraint that has been lowered connects."""
     return Connection(
         index,

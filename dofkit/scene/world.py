@@ -32,7 +32,7 @@ class Direction(NamedTuple):
 
 
 @dataclass
-class Asked:
+class Joined:
     """What one constraint asks for, in order."""
 
     members: list[str] = field(default_factory=list)
@@ -65,7 +65,7 @@ class World(Texts):
         self.distances: dict[int, list[Distance]] = {}
         self.later: list[tuple[tuple[str | int, ...], Callable[[float], None]]] = []
         self.special = False
-        self.asked = Asked()
+        self.asked = Joined()
         self.table = coordinate_table(scene)
         self.parameters, self.signs = read_parameters(scene, self)
         self.names = declared_names(scene, self.table, self.parameters)

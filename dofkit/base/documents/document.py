@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from dofkit.base.documents.fast_block import Block
-from dofkit.base.documents.fast_flow import Flow, Path, Places, UnusualError
+from dofkit.base.documents.fast_block import BlockReader
+from dofkit.base.documents.fast_flow import FlowReader, Path, Places, UnusualError
 from dofkit.base.errors import Fault
 
 #: A longer input is refused.
@@ -119,22 +119,22 @@ def _from_flow(name: str, text: str) -> Document | None:
     match = _JSON_START.match(text)
     if match is None:
         return None
-    start, flow = match.end() - 1, Flow(text, len(text))
+    start, flow = match.end() - 1, FlowReader(text, len(text))
     try:
         value = flow.read(start)
     except UnusualError:
         return None
-    return _document(name, text, value, flow.faults, lambda places: Flow(text, len(text), places).read(start))
+    return _document(name, text, value, flow.faults, lambda places: FlowReader(text, len(text), places).read(start))
 
 
 def _from_block(name: str, text: str) -> Document | None:
     """The document where it is in the block style that most people write."""
-    block = Block(text)
+    block = BlockReader(text)
     try:
         value = block.read()
     except UnusualError:
         return None
-    return _document(name, text, value, block.faults, lambda places: Block(text, places).read())
+    return _document(name, text, value, block.faults, lambda places: BlockReader(text, places).read())
 
 
 def _from_yaml(name: str, text: str) -> Document:

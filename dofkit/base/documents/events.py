@@ -27,7 +27,7 @@ _CORE = "tag:yaml.org,2002:"
 _TAGS = frozenset(_CORE + name for name in ("str", "int", "float", "bool", "null", "map", "seq")) | {"!"}
 
 
-class StoppedError(Exception):
+class UnreadableError(Exception):
     """Reading cannot go on."""
 
 
@@ -66,7 +66,7 @@ class Composer:
                 self._take(event)
         except YAMLError as error:
             self.faults.append(told(error))
-        except StoppedError:
+        except UnreadableError:
             pass
         return self.value
 
@@ -89,17 +89,17 @@ class Composer:
             self.documents += 1
             if self.documents > 1:
                 self._fault(event, "a second document begins here", "one file holds one: take the '---' away")
-                raise StoppedError
+                raise UnreadableError
 
     def _begin(self, event: CollectionStartEvent) -> None:
         self._tag(event)
         path = self._path(event)
         if path is None:
             self._fault(event, "a key must be a text", "write 'key: value'")
-            raise StoppedError
+            raise UnreadableError
         if len(self._open) >= DEEPEST:
             self._fault(event, "brackets or lists are nested too deep", f"at most {DEEPEST} levels are read")
-            raise StoppedError
+            raise UnreadableError
         value: Any = {} if isinstance(event, MappingStartEvent) else []
         muted = bool(self._open) and (self._open[-1].skipping or self._open[-1].muted)
         self._open.append(_Open(value, path, event.anchor, muted=muted))
@@ -126,12 +126,12 @@ class Composer:
             opened = any(part.anchor == name for part in self._open)
             message = f"'*{name}' stands inside the value that it names" if opened else f"nothing is named '&{name}'"
             self._fault(event, message, "a text that begins with '*' goes in double quotes")
-            raise StoppedError
+            raise UnreadableError
         value, size = self._anchors[name]
         self._aliased += size
         if self._aliased > MOST_ALIASED:
             self._fault(event, f"the aliases stand for more than {MOST_ALIASED} values", "write the values out")
-            raise StoppedError
+            raise UnreadableError
         if self._path(event) is None:
             self._take_key(event, value if isinstance(value, str) else None)
         else:
@@ -179,7 +179,7 @@ class Composer:
     def _take_key(self, event: Any, key: str | None) -> None:
         if key is None:
             self._fault(event, "a key must be a text", "write 'key: value'")
-            raise StoppedError
+            raise UnreadableError
         top = self._open[-1]
         top.key, top.key_at = key, self._at(event)
         top.skipping = key in top.value

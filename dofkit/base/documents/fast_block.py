@@ -1,6 +1,6 @@
 """A fast reader of YAML's block style as most people write it: indented keys and dashes, one value a line.
 
-Like `Flow`, which reads the values in brackets and quotes, it takes a subset and raises `UnusualError` on
+Like `FlowReader`, which reads the values in brackets and quotes, it takes a subset and raises `UnusualError` on
 anything else (anchors, tags, texts over several lines, tabs, errors); the full YAML parser then decides.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from dofkit.base.documents.fast_flow import DEEPEST, Flow, Path, Places, UnusualError, twice
+from dofkit.base.documents.fast_flow import DEEPEST, FlowReader, Path, Places, UnusualError, twice
 
 _KEY = re.compile(r"(?:([A-Za-z0-9_][\w./-]*)|\"([^\"\\\n]*)\"|'([^'\n]*)') *(:)(?=[ \r\n]|\Z)")
 _BLANK = re.compile(r"(?: *(?:#[^\n]*)?\r?\n)*( *)(?:#[^\n]*\Z)?")
@@ -21,12 +21,12 @@ _RAW_LINE = re.compile(r"( *)([^\r\n]*)\r?(?:\n|\Z)")
 _UNUSUAL = re.compile(r"[\x85\u2028\u2029]|\r(?!\n)|^(?:---|\.\.\.|%)", re.MULTILINE)
 
 
-class Block:
+class BlockReader:
     """Reads the one value of ``text``; ``places``, where given, receives the place of everything in it."""
 
     def __init__(self, text: str, places: Places | None = None) -> None:
         self.text = text
-        self.flow = Flow(text, len(text), places)
+        self.flow = FlowReader(text, len(text), places)
         self.faults = self.flow.faults
         self.at = 0
         self.column = 0

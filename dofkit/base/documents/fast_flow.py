@@ -39,7 +39,7 @@ class UnusualError(Exception):
     """Not in the subset: the full parser decides."""
 
 
-class Flow:
+class FlowReader:
     """Reads one value from ``text``; ``places``, where given, receives the place of every value below ``path``."""
 
     def __init__(self, text: str, stop: int, places: Places | None = None) -> None:

@@ -9,8 +9,8 @@ A worker is a fresh Python that imports what the job names and nothing of the ca
 guard; it takes jobs over a pipe and bounds its own memory and processor time. Its parent keeps the wall clock.
 """
 
-from dofkit.base.workers.job import Ended, Job, Json, Outcome
+from dofkit.base.workers.job import Ended, Job, JobOutcome, Json
 from dofkit.base.workers.pool import Pool
 from dofkit.base.workers.worker import MEMORY, Worker
 
-__all__ = ["MEMORY", "Ended", "Job", "Json", "Outcome", "Pool", "Worker"]
+__all__ = ["MEMORY", "Ended", "Job", "JobOutcome", "Json", "Pool", "Worker"]

@@ -46,7 +46,7 @@ class Job:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class JobOutcome:
     """What a job told last (None: nothing), how it ended, and why where that is not ``done``.
 
     Of a ``failed`` job ``error`` is the name of the exception's type, and ``trace`` its traceback.

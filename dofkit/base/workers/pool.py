@@ -10,7 +10,7 @@ from itertools import islice
 from queue import LifoQueue
 from types import TracebackType
 
-from dofkit.base.workers.job import Job, Outcome
+from dofkit.base.workers.job import Job, JobOutcome
 from dofkit.base.workers.processes import can_fork
 from dofkit.base.workers.worker import MEMORY, Worker
 
@@ -36,7 +36,7 @@ class Pool:
             for worker in self.workers:
                 worker.fork()
 
-    def run(self, job: Job) -> Outcome:
+    def run(self, job: Job) -> JobOutcome:
         """Do one job, as soon as a worker is free: the one that was used last, which is warm."""
         worker = self._free.get()
         try:
@@ -44,14 +44,14 @@ class Pool:
         finally:
             self._free.put(worker)
 
-    def map_unordered(self, jobs: Iterable[Job]) -> Iterator[tuple[Job, Outcome]]:
+    def map_unordered(self, jobs: Iterable[Job]) -> Iterator[tuple[Job, JobOutcome]]:
         """Every job with its outcome, as they finish; of ``jobs`` no more are taken than the workers can use soon.
 
         Where the caller stops early, what still runs is killed.
         """
         stream = iter(jobs)
         executor = ThreadPoolExecutor(len(self.workers))
-        running: dict[Future[Outcome], Job] = {}
+        running: dict[Future[JobOutcome], Job] = {}
         try:
             while True:
                 for job in islice(stream, AHEAD * len(self.workers) - len(running)):

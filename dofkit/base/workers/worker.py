@@ -12,7 +12,7 @@ import weakref
 from collections.abc import Callable, Sequence
 from queue import Empty, SimpleQueue
 
-from dofkit.base.workers.job import Job, Json, Outcome
+from dofkit.base.workers.job import Job, JobOutcome, Json
 from dofkit.base.workers.pipes import receive, send
 from dofkit.base.workers.processes import Forked, Process, Spawned
 
@@ -45,14 +45,14 @@ class Worker:
         """Start now, as a copy of this process; what replaces it later is a fresh Python all the same."""
         self._begun = Forked(self.memory, self.modules)
 
-    def run(self, job: Job) -> Outcome:
+    def run(self, job: Job) -> JobOutcome:
         """Do one job; threads wait for each other. Never raises for what the job does; it is tried once."""
         if self._owner != os.getpid():
             self._forget()
         with self._lock:
             message = pickle.dumps((job.name, job.payload, job.limits))
             link = self._started()
-            if isinstance(link, Outcome):
+            if isinstance(link, JobOutcome):
                 return link
             keep = False
             try:
@@ -76,7 +76,7 @@ class Worker:
         """In a fork of the process that started it: that one's worker is left to it."""
         self._owner, self._lock, self._link, self._begun = os.getpid(), threading.Lock(), None, None
 
-    def _started(self) -> _Link | Outcome:
+    def _started(self) -> _Link | JobOutcome:
         if self._link is not None and self._link.process.poll() is not None:
             self.kill()
         if self._link is None:
@@ -84,16 +84,16 @@ class Worker:
                 begun, self._begun = self._begun, None
                 link = _Link(begun or self._new(self.memory, self.modules))
             except OSError as error:
-                return Outcome(None, "absent", f"no worker process could be started ({error})")
+                return JobOutcome(None, "absent", f"no worker process could be started ({error})")
             self._link, link.finalizer = link, weakref.finalize(self, link.end)
             why = link.awaited()
             if why:
                 self.kill()
-                return Outcome(None, "absent", f"the worker process {why} while it started")
+                return JobOutcome(None, "absent", f"the worker process {why} while it started")
             return link
         return self._link
 
-    def _asked(self, link: _Link, message: bytes, job: Job) -> tuple[Outcome, bool]:
+    def _asked(self, link: _Link, message: bytes, job: Job) -> tuple[JobOutcome, bool]:
         """The outcome, and whether the worker is good for another job."""
         value: Json = None
         limit, following = job.limits
@@ -108,18 +108,18 @@ class Worker:
                     return self._ended(value, kind, said)
                 value, limit = said, following
         except Empty:
-            return Outcome(value, "overrun", f"the worker process was killed after {limit:.3g} s"), False
+            return JobOutcome(value, "overrun", f"the worker process was killed after {limit:.3g} s"), False
         except OSError:
             return link.outcome(value), False
 
-    def _ended(self, value: Json, kind: str, said: Json) -> tuple[Outcome, bool]:
+    def _ended(self, value: Json, kind: str, said: Json) -> tuple[JobOutcome, bool]:
         if kind == "done":
-            return Outcome(value, "done"), not said
+            return JobOutcome(value, "done"), not said
         if kind == "memory":
             wanted = f"more than {self.memory / (1 << 30):.3g} GiB of memory would have been needed"
-            return Outcome(value, "memory", wanted), False
+            return JobOutcome(value, "memory", wanted), False
         error, told = str(said["type"]), " ".join(str(said["said"]).split())
-        return Outcome(value, "failed", f"{error}: {told}" if told else error, error, str(said["trace"])), True
+        return JobOutcome(value, "failed", f"{error}: {told}" if told else error, error, str(said["trace"])), True
 
 
 class _Link:
@@ -149,11 +149,11 @@ class _Link:
         except Empty:
             return f"was killed after {STARTING:.3g} s"
 
-    def outcome(self, value: Json) -> Outcome:
+    def outcome(self, value: Json) -> JobOutcome:
         """Of a job in which the process ended: by a limit that it had set itself, or otherwise."""
         reason = f"the worker process {self.how()}"
         status = self.process.poll()
-        return Outcome(value, "overrun" if status is not None and -status in _LIMITS else "died", reason)
+        return JobOutcome(value, "overrun" if status is not None and -status in _LIMITS else "died", reason)
 
     def how(self) -> str:
         """How the process ended, as the end of a sentence."""

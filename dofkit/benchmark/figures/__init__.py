@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 
 from dofkit.benchmark.figures import cost, fronts, matrix, reductions, sweeps
 from dofkit.benchmark.figures.style import settle, styled
-from dofkit.benchmark.record import Chart
+from dofkit.benchmark.record import ChartRun
 
-FIGURES: Mapping[str, Callable[[Chart], Figure | None]] = {
+FIGURES: Mapping[str, Callable[[ChartRun], Figure | None]] = {
     "fronts": fronts.draw,
     "matrix": matrix.draw,
     "cost": cost.draw,
@@ -22,7 +22,7 @@ FIGURES: Mapping[str, Callable[[Chart], Figure | None]] = {
 }
 
 
-def write(chart: Chart, out: Path) -> Iterator[Path]:
+def write(chart: ChartRun, out: Path) -> Iterator[Path]:
     """Draw all figures into a folder, each as SVG and PNG. Raises OSError."""
     for name, draw in FIGURES.items():
         with styled():

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullLocator
 
 from dofkit.benchmark.figures.style import Look, looks, seconds_text, settle, sheet, spread
-from dofkit.benchmark.record import AUTO, Chart, Fit, Point
+from dofkit.benchmark.record import AUTO, ChartRun, Fit, MedianTime
 
 #: So many panels, and so many of them in a row.
 PANELS, ACROSS = 12, 3
@@ -19,7 +19,7 @@ PANELS, ACROSS = 12, 3
 APART = 9.0
 
 
-def draw(chart: Chart) -> Figure | None:
+def draw(chart: ChartRun) -> Figure | None:
     """The families that grow most."""
     panels = chosen(chart)
     if not panels:
@@ -45,7 +45,7 @@ def draw(chart: Chart) -> Figure | None:
     return figure
 
 
-def chosen(chart: Chart) -> list[tuple[str, str]]:
+def chosen(chart: ChartRun) -> list[tuple[str, str]]:
     """Families and one question of each: those whose largest member is the most times the smallest."""
     sizes: dict[tuple[str, str], list[int]] = {}
     for point in chart.points:
@@ -59,7 +59,7 @@ def chosen(chart: Chart) -> list[tuple[str, str]]:
 def _panel(
     axes: Axes,
     title: str,
-    points: Sequence[Point],
+    points: Sequence[MedianTime],
     fits: Mapping[str, Fit],
     look: Mapping[str, Look],
     y: tuple[float, float],
@@ -104,7 +104,7 @@ def _panel(
             )
 
 
-def _names(axes: Axes, points: Sequence[Point], fits: Mapping[str, Fit], look: Mapping[str, Look]) -> None:
+def _names(axes: Axes, points: Sequence[MedianTime], fits: Mapping[str, Fit], look: Mapping[str, Look]) -> None:
     """The methods at the right, each at the height of its curve's end; the fitted exponents with them."""
     methods = list(dict.fromkeys(point.method for point in points))
     largest = max(point.size for point in points)

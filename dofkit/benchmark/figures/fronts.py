@@ -12,7 +12,7 @@ from matplotlib.path import Path
 from matplotlib.ticker import FuncFormatter, NullLocator
 
 from dofkit.benchmark.figures.style import OUTCOME_COLOURS, QUESTIONS, label_marks, seconds_text, settle, sheet
-from dofkit.benchmark.record import ALL, AUTO, OUTCOMES, Chart, Front, Score
+from dofkit.benchmark.record import ALL, AUTO, OUTCOMES, ChartRun, Front, Score
 
 #: Points of a mark's radius; that of ``auto`` is larger.
 RADIUS, RADIUS_AUTO = 6.5, 9.5
@@ -20,7 +20,7 @@ RADIUS, RADIUS_AUTO = 6.5, 9.5
 SHORTEST = 1e-6
 
 
-def draw(chart: Chart) -> Figure | None:
+def draw(chart: ChartRun) -> Figure | None:
     """A panel for each question."""
     whole = [score for score in chart.scores if score.family == ALL and score.median_seconds is not None]
     asked = [question for question in QUESTIONS if any(score.question == question for score in whole)]

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from dofkit.benchmark.figures.style import OUTCOME_COLOURS, OUTCOME_HATCHES, sheet
-from dofkit.benchmark.record import ALL, AUTO, OUTCOMES, Chart, Score
+from dofkit.benchmark.record import ALL, AUTO, OUTCOMES, ChartRun, Score
 
 #: Inches of a row, and of a column.
 ROW, COLUMN, NAMES = 0.235, 1.02, 2.3
@@ -19,7 +19,7 @@ BAR, WIDE = 0.86, 0.95
 _COUNTS = ("trials", "right", "wrong", "undecided", "timed_out", "cannot")
 
 
-def draw(chart: Chart) -> Figure | None:
+def draw(chart: ChartRun) -> Figure | None:
     """A row for each family, all its questions together; a column for each method."""
     cells = together([score for score in chart.scores if score.family != ALL])
     if not cells:

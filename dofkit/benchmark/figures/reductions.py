@@ -10,13 +10,13 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullLocator
 
 from dofkit.benchmark.figures.style import sheet
-from dofkit.benchmark.record import Chart, Reduction
+from dofkit.benchmark.record import ChartRun, ReductionCost
 from dofkit.relations.reductions import REDUCTIONS
 
 MADE_FOR, OTHERS = "#0072B2", "#B5B5B5"
 
 
-def draw(chart: Chart) -> Figure | None:
+def draw(chart: ChartRun) -> Figure | None:
     """Without against with, for each reduction: seconds, and what shrinks most of the model."""
     whole = {row.scene: row for row in chart.reductions if not row.off}
     pairs = [(row, whole[row.scene]) for row in chart.reductions if row.off and row.scene in whole]
@@ -36,8 +36,8 @@ def draw(chart: Chart) -> Figure | None:
 def _panel(
     axes: Axes,
     names: Sequence[str],
-    pairs: Sequence[tuple[Reduction, Reduction]],
-    of: Callable[[Reduction, Reduction], float],
+    pairs: Sequence[tuple[ReductionCost, ReductionCost]],
+    of: Callable[[ReductionCost, ReductionCost], float],
     heading: str,
 ) -> None:
     axes.set_xscale("log")
@@ -60,7 +60,7 @@ def _panel(
     axes.set_xlabel(heading)
 
 
-def _size(off: Reduction, on: Reduction) -> float:
+def _size(off: ReductionCost, on: ReductionCost) -> float:
     """Coordinates, relations, forms, the largest block, or the coordinates that are followed: what shrinks most."""
     parts = ("coordinates", "relations", "forms", "largest", "followed")
     ratios = [getattr(off, part) / max(1, getattr(on, part)) for part in parts if getattr(off, part)]

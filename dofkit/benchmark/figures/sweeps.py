@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from dofkit.benchmark.figures.style import settle, sheet, spread
-from dofkit.benchmark.record import Chart, Step
+from dofkit.benchmark.record import ChartRun, Step
 
 #: Of the curves of a sweep so many are drawn, at most: the first, the last, and some between.
 CURVES = 7
@@ -63,22 +63,22 @@ PRIMES = (
 )
 
 
-def tolerance(chart: Chart) -> Figure | None:
+def tolerance(chart: ChartRun) -> Figure | None:
     """Share right against tolerance, a curve for each rounding."""
     return _draw(chart, (NUMERIC, SCENE), "Rounded coordinates: which tolerance finds the truth", "tolerance")
 
 
-def bits(chart: Chart) -> Figure | None:
+def bits(chart: ChartRun) -> Figure | None:
     """Shares wrong and undecided against the bits of balls, a curve for each gap."""
     return _draw(chart, BITS, "Balls: how many bits a gap needs", "bits")
 
 
-def primes(chart: Chart) -> Figure | None:
+def primes(chart: ChartRun) -> Figure | None:
     """Shares wrong and undecided against the bits of the primes, a curve for each question."""
     return _draw(chart, PRIMES, "Field: how large its primes must be", "primes")
 
 
-def _draw(chart: Chart, panels: Sequence[Panel], title: str, name: str) -> Figure | None:
+def _draw(chart: ChartRun, panels: Sequence[Panel], title: str, name: str) -> Figure | None:
     shown = [panel for panel in panels if any(step.sweep == panel.sweep for step in chart.steps)]
     if not shown:
         return None

@@ -10,7 +10,7 @@ from dofkit.benchmark.trials.trial import Trial
 
 
 @dataclass(frozen=True)
-class Part:
+class TrialPart:
     """Rows with {k} for the number of the part; ``holonomic`` by row."""
 
     name: str
@@ -25,24 +25,24 @@ class Part:
 
 
 PARTS = (
-    Part("rolling discs", ("x", "y", "th", "ph"), ("dx{k} = R cos(th{k}) dph{k}", "dy{k} = R sin(th{k}) dph{k}"), 4,
-         (False, False), (), "a disc reaches every place and both angles", ("non-holonomic",), 64),
-    Part("discs on straight lines", ("x", "y", "th", "ph"),
+    TrialPart("rolling discs", ("x", "y", "th", "ph"),
+         ("dx{k} = R cos(th{k}) dph{k}", "dy{k} = R sin(th{k}) dph{k}"), 4, (False, False), (), "a disc reaches every place and both angles", ("non-holonomic",), 64),
+    TrialPart("discs on straight lines", ("x", "y", "th", "ph"),
          ("th{k} = 1", "dx{k} = R cos(th{k}) dph{k}", "dy{k} = R sin(th{k}) dph{k}"), 1, (True,) * 3, (),
          "with the heading held x and y follow the angle", ("together",), 4),
-    Part("two edges on a lamina", ("x", "y", "th"),
+    TrialPart("two edges on a lamina", ("x", "y", "th"),
          ("sin(th{k}) dx{k} = cos(th{k}) dy{k}", "sin(th{k}) dx{k} = cos(th{k}) dy{k} + R dth{k}"), 1, (True, True), (),
          "their difference is dth = 0: a straight track", ("together",), 8),
-    Part("pendulums", ("x", "y"), ("x{k}^2 + y{k}^2 = R^2",), 1, (True,), (), "a circle each", ("plain",), 64),
-    Part("squared pendulums", ("x", "y"), ("(x{k}^2 + y{k}^2 - R^2)^2 = 0",), 1, (True,), (),
+    TrialPart("pendulums", ("x", "y"), ("x{k}^2 + y{k}^2 = R^2",), 1, (True,), (), "a circle each", ("plain",), 64),
+    TrialPart("squared pendulums", ("x", "y"), ("(x{k}^2 + y{k}^2 - R^2)^2 = 0",), 1, (True,), (),
          "the zeros of a square", ("squared",)),
-    Part("planes written twice", ("x", "y", "z"), ("x{k} + y{k} = z{k}", "3 x{k} + 3 y{k} - 3 z{k} = 0"), 2,
+    TrialPart("planes written twice", ("x", "y", "z"), ("x{k} + y{k} = z{k}", "3 x{k} + 3 y{k} - 3 z{k} = 0"), 2,
          (True, True), (1,), "the second is three times the first", ("redundant",), 64),
-    Part("points as sums of squares", ("x", "y"), ("x{k}^2 + (y{k} - 1)^2 = 0",), 0, (True,), (),
+    TrialPart("points as sums of squares", ("x", "y"), ("x{k}^2 + (y{k} - 1)^2 = 0",), 0, (True,), (),
          "both squares vanish", ("sum-of-squares",)),
-    Part("exact forms", ("x", "y", "z"), ("y{k} z{k} dx{k} + x{k} z{k} dy{k} + x{k} y{k} dz{k} = 0",), 2, (True,), (),
-         "d(x y z)", ("integrable",)),
-    Part("driven beads", ("x", "y"), ("y{k} cos(t) = x{k} sin(t)",), 1, (True,), (), "a line that turns",
+    TrialPart("exact forms", ("x", "y", "z"),
+         ("y{k} z{k} dx{k} + x{k} z{k} dy{k} + x{k} y{k} dz{k} = 0",), 2, (True,), (), "d(x y z)", ("integrable",)),
+    TrialPart("driven beads", ("x", "y"), ("y{k} cos(t) = x{k} sin(t)",), 1, (True,), (), "a line that turns",
          ("rheonomic",)),
 )  # fmt: skip
 
@@ -58,7 +58,7 @@ def many_blocks(quick: bool) -> Iterator[Trial]:
         yield from _trial(f"{n} of each", list(PARTS) * n, "freedoms of separate parts add up", ("many-blocks",))
 
 
-def _trial(name: str, parts: list[Part], because: str, traits: tuple[str, ...]) -> Iterator[Trial]:
+def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, ...]) -> Iterator[Trial]:
     names, rows = [], []
     labels: dict[str, bool] = {}
     over = []

@@ -35,7 +35,7 @@ WAYS: tuple[Way, ...] = (
 
 
 @dataclass(frozen=True)
-class Asked:
+class AskedConstraint:
     """A constraint u = 0 called ``asked`` among others, ``q`` a coordinate in it that is not 0 everywhere on it.
 
     ``answers``: further texts; are they the same, their trait, why.
@@ -55,7 +55,7 @@ class Asked:
 
 
 FINITE = (
-    Asked("circle", "x y", "x^2 + y^2 - R^2", "x", (), (
+    AskedConstraint("circle", "x y", "x^2 + y^2 - R^2", "x", (), (
         ("sqrt(x^2 + y^2) = R", True, "rewritten", "R is positive"),
         ("(x^2 + y^2)^2 = R^4", True, "rewritten", "x^2 + y^2 + R^2 has no zero"),
         ("log(x^2 + y^2) = 2 log(R)", True, "rewritten", "log is one to one"),
@@ -68,7 +68,7 @@ FINITE = (
         ("x + y = R", False, "wrong-sign", "a line"),
         ("x^2 + y^2 <= R^2", False, "weaker", "a disc"),
     ), {"R": "positive"}),
-    Asked("line", "x y", "3 x + 4 y - 5", "x", (), (
+    AskedConstraint("line", "x y", "3 x + 4 y - 5", "x", (), (
         ("y = (5 - 3 x)/4", True, "rewritten", "solved for y"),
         ("x/4 + y/3 = 5/12", True, "rewritten", "divided by 12"),
         ("6 x + 8 y = 5", False, "wrong-sign", "a parallel line"),
@@ -76,7 +76,7 @@ FINITE = (
         ("(3 x + 4 y)^2 = 25", False, "weaker", "a parallel line too"),
         ("3 x + 4.000000001 y = 5", False, "tiny-difference", "another slope"),
     )),
-    Asked("turning line", "x y", "y cos(t) - x sin(t)", "x", (), (
+    AskedConstraint("turning line", "x y", "y cos(t) - x sin(t)", "x", (), (
         ("y cos(t) = x sin(t)", True, "rewritten", "the other side"),
         ("y cos(t) + x sin(t) = 0", False, "wrong-sign", "turns the other way"),
         ("y sin(t) = x cos(t)", False, "wrong-sign", "sine for cosine"),
@@ -84,7 +84,7 @@ FINITE = (
         ("y cos(t) = x sin(1.000000001 t)", False, "tiny-difference", "turns faster"),
         ("y cos(2 t) + x sin(2 t) - y = 0", False, "weaker", "2 sin(t) (x cos(t) - y sin(t)): another line"),
     )),
-    Asked("exponential", "x y", "y - exp(x)", "x", (), (
+    AskedConstraint("exponential", "x y", "y - exp(x)", "x", (), (
         ("log(y) = x", True, "rewritten", "y is positive"),
         ("y exp(-x) = 1", True, "rewritten", "divided by exp(x)"),
         ("y^2 = exp(2 x)", False, "weaker", "y = -exp(x) too"),
@@ -93,7 +93,7 @@ FINITE = (
         ("y = 2.718281828^x", False, "tiny-difference", "not quite e"),
         ("y = exp(-x)", False, "wrong-sign", "falls"),
     )),
-    Asked("sine", "x y", "y - sin(x)", "x", (), (
+    AskedConstraint("sine", "x y", "y - sin(x)", "x", (), (
         ("y = 2 sin(x/2) cos(x/2)", True, "rewritten", "sine of twice a half"),
         ("y = cos(x - pi/2)", True, "rewritten", "shifted by a quarter"),
         ("asin(y) = x", False, "one-branch", "between -pi/2 and pi/2"),
@@ -102,7 +102,7 @@ FINITE = (
         ("y = cos(x - 1.5707963267948966)", False, "tiny-difference", "not quite a quarter"),
         ("y = x - x^3/6 + x^5/120", False, "tiny-difference", "a Taylor polynomial"),
     )),
-    Asked("hyperbola", "x y", "x y - 1", "x", (), (
+    AskedConstraint("hyperbola", "x y", "x y - 1", "x", (), (
         ("y = 1/x", True, "rewritten", "x is not 0 on it"),
         ("x^2 y^2 = 1", False, "weaker", "x y = -1 too"),
         ("x^3 y^3 = 1", True, "rewritten", "the cubic root is one to one, x y is not 0"),
@@ -110,14 +110,14 @@ FINITE = (
         ("(x + y)^2 - (x - y)^2 = 4", True, "rewritten", "4 x y"),
         ("x dy + y dx = 0", False, "differentiated", "every x y = C"),
     )),
-    Asked("two lines", "x y", "x^2 - y^2", "x", (), (
+    AskedConstraint("two lines", "x y", "x^2 - y^2", "x", (), (
         ("(x - y)*(x + y) = 0", True, "rewritten", "factored"),
         ("x = y", False, "one-branch", "one of them"),
         ("x = abs(y)", False, "one-branch", "the right half"),
         ("abs(x) = abs(y)", True, "rewritten", "the same squares"),
         ("x^4 = y^4", True, "rewritten", "x^2 + y^2 is 0 at their crossing only"),
     )),
-    Asked("sphere and plane", "x y z", "x^2 + y^2 - 1", "x", ("z = 0",), (
+    AskedConstraint("sphere and plane", "x y z", "x^2 + y^2 - 1", "x", ("z = 0",), (
         ("x^2 + y^2 + z^2 = 1", True, "combined", "z is 0"),
         ("x^2 + y^2 + 5 z = 1", True, "combined", "z is 0"),
         ("exp(z)*(x^2 + y^2) = 1 + z^3", True, "combined", "z is 0"),
@@ -128,7 +128,7 @@ FINITE = (
         ("x^2 + y^2 = cos(z) + x z", True, "combined", "z is 0"),
         ("x^2 + y^2 = 1; z = 0", True, "combined", "both"),
     )),
-    Asked("cosine beside sine", "x y u", "y - cos(u)", "u", ("x = sin(u)",), (
+    AskedConstraint("cosine beside sine", "x y u", "y - cos(u)", "u", ("x = sin(u)",), (
         ("x + y = sin(u) + cos(u)", True, "combined", "the sum"),
         ("y = cos(u) + (x - sin(u))^2", True, "combined", "x is sin(u)"),
         ("x^2 + y^2 = 1", False, "weaker", "y = -cos(u) too"),
@@ -136,14 +136,14 @@ FINITE = (
         ("y = cos(u) + 1e-9*x", False, "tiny-difference", "another set"),
         ("dy + x du = 0", False, "differentiated", "cos(u) + C"),
     )),
-    Asked("angle", "a b", "sin(a)", "a", ("b = cos(a)^2",), (
+    AskedConstraint("angle", "a b", "sin(a)", "a", ("b = cos(a)^2",), (
         ("tan(a) = 0", True, "rewritten", "the same zeros"),
         ("a = 0", False, "one-branch", "multiples of pi too"),
         ("sin(2 a) = 0", False, "weaker", "halves of pi too"),
         ("cos(2 a) = 1", False, "irregular", "1 - 2 sin^2"),
         ("b = 1", False, "irregular", "cos^2 = 1 has no slope there"),
     )),
-    Asked("growing circle", "x y", "x^2 + y^2 - (1 + t)^2", "x", (), (
+    AskedConstraint("growing circle", "x y", "x^2 + y^2 - (1 + t)^2", "x", (), (
         ("x^2 + y^2 = 1 + 2 t + t^2", True, "rewritten", "multiplied out"),
         ("x^2 + y^2 = 1 + t^2", False, "wrong-sign", "a term is missing"),
         ("x^2 + y^2 = (1 + 1.000000000001 t)^2", False, "tiny-difference", "grows faster"),
@@ -152,7 +152,7 @@ FINITE = (
 )  # fmt: skip
 
 MOVING = (
-    Asked("contact form", "x y z", "dz - y dx", "x", (), (
+    AskedConstraint("contact form", "x y z", "dz - y dx", "x", (), (
         ("zdot = y xdot", True, "rewritten", "by dt"),
         ("(1 + x^2)*dz = (y + x^2 y) dx", True, "rewritten", "a factor without zeros"),
         ("exp(y) dz = y exp(y) dx", True, "rewritten", "a factor without zeros"),
@@ -166,7 +166,7 @@ MOVING = (
         ("dz = y dx; dy = 0", False, "weaker", "says more"),
         ("dz = y dx + dt", False, "wrong-sign", "drifts"),
     )),
-    Asked("disc", "x y th ph", "dx - R cos(th) dph", "th", ("dy = R sin(th) dph",), (
+    AskedConstraint("disc", "x y th ph", "dx - R cos(th) dph", "th", ("dy = R sin(th) dph",), (
         ("xdot = R phdot cos(th)", True, "rewritten", "by dt"),
         ("dx + dy = R (cos(th) + sin(th)) dph", True, "combined", "the sum"),
         ("dx + 3 th dy = R (cos(th) + 3 th sin(th)) dph", True, "combined", "a combination"),
@@ -178,14 +178,14 @@ MOVING = (
         ("dx = R (1 - 2 sin(th/2)^2) dph", True, "rewritten", "cosine by its half"),
         ("x = R cos(th) ph", False, "weaker", "finite, and another"),
     ), {"R": "positive"}),
-    Asked("exact form", "x y", "x dy + y dx", "x", (), (
+    AskedConstraint("exact form", "x y", "x dy + y dx", "x", (), (
         ("2 x dy = -2 y dx", True, "rewritten", "a factor"),
         ("x ydot + y xdot = 0", True, "rewritten", "by dt"),
         ("x y = 2", False, "differentiated", "one of its curves"),
         ("x dy = y dx", False, "wrong-sign", "sign"),
         ("x dy + (1 + 1e-12) y dx = 0", False, "tiny-difference", "another form"),
     )),
-    Asked("driven", "x y", "dx - 3 dt", "x", (), (
+    AskedConstraint("driven", "x y", "dx - 3 dt", "x", (), (
         ("xdot = 3", True, "rewritten", "by dt"),
         ("2 xdot - 6 = 0", True, "rewritten", "a factor"),
         ("xdot = 3.000000000001", False, "tiny-difference", "faster"),
@@ -219,7 +219,7 @@ def answers(quick: bool) -> Iterator[Trial]:
 
 def inequalities(quick: bool) -> Iterator[Trial]:
     """A side of a surface: the same side of the same surface, or not."""
-    disc = Asked("disc", "x y", "", "x", parameters={"R": "positive"})
+    disc = AskedConstraint("disc", "x y", "", "x", parameters={"R": "positive"})
     rows = [
         ("sqrt(x^2 + y^2) <= R", True, "rewritten"),
         ("R^2 >= x^2 + y^2", True, "rewritten"),

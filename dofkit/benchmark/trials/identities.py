@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dofkit.benchmark.trials.contexts import CONTEXTS
-from dofkit.benchmark.trials.making import Known, asked, scene
+from dofkit.benchmark.trials.making import KnownTruth, asked, scene
 from dofkit.benchmark.trials.rewritten import other_coordinates
 from dofkit.benchmark.trials.steps import tiny_steps
 from dofkit.benchmark.trials.traps import NOT_ZERO, TRAPS, Trap
@@ -43,7 +43,7 @@ def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
             yield Trap(name, text, None, names, "^" not in text), text, False, "near-identity", number + STRIDE * turn
 
 
-def _turned(trap: Trap, text: str, zero: bool, number: int) -> Known | None:
+def _turned(trap: Trap, text: str, zero: bool, number: int) -> KnownTruth | None:
     """The trap in the first context from this on in which it can stand."""
     for turn in range(len(CONTEXTS)):
         found = CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero)
@@ -87,9 +87,9 @@ def bases(quick: bool) -> Iterator[Trial]:
         same = scene(names, f"({2**power})^x dz + 2^({power} x) dy = 0")
         other = scene(names, f"({2**power})^x dz + 2^({power} x) y dx = 0")
         for known, because in (
-            (Known("", f"a factor 2^({power} x)", same, {"dof": 2}, {"c1": {"holonomic": True}}), "dz + dy"),
+            (KnownTruth("", f"a factor 2^({power} x)", same, {"dof": 2}, {"c1": {"holonomic": True}}), "dz + dy"),
             (
-                Known("", f"a contact form by 2^({power} x)", other, {"dof": 3}, {"c1": {"holonomic": False}}),
+                KnownTruth("", f"a contact form by 2^({power} x)", other, {"dof": 3}, {"c1": {"holonomic": False}}),
                 "dz + y dx",
             ),
         ):

@@ -15,7 +15,7 @@ ALL: tuple[Question, ...] = ("dof", "integrability", "redundancy")
 
 
 @dataclass(frozen=True)
-class Known:
+class KnownTruth:
     """A scene and what is true of it.
 
     ``truth`` by report key; ``labels`` by constraint and key. Those of one ``group`` belong together.
@@ -88,7 +88,7 @@ def _varied(name: str, size: int, swept: Mapping[str, Any] | None) -> dict[str, 
 
 def asked(
     family: str,
-    known: Known,
+    known: KnownTruth,
     because: str,
     traits: Sequence[str],
     *,
@@ -112,7 +112,7 @@ def asked(
     return (trial for trial in found if trial.question in questions)
 
 
-def _labels(known: Known) -> dict[str, bool] | None:
+def _labels(known: KnownTruth) -> dict[str, bool] | None:
     """Whether every constraint is holonomic, where that is known of all."""
     if len(known.labels) < len(known.scene["constraints"]):
         return None

@@ -64,7 +64,7 @@ def dependent(drawn: Framework) -> list[int]:
 
 
 @dataclass(frozen=True)
-class Bodies:
+class RandomBodies:
     """A scene of bodies with its truth: velocities at the drawing, and the freedom where it follows from them."""
 
     scene: dict[str, Any]
@@ -74,7 +74,7 @@ class Bodies:
     dof: int | None
 
 
-def tree(rng: random.Random, dimension: int, bodies: int) -> Bodies:
+def tree(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
     """Every body on one written before it: the joints' freedoms add up."""
     kinds = list(FREEDOMS) if dimension == 3 else list(PLANE)
     chosen = [rng.choice(kinds) for _ in range(bodies)]
@@ -87,10 +87,10 @@ def tree(rng: random.Random, dimension: int, bodies: int) -> Bodies:
     names = [f"b{i}" for i in range(bodies)]
     rng.shuffle(joints)
     scene = {"dimension": dimension, "bodies": names, "constraints": joints}
-    return Bodies(scene, bodies * each - freedom, bodies * each, freedom, freedom)
+    return RandomBodies(scene, bodies * each - freedom, bodies * each, freedom, freedom)
 
 
-def loop(rng: random.Random, dimension: int, bodies: int) -> Bodies:
+def loop(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
     """Bodies in one closed loop with the ground: velocities are the joints' rates whose screws cancel.
 
     Where the screws are independent nothing moves, and where they span all screws the loop's equations are regular.
@@ -108,7 +108,7 @@ def loop(rng: random.Random, dimension: int, bodies: int) -> Bodies:
     dof = first if first == 0 or rank == each else None
     equations = (bodies + 1) * each - len(screws)
     scene = {"dimension": dimension, "bodies": names[1:-1], "constraints": joints}
-    return Bodies(scene, equations, bodies * each, first, dof)
+    return RandomBodies(scene, equations, bodies * each, first, dof)
 
 
 def _joint(

@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from dofkit.benchmark.trials.making import Known, scene
+from dofkit.benchmark.trials.making import KnownTruth, scene
 
 x, y, z, w, theta, phi, psi, r, a = sp.symbols("x y z w theta phi psi r a", real=True)
 Form = Mapping[sp.Symbol, sp.Expr]
@@ -144,7 +144,7 @@ REWRITINGS: Mapping[str, Rewriting] = {
 
 
 @cache
-def _made() -> tuple[Known, ...]:
+def _made() -> tuple[KnownTruth, ...]:
     found = []
     for base in _bases():
         for name, rewriting in REWRITINGS.items():
@@ -154,12 +154,12 @@ def _made() -> tuple[Known, ...]:
     return tuple(found)
 
 
-def other_coordinates() -> Iterator[Known]:
+def other_coordinates() -> Iterator[KnownTruth]:
     """Every base in every other way of writing it."""
     return iter(_made())
 
 
-def _trial(base: Base, how: str) -> Known:
+def _trial(base: Base, how: str) -> KnownTruth:
     texts = [f"{g} = 0" for g in base.finite]
     for form in base.forms:
         terms = [f"({v}) d{q}" for q, v in form.items() if v != 0]
@@ -169,4 +169,4 @@ def _trial(base: Base, how: str) -> Known:
     labels = {f"c{i}": {"holonomic": True} for i in range(1, first)}
     labels |= {f"c{first + i}": {"holonomic": h} for i, h in enumerate(base.holonomic) if h is not None}
     made = scene([str(q) for q in base.coordinates], *texts)
-    return Known(base.name, f"{base.name}, {how}", made, truth, labels)
+    return KnownTruth(base.name, f"{base.name}, {how}", made, truth, labels)

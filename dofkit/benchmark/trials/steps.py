@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from dofkit.benchmark.trials.making import Known, scene
+from dofkit.benchmark.trials.making import KnownTruth, scene
 
 #: The sizes of the step, as a person writes them.
 STEPS = ("1e-6", "1e-12", "1e-30", "1/7000000000000000000")
@@ -75,7 +75,7 @@ TIMED: list[tuple[str, str, bool]] = [
 ]
 
 
-def tiny_steps() -> Iterator[Known]:
+def tiny_steps() -> Iterator[KnownTruth]:
     """Every base form and system with every step."""
     for step in STEPS:
         for name, coordinates, text, integrable in FORMS:
@@ -100,6 +100,6 @@ def _trial(
     rows: tuple[str, ...],
     truth: dict[str, Any],
     labels: dict[str, Any],
-) -> Known:
+) -> KnownTruth:
     texts = [row.replace("{e}", f"({step})") for row in rows]
-    return Known(name, f"{name}, by {step}", scene(coordinates, *texts), truth, labels)
+    return KnownTruth(name, f"{name}, by {step}", scene(coordinates, *texts), truth, labels)

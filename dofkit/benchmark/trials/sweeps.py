@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from dofkit.benchmark.trials.frameworks import Framework, Position, framework, written
-from dofkit.benchmark.trials.making import Known
+from dofkit.benchmark.trials.making import KnownTruth
 
 Move = Callable[[Position], Position]
 #: (dof, instantaneous_dof); None where it was not derived.
@@ -211,7 +211,7 @@ TOLERANCES = ("1e-4",)
 class Case:
     """What is known of a drawing, what was varied, and the framework behind it where it has one."""
 
-    known: Known
+    known: KnownTruth
     framework: Framework | None
     swept: Mapping[str, Any] = field(default_factory=dict)
 
@@ -321,7 +321,7 @@ def drawn_case(
     return Case(_known(name, scene, drawn.coordinates, len(drawn.bars), freedom), drawn, dict(swept or {}))
 
 
-def _known(name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom) -> Known:
+def _known(name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom) -> KnownTruth:
     """Where the rows are independent at the drawing, no constraint can be dropped."""
     dof, first = freedom
     truth: dict[str, Any] = {"consistent": True, "instantaneous_dof": first}
@@ -330,7 +330,7 @@ def _known(name: str, scene: dict[str, Any], coordinates: int, equations: int, f
         truth["redundant_equations"] = max(0, equations - (coordinates - dof))
     if first == coordinates - equations:
         truth["redundant"] = []
-    return Known(name.partition(",")[0], name, scene, truth)
+    return KnownTruth(name.partition(",")[0], name, scene, truth)
 
 
 #: Every sweep by name.

@@ -44,7 +44,7 @@ def left_open(constraints: Iterable[int]) -> Redundancies:
 
 
 @dataclass(frozen=True)
-class Rows:
+class OwnedRows:
     """The matrix of a block, without zeros: ``owners[i]`` wrote row i, ``finite[i]`` tells a finite row.
 
     ``equations[i]`` is the number of the scalar equation that row i is of; -1 where it is not known.
@@ -67,7 +67,7 @@ class Rows:
         ]
 
 
-def analyse(parts: Sequence[Rows]) -> Redundancies:
+def analyse(parts: Sequence[OwnedRows]) -> Redundancies:
     """Redundant constraints, groups and circuits of blocks that share constraints."""
     order = _order(parts)
     bases = [_Basis(part) for part in parts]
@@ -84,7 +84,7 @@ def analyse(parts: Sequence[Rows]) -> Redundancies:
     return Redundancies(independent, sorted(redundant), groups, circuits, equations=_equations(parts, bases))
 
 
-def _equations(parts: Sequence[Rows], bases: Sequence[_Basis]) -> dict[int, tuple[int, ...]]:
+def _equations(parts: Sequence[OwnedRows], bases: Sequence[_Basis]) -> dict[int, tuple[int, ...]]:
     """The scalar equations all of whose rows follow from those before them, a constraint each."""
     known: dict[int, dict[int, bool]] = {}
     for part, basis in zip(parts, bases, strict=True):
@@ -101,7 +101,7 @@ def _equations(parts: Sequence[Rows], bases: Sequence[_Basis]) -> dict[int, tupl
 class _Basis:
     """The first independent rows, finite ones before differential ones, and the others in terms of them."""
 
-    def __init__(self, rows: Rows) -> None:
+    def __init__(self, rows: OwnedRows) -> None:
         self.owners = rows.owners
         known = self._by_elimination(rows) if rows.supports is None else self._known(rows, rows.supports)
         self.pivots, self.supports = known
@@ -111,19 +111,19 @@ class _Basis:
             self.circuits.setdefault(self.owners[i], set()).update(self.owners[j] for j in support)
 
     @staticmethod
-    def _known(rows: Rows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
+    def _known(rows: OwnedRows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
         supports = {i: list(support) for i, support in tell().items()}
         return [i for i in range(len(rows.owners)) if i not in supports], supports
 
     @staticmethod
-    def _by_elimination(rows: Rows) -> tuple[list[int], dict[int, list[int]]]:
+    def _by_elimination(rows: OwnedRows) -> tuple[list[int], dict[int, list[int]]]:
         numbers = sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
         found = echelon([rows.matrix[i] for i in numbers], rows.p, supports=True)
         pivots = [numbers[k] for k in found.independent]
         return pivots, {numbers[k]: [numbers[j] for j in support] for k, support in found.supports.items()}
 
 
-def _order(parts: Sequence[Rows]) -> list[int]:
+def _order(parts: Sequence[OwnedRows]) -> list[int]:
     """Constraints whose rows are all finite first, each part as written."""
     owners = sorted({o for part in parts for o in part.owners})
     differential = {o for part in parts for o, f in zip(part.owners, part.finite, strict=True) if not f}
@@ -144,7 +144,7 @@ def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
     return sorted(groups, key=lambda group: group[1])
 
 
-def _spans(parts: Sequence[Rows], kept: set[int], everything: set[int]) -> bool:
+def _spans(parts: Sequence[OwnedRows], kept: set[int], everything: set[int]) -> bool:
     """Do the kept constraints imply the others? Finite ones only by finite ones: a rate does not fix a constant."""
     return all(
         rank_of_rows(part.of(kept, only), part.p) == rank_of_rows(part.of(everything, only), part.p)
@@ -153,7 +153,7 @@ def _spans(parts: Sequence[Rows], kept: set[int], everything: set[int]) -> bool:
     )
 
 
-def _droppable(parts: Sequence[Rows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
+def _droppable(parts: Sequence[OwnedRows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
     """As many constraints of a group as can go together; of several choices the last in the order.
 
     Modulo 2 stands only which rows depend on which (balls tell no more): then those that add nothing to those before.
@@ -181,7 +181,7 @@ class _Dispensable:
     of rows that are 0 (Whitney): as many rows at most as there are such sums, however many rows there are.
     """
 
-    def __init__(self, parts: Sequence[Rows], members: Sequence[int]) -> None:
+    def __init__(self, parts: Sequence[OwnedRows], members: Sequence[int]) -> None:
         self._tables: list[tuple[dict[int, list[SparseRow]], int, int]] = []
         everything = set(members)
         for part in parts:
@@ -212,7 +212,7 @@ def _greedy(within: _Dispensable, order: Sequence[int], gone: Sequence[int]) -> 
     return dropped
 
 
-def _exchanged(parts: Sequence[Rows], members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
+def _exchanged(parts: Sequence[OwnedRows], members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
     """Many constraints of a group: the last first or the smallest first, then one given back where two can go for it.
 
     Constraints of several equations are no matroid: what is found cannot be enlarged so, but may not be the most.
@@ -236,7 +236,9 @@ def _exchanged(parts: Sequence[Rows], members: Sequence[int], rows_of: Mapping[i
     return dropped
 
 
-def _circuit(parts: Sequence[Rows], order: list[int], owner: int, bases: Sequence[_Basis], single: bool) -> list[int]:
+def _circuit(
+    parts: Sequence[OwnedRows], order: list[int], owner: int, bases: Sequence[_Basis], single: bool
+) -> list[int]:
     """A minimal set of other constraints on which a redundant one depends, of those before it where that can be."""
     if not any(owner in b.pivot_owners for b in bases):
         supports = set().union(*(b.circuits.get(owner, set()) for b in bases)) - {owner}

@@ -91,14 +91,14 @@ def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> 
 
 def _comparison(
     system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str], engines: Engines = BOTH
-) -> Comparison:
+) -> Equivalence:
     reduced, setting = prepared(system)
     setting = replace(setting, engines=engines)
-    return Comparison(system, tuple(reduced), setting, tuple(asked), tuple(answer), constants)
+    return Equivalence(system, tuple(reduced), setting, tuple(asked), tuple(answer), constants)
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Equivalence:
     """An answer beside the constraints that it should be."""
 
     system: System

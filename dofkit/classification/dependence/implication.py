@@ -21,7 +21,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, reduced
 from dofkit.relations.blocks import Row, coordinates_of, split
-from dofkit.relations.normal.domain import Condition, conditions_of
+from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal, Pfaffian
 from dofkit.relations.setting import Setting
@@ -71,8 +71,8 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
     if _undefined(relation, names, way.rows, setting):
         return False
     known = all(a.consistent for a in answers)
-    given = [r.piece for r in way.rows if isinstance(r.piece, Condition)]
-    asked = [p for b in relation.branches for p in b if isinstance(p, Condition) and p not in given]
+    given = [r.piece for r in way.rows if isinstance(r.piece, DomainCondition)]
+    asked = [p for b in relation.branches for p in b if isinstance(p, DomainCondition) and p not in given]
     branches = [[at_state(p) for p in b if isinstance(p, RELATIONS)] for b in relation.branches]
     still = all(isinstance(p, Finite) for p in relation.pieces)
     written = [s.written.piece.expr for s in way.slots if isinstance(s.written.piece, Nonlinear) and not still]
@@ -117,8 +117,8 @@ def _held(
     states: States,
     branches: Sequence[Sequence[Expr]],
     written: Sequence[Expr],
-    given: Sequence[Condition],
-    asked: Sequence[Condition],
+    given: Sequence[DomainCondition],
+    asked: Sequence[DomainCondition],
     smaller: bool,
 ) -> bool | None:
     """Does a branch vanish at every state that is drawn? ``given`` conditions hold there, those ``asked`` have to.
@@ -162,7 +162,7 @@ def _all_vanish(states: States, point: FieldPoint | BallPoint, expressions: Sequ
     return all_of(None if v is None else vanishes(v) for v in found)
 
 
-def _satisfied(states: States, point: BallPoint, condition: Condition) -> bool | None:
+def _satisfied(states: States, point: BallPoint, condition: DomainCondition) -> bool | None:
     """Does a condition hold at a real state? None where a ball does not tell."""
     value = value_at(states.ring, point, states.extra[condition.expr])
     if value is None or value.contains(0):

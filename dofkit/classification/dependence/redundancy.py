@@ -11,7 +11,7 @@ from itertools import combinations
 import networkx as nx
 
 from dofkit.base.deadline import check, limited, unless_late
-from dofkit.classification.dependence.circuits import Redundancies, Rows, analyse, left_open
+from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, left_open
 from dofkit.classification.dependence.implication import SLACK, follows
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.branches import Outcome
@@ -89,7 +89,7 @@ def _of_part(
             return [Redundancies(every, [], [], {}, equations=dict.fromkeys(numbers, ()))]
         return [_implied(reduced, setting, numbers)]
     found: list[Redundancies] = []
-    parts: list[Rows] = []
+    parts: list[OwnedRows] = []
     numbered = _numbered(reduced[i] for i in numbers)
     for block, a in blocks:
         if a.velocity_dof is None:
@@ -107,7 +107,7 @@ def _of_part(
             found.append(unless_late(partial(_by_leaving_out, block, setting, a, nullity), left_open(owners)))
         else:
             own_equations = [numbered.get(id(r.piece), -1) for r in block.rows]
-            parts.append(Rows(matrix, owners, finite, a.modulus, own_equations, a.supports))
+            parts.append(OwnedRows(matrix, owners, finite, a.modulus, own_equations, a.supports))
     by_rank = [
         unless_late(partial(_analysed, group), left_open(o for part in group for o in part.owners))
         for group in _sharing(parts)
@@ -180,7 +180,7 @@ def _fails_on_a_part(reduced: Sequence[Reduced], i: int, kept: Sequence[int], se
     return False
 
 
-def _analysed(group: list[Rows]) -> Redundancies:
+def _analysed(group: list[OwnedRows]) -> Redundancies:
     """One group's redundancies."""
     check()
     return analyse(group)
@@ -287,7 +287,7 @@ def _needed(
     return kept
 
 
-def _sharing(parts: Sequence[Rows]) -> list[list[Rows]]:
+def _sharing(parts: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
     """Blocks that share a constraint are looked at together."""
     graph: nx.Graph = nx.Graph()
     for k, part in enumerate(parts):

@@ -17,7 +17,7 @@ from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.differential_blocks import (
     Codistribution,
-    Sampled,
+    SampledSpan,
     ball_labels,
     codistribution,
     confined,
@@ -145,7 +145,7 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
     return result
 
 
-def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Sampled]]:
+def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, SampledSpan]]:
     """The Lie algebra at every sample; at one, where it is all of the tangent space and nothing could raise it."""
     good = []
     for point in found.samples:

@@ -15,7 +15,7 @@ from dofkit.exact.points.field import NoPointError
 from dofkit.expressions import tree as ex
 from dofkit.integrability.modulo_others import verified
 from dofkit.relations.answer import Answer
-from dofkit.relations.beside_others import MAX_WAYS, Slot
+from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow
 from dofkit.relations.beside_others import reduced as reduced_velocities
 from dofkit.relations.blocks import Block, Row, parted, split
 from dofkit.relations.integration_constants import names_in, with_rows
@@ -45,7 +45,7 @@ class Outcome:
     first_order: int | None = None
     kinked: bool = False
     copies: dict[int, int] = field(default_factory=dict)
-    reduced: tuple[Slot, ...] = ()
+    reduced: tuple[RewrittenRow, ...] = ()
 
     @property
     def consistent(self) -> bool | None:
@@ -100,7 +100,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
     copied = copies(reduced) if "copies" in setting.reductions else {}
     outcomes, why = list[Outcome](), None
-    known = Known(system)
+    known = AnsweredBlocks(system)
     constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
@@ -183,14 +183,16 @@ def _scaled(piece: object) -> object:
     return piece
 
 
-def _answered(names: Sequence[str], rows: list[Row], impossible: list[int], setting: Setting, known: Known) -> Outcome:
+def _answered(
+    names: Sequence[str], rows: list[Row], impossible: list[int], setting: Setting, known: AnsweredBlocks
+) -> Outcome:
     blocks, untouched = parted(names, rows, setting.reductions)
     compared = len(blocks) > 1 and "twins" in setting.reductions
     answers = [known.answer(block, setting, compared) for block in blocks]
     return Outcome(rows, blocks, answers, untouched, impossible)
 
 
-class Known:
+class AnsweredBlocks:
     """The blocks that were answered: the same block again, or one that differs in names only, is not asked twice.
 
     The blocks are kept, because their pieces' identities are keys.

@@ -25,7 +25,7 @@ from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.normal.domain import Condition, holds_at
+from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.relations.setting import Setting
@@ -83,7 +83,7 @@ def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:
     return found
 
 
-def _found(chart: Chart, left: Sequence[tuple[int, Condition]]) -> bool:
+def _found(chart: Chart, left: Sequence[tuple[int, DomainCondition]]) -> bool:
     """Is there a certified regular point, of the largest rank that was seen, at which all conditions hold strictly?"""
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
     points = []
@@ -98,7 +98,7 @@ def _found(chart: Chart, left: Sequence[tuple[int, Condition]]) -> bool:
     return any(p.rank == rank and _strictly(chart, p, left) for p in points)
 
 
-def _strictly(chart: Chart, found: RealPoint, left: Sequence[tuple[int, Condition]]) -> bool:
+def _strictly(chart: Chart, found: RealPoint, left: Sequence[tuple[int, DomainCondition]]) -> bool:
     try:
         at = values(chart.ring, found.point)
     except (OutsideDomainError, ZeroDivisionError):
@@ -106,15 +106,15 @@ def _strictly(chart: Chart, found: RealPoint, left: Sequence[tuple[int, Conditio
     return all(at[n] > 0 if c.sense != "!=" else not arb(at[n]).contains(0) for n, c in left)
 
 
-def _shown(conditions: Sequence[Condition]) -> str:
+def _shown(conditions: Sequence[DomainCondition]) -> str:
     return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in conditions)
 
 
-def _nowhere(result: Answer, conditions: Sequence[Condition], verdict: Literal["proved", "probable"]) -> Answer:
+def _nowhere(result: Answer, conditions: Sequence[DomainCondition], verdict: Literal["proved", "probable"]) -> Answer:
     why = f"as written the relations ask for {_shown(conditions)}, which holds nowhere where they do"
     return Answer(False, verdict=verdict, hidden=result.hidden, reasons=[*result.reasons, why])
 
 
-def _open(result: Answer, conditions: Sequence[Condition]) -> Answer:
+def _open(result: Answer, conditions: Sequence[DomainCondition]) -> Answer:
     why = f"no configuration was found at which the relations hold and, as they ask, {_shown(conditions)}"
     return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why])

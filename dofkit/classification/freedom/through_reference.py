@@ -14,7 +14,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.normal.domain import Condition, holds_at
+from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.normal_form import Finite, Normal, Piece
 from dofkit.relations.normal.signs import arguments_of, by_signs
 from dofkit.relations.normal.zero_set import zero_set
@@ -73,7 +73,7 @@ def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
     point = pose_point(chart, known, 5)
     if point is None or not on_variety(chart, point):
         return False
-    return all(holds_at(p, known, setting.positive) is not False for p in branch if isinstance(p, Condition))
+    return all(holds_at(p, known, setting.positive) is not False for p in branch if isinstance(p, DomainCondition))
 
 
 def _block(pieces: Sequence[Finite]) -> Block:
@@ -98,4 +98,4 @@ def algebraic(e: Expr, *more: str) -> bool:
 
 def conditional(normal: Normal) -> bool:
     """Does a branch say only where it holds?"""
-    return any(all(isinstance(p, Condition) for p in branch) for branch in normal.branches if branch)
+    return any(all(isinstance(p, DomainCondition) for p in branch) for branch in normal.branches if branch)

@@ -34,7 +34,7 @@ class Together:
 
 
 @dataclass(frozen=True)
-class Found:
+class CompanionIntegrals:
     """Integrals by the numbers of the rows they can stand for, and all of them."""
 
     by_row: Mapping[int, FirstIntegral]
@@ -46,7 +46,7 @@ class Companionship:
     """The blocks of a system, asked one constraint at a time; what was found for a block is kept."""
 
     setting: Setting
-    _integrals: dict[tuple[int, ...], Found] = field(default_factory=dict)
+    _integrals: dict[tuple[int, ...], CompanionIntegrals] = field(default_factory=dict)
 
     def of(self, constraint: int, block: Block, a: Answer) -> Together:
         """For a constraint that is holonomic in its block: what it needs there, and its integral."""
@@ -112,26 +112,26 @@ class Companionship:
             return []
         return [equation(f, block, i if len(integrals) > 1 else None) for i, f in enumerate(integrals)]
 
-    def _found(self, block: Block, owners: Sequence[int]) -> Found:
+    def _found(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
         """The integrals of a block's rows that some constraints wrote."""
         key = (id(block), *owners)
         if key not in self._integrals:
             self._integrals[key] = self._sought(block, owners)
         return self._integrals[key]
 
-    def _sought(self, block: Block, owners: Sequence[int]) -> Found:
+    def _sought(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
         numbers = [i for i, r in enumerate(block.rows) if r.constraint in owners]
         part = Block(block.coordinates, tuple(block.rows[i] for i in numbers))
         plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
         whole = answer(part, plain)
         if whole.dof is None:
-            return Found({}, [])
+            return CompanionIntegrals({}, [])
         forms = codistribution(part, plain, whole.hidden)
         sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
         integrals = first_integrals(forms, sought)
         shift = forms.finite - len(part.finite)
         by_row = assigned(forms, integrals)
-        return Found({numbers[row - shift]: f for row, f in by_row.items()}, integrals)
+        return CompanionIntegrals({numbers[row - shift]: f for row, f in by_row.items()}, integrals)
 
 
 def _forms_of(constraint: int, block: Block) -> list[int]:

@@ -13,7 +13,7 @@ from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.isomorphic_blocks import nameless
 from dofkit.classification.labels.companions import Companionship
-from dofkit.classification.labels.entry import Told, entry, label_in_system, unfinished
+from dofkit.classification.labels.entry import LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import said
 from dofkit.classification.labels.reasons import Others
 from dofkit.exact.points.field import NoPointError
@@ -115,7 +115,7 @@ def _unmeasured(outcome: Outcome) -> set[int]:
 def _one(
     i: int,
     r: Reduced,
-    told: list[Told],
+    told: list[LabelledRow],
     setting: Setting,
     consistent: bool | None,
     independent: int | None,
@@ -147,7 +147,9 @@ def _one(
     )
 
 
-def _with_others(i: int, told: Sequence[Told], company: Companionship, names: Sequence[str], in_system: bool) -> Others:
+def _with_others(
+    i: int, told: Sequence[LabelledRow], company: Companionship, names: Sequence[str], in_system: bool
+) -> Others:
     """What the constraints of its block do for a form; nothing where it stands alone there or in several blocks."""
     blocks = {id(t.block): t for t in told if t.block is not None}
     only = next(iter(blocks.values())) if len(blocks) == 1 else None
@@ -175,30 +177,30 @@ class _Remembered:
         return found
 
 
-def _told(number: int, outcome: Outcome, setting: Setting) -> list[list[Told]]:
+def _told(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
     """Every constraint's rows with their labels; a copy has those of its original.
 
     What the other constraints reduce is labelled as it was written.
     """
-    told: list[list[Told]] = [[] for _ in range(number)]
+    told: list[list[LabelledRow]] = [[] for _ in range(number)]
     replaced = {id(row) for slot in outcome.reduced for row in slot.rows}
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         linear = [r for r in block.rows if not isinstance(r.piece, Nonlinear)]
         for i, row in enumerate(linear):
             if id(row) not in replaced:
-                told[row.constraint].append(Told(row, a.labels.get(i), a, block))
+                told[row.constraint].append(LabelledRow(row, a.labels.get(i), a, block))
         for row in block.rows:
             if isinstance(row.piece, Nonlinear):
-                told[row.constraint].append(Told(row, None, a, block))
+                told[row.constraint].append(LabelledRow(row, None, a, block))
     for slot in outcome.reduced:
         found, a = label(slot, outcome.blocks, outcome.answers, setting)
-        told[slot.written.constraint].append(Told(slot.written, found, a, reduced=True))
+        told[slot.written.constraint].append(LabelledRow(slot.written, found, a, reduced=True))
     for i, original in outcome.copies.items():
-        told[i] = [Told(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in told[original]]
+        told[i] = [LabelledRow(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in told[original]]
     return told
 
 
-def _curved(told: Sequence[Told]) -> Answer | None:
+def _curved(told: Sequence[LabelledRow]) -> Answer | None:
     """Velocities that bend under the other constraints bend without them."""
     return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
 
@@ -214,7 +216,7 @@ def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
         return Answer(None, verdict="undecided")
 
 
-def _inherited(told: Sequence[Told]) -> Answer | None:
+def _inherited(told: Sequence[LabelledRow]) -> Answer | None:
     """A single form that is non-holonomic in the system is so alone: what integrates alone integrates in any system."""
     if len(told) != 1 or told[0].label is None or told[0].label.holonomic is not False:
         return None

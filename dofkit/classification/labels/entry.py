@@ -12,7 +12,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.single_form import Integrability, integrability
 from dofkit.integrability.traits import Traits
-from dofkit.relations.answer import Answer, Label
+from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.normal_form import (
     Finite,
@@ -30,14 +30,14 @@ from dofkit.system import Constraint
 
 
 @dataclass(frozen=True)
-class Told:
+class LabelledRow:
     """A row, its label in the system (None: finite or nonlinear), and its block's answer.
 
     ``reduced``: a nonlinear row that the others make linear, or imply.
     """
 
     row: Row
-    label: Label | None
+    label: HolonomyLabel | None
     answer: Answer
     block: Block | None = None
     reduced: bool = False
@@ -56,7 +56,7 @@ def entry(
     constraint: Constraint,
     normals: Sequence[Normal],
     inequalities: Sequence[Inequality],
-    told: Sequence[Told],
+    told: Sequence[LabelledRow],
     by_itself: Answer | None,
     setting: Setting,
     independent: int | None,
@@ -161,7 +161,7 @@ def _together(labels: Sequence[bool | None]) -> bool | None:
     return None if any(label is None for label in labels) else True
 
 
-def _labels(in_system: bool | None, own: bool | None, told: Sequence[Told]) -> Labels:
+def _labels(in_system: bool | None, own: bool | None, told: Sequence[LabelledRow]) -> Labels:
     undecided = [t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason]
     late = [why for t in told if t.answer.late for why in t.answer.reasons]
     reduced = (t.label.reason for t in told if t.reduced and t.label and t.label.holonomic is False)
@@ -169,7 +169,10 @@ def _labels(in_system: bool | None, own: bool | None, told: Sequence[Told]) -> L
 
 
 def label_in_system(
-    told: Sequence[Told], inequalities: Sequence[Inequality], proofs: Sequence[Integrability], forms: Sequence[Pfaffian]
+    told: Sequence[LabelledRow],
+    inequalities: Sequence[Inequality],
+    proofs: Sequence[Integrability],
+    forms: Sequence[Pfaffian],
 ) -> tuple[bool | None, Verdict]:
     """(holonomic, verdict): all rows are consequences of finite relations; an inequality never is."""
     if inequalities:
@@ -195,7 +198,7 @@ def label_in_system(
     return together, weakest(*verdicts)
 
 
-def _strongest(told: Sequence[Told], proved: set[int]) -> Verdict:
+def _strongest(told: Sequence[LabelledRow], proved: set[int]) -> Verdict:
     """How sure the surest row is that it is not holonomic."""
     found: list[Verdict] = []
     for t in told:

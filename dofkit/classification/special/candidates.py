@@ -11,7 +11,7 @@ from math import comb
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit.classification.special.common_zeros import MAX_READ, Leaf, common_zeros
-from dofkit.classification.special.minors import MAX_MINORS, Reduction, Table, curvatures
+from dofkit.classification.special.minors import MAX_MINORS, EliminatedTable, MinorTable, curvatures
 from dofkit.exact.ring.canonical import Poly, TooLargeError
 from dofkit.exact.ring.minors import determinant
 from dofkit.expressions import tree as ex
@@ -35,17 +35,17 @@ class Candidates:
         return not (self.ranks or self.bends or self.poles or self.values)
 
 
-def candidates(table: Table, rank: int | None, curvature: int) -> Candidates:
+def candidates(table: MinorTable, rank: int | None, curvature: int) -> Candidates:
     """All that are found; ``rank`` of the rows in the coordinates' columns (None: they contradict each other).
 
     ``curvature``: the number of independent directions that [D, D] adds to D at a generic point, 0 where not known.
     """
-    search = _Search(table)
+    search = CandidateSearch(table)
     if rank is None:
         search.attempt(search.agreements)
         return search.found
     search.attempt(search.poles)
-    reduction = Reduction(table)
+    reduction = EliminatedTable(table)
     size = rank - len(reduction.solved)
     search.attempt(lambda: search.minors(reduction, size))
     search.attempt(lambda: search.curvature(reduction, size, curvature))
@@ -61,8 +61,8 @@ def _simple(leaf: Leaf) -> bool:
     return all(len(p) <= MAX_READ for p in (*leaf.others, *(v for _, v in leaf.solved)))
 
 
-class _Search:
-    def __init__(self, table: Table) -> None:
+class CandidateSearch:
+    def __init__(self, table: MinorTable) -> None:
         self.table, self.reals = table, table.reals
         self.found = Candidates()
 
@@ -76,17 +76,17 @@ class _Search:
     def agreements(self) -> None:
         """Values for which relations that contradict each other may agree, or rows that do become dependent."""
         self.places(self.table.relations)
-        reduction = Reduction(self.table)
+        reduction = EliminatedTable(self.table)
         self.values_of([entry for r in reduction.rest for entry in reduction.work[r]])
 
-    def minors(self, reduction: Reduction, size: int) -> None:
+    def minors(self, reduction: EliminatedTable, size: int) -> None:
         if size < 1:
             return
         minors = [m for m in reduction.minors(size) if m != 0]
         self.values_of(minors)
         self.found.ranks += self.places(minors)
 
-    def curvature(self, reduction: Reduction, size: int, independent: int) -> None:
+    def curvature(self, reduction: EliminatedTable, size: int, independent: int) -> None:
         """Where all of it vanishes, for which parameters that of one form does, and where less of it is independent."""
         if size < 0 or not any(self.table.curls):
             return

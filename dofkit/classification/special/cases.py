@@ -17,10 +17,17 @@ from dofkit.classification.freedom.isomorphic_blocks import alike
 from dofkit.classification.special.candidates import Candidates, candidates
 from dofkit.classification.special.common_zeros import Leaf, Reals
 from dofkit.classification.special.integrals import undefined_integrals
-from dofkit.classification.special.loci import Place, place, undefined
+from dofkit.classification.special.loci import Locus, place, undefined
 from dofkit.classification.special.meeting_branches import meetings
-from dofkit.classification.special.minors import Table, table_of
-from dofkit.classification.special.parameters import Condition, Values, assignments, at_values, changed, differences
+from dofkit.classification.special.minors import MinorTable, table_of
+from dofkit.classification.special.parameters import (
+    ParameterCondition,
+    Values,
+    assignments,
+    at_values,
+    changed,
+    differences,
+)
 from dofkit.classification.special.wording import drop, flag, order_of, where
 from dofkit.exact.points.field import NoPointError
 from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError
@@ -49,7 +56,7 @@ Again = Callable[[System], Report]
 
 
 @dataclass(frozen=True)
-class Told:
+class GenericAnswer:
     """What a case is told against: the system, what may be assumed of it, and the generic answer."""
 
     system: System
@@ -80,12 +87,12 @@ class Told:
 
 
 @dataclass(frozen=True)
-class Found:
+class SearchedBlock:
     """One block, its polynomials and its candidates."""
 
     block: Block
     answer: Answer
-    table: Table
+    table: MinorTable
     candidates: Candidates
 
     @property
@@ -108,13 +115,13 @@ def special_cases(
     """
     if setting.tolerance is not None or len(outcome.blocks) > MAX_BLOCKS:
         return {}
-    told = Told(system, setting, report, order_of(system), [q for r in reduced for q in r.inequalities])
+    told = GenericAnswer(system, setting, report, order_of(system), [q for r in reduced for q in r.inequalities])
     cases: list[SpecialCase] = []
     with limited(MAX_SECONDS):
         found = _searched(outcome, told)
         if not found:
             return {}
-        conditions = [Condition(leaf, f.table.reals) for f in found for leaf in f.candidates.values]
+        conditions = [ParameterCondition(leaf, f.table.reals) for f in found for leaf in f.candidates.values]
         with suppress(*_UNFINISHED):
             conditions += undefined_integrals(system, report)
         for part in (
@@ -127,7 +134,7 @@ def special_cases(
     return {"special_cases": _merged(cases), "method": f"{report.method}; {SEARCHED}"}
 
 
-def _searched(outcome: Outcome, told: Told) -> list[Found]:
+def _searched(outcome: Outcome, told: GenericAnswer) -> list[SearchedBlock]:
     """The blocks that are small, with their candidates; where one has none, those that are like it are left out."""
     roles = {c.name: (c.owner, c.role) for c in told.system.coordinates}
     fruitless: set[Hashable] = set()
@@ -155,7 +162,7 @@ def _merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
     return list(kept.values())
 
 
-def _search(block: Block, a: Answer, told: Told) -> Found | None:
+def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | None:
     """The candidates of a block; None where it is not searched."""
     system = told.system
     if not _small(block, a) or not _plain(block, told) or expired():
@@ -165,7 +172,7 @@ def _search(block: Block, a: Answer, told: Told) -> Found | None:
     curvature = a.growth[1] - a.growth[0] if a.growth and len(a.growth) > 1 else 0
     try:
         table = table_of(block, a.hidden, told.setting, nonzero)
-        return Found(block, a, table, candidates(table, rank, curvature))
+        return SearchedBlock(block, a, table, candidates(table, rank, curvature))
     except _UNFINISHED:
         return None
 
@@ -183,7 +190,7 @@ def _small(block: Block, a: Answer) -> bool:
     )
 
 
-def _plain(block: Block, told: Told) -> bool:
+def _plain(block: Block, told: GenericAnswer) -> bool:
     """Coordinates that are what their names say, no generic geometry, and no drawing that speaks for itself."""
     system = told.system
     turning = {name for r in system.rotations if r.chart == "gibbs" for name in r.names}
@@ -197,7 +204,7 @@ def _plain(block: Block, told: Told) -> bool:
 # -- loci -----------------------------------------------------------------------------------------
 
 
-def _places(found: Found, told: Told) -> Iterator[SpecialCase]:
+def _places(found: SearchedBlock, told: GenericAnswer) -> Iterator[SpecialCase]:
     """Ranks that drop, then curvature that vanishes elsewhere, then coefficients without a value."""
     if told.report.velocity_dof is None:
         return
@@ -215,7 +222,7 @@ def _places(found: Found, told: Told) -> Iterator[SpecialCase]:
         yield from _pole(found, told, row, below)
 
 
-def _seen(found: Found, told: Told, leaf: Leaf, grows: int) -> Place | None:
+def _seen(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
     canon, reals = found.table.canon, found.table.reals
     left = [g for g in found.table.relations if not _holds(reals, leaf, g)]
     if len(leaf.conditions(canon)) + len(left) > len(found.block.coordinates):
@@ -234,7 +241,7 @@ def _holds(reals: Reals, leaf: Leaf, relation: Poly) -> bool:
 
 
 def _locus(
-    found: Found, told: Told, leaf: Leaf, what: str, constraints: Sequence[int], sure: Verdict
+    found: SearchedBlock, told: GenericAnswer, leaf: Leaf, what: str, constraints: Sequence[int], sure: Verdict
 ) -> Iterator[SpecialCase]:
     at = where(found.table.canon, leaf, told.order)
     sure = weakest(sure, found.answer.verdict)
@@ -242,14 +249,14 @@ def _locus(
         yield SpecialCase(where=at, kind="locus", what=what, constraints=told.names(constraints), verdict=sure)
 
 
-def _dropping(found: Found, told: Told, leaf: Leaf, seen: Place) -> Iterator[SpecialCase]:
+def _dropping(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus) -> Iterator[SpecialCase]:
     """The minors vanish identically on the locus; a ball certifies the rank that is left."""
     by = found.rank - seen.rank
     sure: Verdict = "proved" if by == 1 and seen.regular else "probable"
     return _locus(found, told, leaf, drop(told.rank, by, told.velocities, seen.moves), seen.dependent, sure)
 
 
-def _bending(found: Found, told: Told, leaf: Leaf, seen: Place) -> Iterator[SpecialCase]:
+def _bending(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus) -> Iterator[SpecialCase]:
     """Curvature that vanishes, or of which less is independent, where no rank drops."""
     own, there = found.answer.growth, seen.growth
     if seen.rank != found.rank or not seen.moves or len(there) < 2:
@@ -264,7 +271,7 @@ def _bending(found: Found, told: Told, leaf: Leaf, seen: Place) -> Iterator[Spec
     yield from _locus(found, told, leaf, what, forms, sure)
 
 
-def _pole(found: Found, told: Told, row: int, below: Poly) -> Iterator[SpecialCase]:
+def _pole(found: SearchedBlock, told: GenericAnswer, row: int, below: Poly) -> Iterator[SpecialCase]:
     """Coefficients of a form that have no value where their denominator is 0."""
     block, canon = found.block, found.table.canon
     given = len(block.finite) + len(found.answer.hidden)
@@ -282,11 +289,11 @@ def _pole(found: Found, told: Told, row: int, below: Poly) -> Iterator[SpecialCa
 # -- parameters -----------------------------------------------------------------------------------
 
 
-def _values(conditions: Sequence[Condition], told: Told, again: Again) -> Iterator[SpecialCase]:
+def _values(conditions: Sequence[ParameterCondition], told: GenericAnswer, again: Again) -> Iterator[SpecialCase]:
     """The scene answered again for every set of special values."""
     if len(told.system.coordinates) > MAX_SCENE:
         return
-    different: dict[str, Condition] = {}
+    different: dict[str, ParameterCondition] = {}
     for condition in conditions:
         at = where(condition.reals.canon, condition.leaf, told.order)
         known = different.get(at, condition)
@@ -303,7 +310,9 @@ def _values(conditions: Sequence[Condition], told: Told, again: Again) -> Iterat
             yield case
 
 
-def _at_values(condition: Condition, ways: Sequence[Values], at: str, told: Told, again: Again) -> SpecialCase | None:
+def _at_values(
+    condition: ParameterCondition, ways: Sequence[Values], at: str, told: GenericAnswer, again: Again
+) -> SpecialCase | None:
     """What the answer becomes, where all values that satisfy the conditions give the same one."""
     system = told.system
     try:

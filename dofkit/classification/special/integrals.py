@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dofkit.base.errors import TextError
 from dofkit.classification.special.common_zeros import Reals, common_zeros
-from dofkit.classification.special.parameters import Condition
+from dofkit.classification.special.parameters import ParameterCondition
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -16,7 +16,7 @@ from dofkit.report import ConstraintEntry, Report
 from dofkit.system import System
 
 
-def undefined_integrals(system: System, report: Report) -> Iterator[Condition]:
+def undefined_integrals(system: System, report: Report) -> Iterator[ParameterCondition]:
     """The factors of integrals' denominators that vanish for special values of the parameters."""
     free = {name for name, sign in system.parameters.items() if sign != "nonzero"}
     entries = [e for e in report.constraints if e.integral and "/" in e.integral] if free else []
@@ -38,7 +38,7 @@ def undefined_integrals(system: System, report: Report) -> Iterator[Condition]:
             below = canon.quotient(node)[1]
             factors = [] if below.is_constant() else [f for f in reals.factors(below) if reals.of_parameters(f)]
             for factor in factors:
-                yield from (Condition(leaf, reals, (entry.name,)) for leaf in common_zeros(reals, [factor]))
+                yield from (ParameterCondition(leaf, reals, (entry.name,)) for leaf in common_zeros(reals, [factor]))
 
 
 def _read(entry: ConstraintEntry, names: Names) -> list[Expr]:

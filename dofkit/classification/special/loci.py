@@ -13,12 +13,12 @@ from dofkit.configuration.variety import on_variety
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint, OutsideDomainError, RealSearch
 from dofkit.exact.points.field import FieldPoint, NoPointError
-from dofkit.exact.points.frames import Frame, Rows, certified_rank, field_frame, rank_over
+from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame, rank_over
 from dofkit.exact.ring.program import values
-from dofkit.exact.solving.triangular import Solver
+from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.lie_algebra import Flow, columns_of
+from dofkit.integrability.lie_algebra import AdmissibleCurve, columns_of
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, uses_time
 from dofkit.relations.chart import Chart
@@ -46,7 +46,7 @@ class Points:
 
 def points_of(chart: Chart) -> Points | None:
     """Points where all relations of a chart hold; None where they were not found at once."""
-    solver = Solver(chart.ring, chart.nodes, seed=1)
+    solver = TriangularSolver(chart.ring, chart.nodes, seed=1)
     drawn = solver.draw(1)
     if drawn is None or not on_variety(chart, drawn):
         return None
@@ -58,7 +58,7 @@ def points_of(chart: Chart) -> Points | None:
 
 
 @dataclass(frozen=True)
-class Place:
+class Locus:
     """A block's rows on a locus.
 
     ``rank`` in the coordinates' columns; ``moves``: False where no velocity satisfies them (dt lies in their
@@ -77,7 +77,7 @@ class Place:
 
 def place(
     block: Block, a: Answer, setting: Setting, conditions: Sequence[Expr], relations: Sequence[Expr], grows: int
-) -> Place | None:
+) -> Locus | None:
     """The rows on the locus; None where there is no such real configuration, or the engines disagree on a rank.
 
     ``relations``: the finite relations that do not hold there anyway; ``grows``: the rank at which D's growth is asked.
@@ -100,8 +100,8 @@ def place(
     owners = _owners(block, a, _dependent(a, _part(matrix, n), point.p))
     frame = field_frame(matrix, len(rows.columns), point.p)
     if not rank == whole == grows or not frame.rows or not frame.free:
-        return Place(rank, whole == rank, owners, found.regular)
-    return Place(
+        return Locus(rank, whole == rank, owners, found.regular)
+    return Locus(
         rank, True, owners, found.regular, _growth(rows, frame, point, a), _least(rows, balls, frame, found.real)
     )
 
@@ -112,7 +112,7 @@ def _part(matrix: list[list[Any]], n: int) -> list[list[Any]]:
 
 def _rows(
     block: Block, a: Answer, setting: Setting, conditions: Sequence[Expr], relations: Sequence[Expr]
-) -> tuple[Rows, Chart]:
+) -> tuple[FormRows, Chart]:
     """The block's rows over a chart of the locus: finite differentials, hidden ones among them, then forms."""
     finite = [*(r.piece.expr for r in block.finite if isinstance(r.piece, Finite)), *a.hidden]
     symbols = [ex.coordinate(c) for c in block.coordinates]
@@ -126,7 +126,7 @@ def _rows(
         index = chart.ring.var_index(ex.TIME)
         chart = replace(chart, symbols=tuple(symbols), columns=(*chart.columns, -1 if index is None else index))
     nodes = tuple({c: chart.ring.node(e) for c, e in row.items() if not e.is_zero} for row in entries)
-    return Rows(chart.ring, nodes, chart.columns), chart
+    return FormRows(chart.ring, nodes, chart.columns), chart
 
 
 def _chart(block: Block, setting: Setting, relations: Sequence[Expr], more: Sequence[Expr]) -> Chart:
@@ -154,7 +154,7 @@ def _owners(block: Block, a: Answer, rows: Iterable[int]) -> tuple[int, ...]:
     return tuple(sorted({block.rows[i].constraint for i in places}))
 
 
-def _growth(rows: Rows, frame: Frame, point: FieldPoint, a: Answer) -> tuple[int, ...]:
+def _growth(rows: FormRows, frame: Pivots, point: FieldPoint, a: Answer) -> tuple[int, ...]:
     """Dimensions of D, D + [D, D], ... at a point that need not be generic, up to what D reaches elsewhere.
 
     The values of ad_X^k B for many X span all brackets of length k + 1 up to length 3, and up to length 4 in two fields
@@ -163,11 +163,11 @@ def _growth(rows: Rows, frame: Frame, point: FieldPoint, a: Answer) -> tuple[int
     """
     largest = a.growth[-1] if a.growth else len(rows.columns)
     certain = 4 if len(frame.free) == 2 else 3
-    flows: list[Flow] = []
+    flows: list[AdmissibleCurve] = []
     dimensions: tuple[int, ...] = ()
     quiet = 0
     while quiet < 2 and len(flows) < CURVES:
-        flows.append(Flow(rows, frame, point))
+        flows.append(AdmissibleCurve(rows, frame, point))
         flows[-1].follow(LONGEST)
         before, dimensions = dimensions, _dimensions(flows)
         quiet = quiet + 1 if dimensions == before else 0
@@ -175,13 +175,13 @@ def _growth(rows: Rows, frame: Frame, point: FieldPoint, a: Answer) -> tuple[int
     return dimensions[: reached if reached <= certain + 1 else certain]
 
 
-def _least(rows: Rows, balls: list[list[arb]], frame: Frame, point: BallPoint) -> tuple[int, ...]:
+def _least(rows: FormRows, balls: list[list[arb]], frame: Pivots, point: BallPoint) -> tuple[int, ...]:
     """What D, D + [D, D] and the next have at least, along one curve of balls."""
     if certified_rank([[balls[r][c] for c in frame.dependent] for r in frame.rows]) < len(frame.rows):
         return ()
     try:
         point.rng.seed("dofkit curve")
-        flow = Flow(rows, frame, point)
+        flow = AdmissibleCurve(rows, frame, point)
         flow.follow(3)
         vectors = [v for k in range(3) for v in columns_of(flow.pulled[k])]
         size = len(frame.free)
@@ -190,7 +190,7 @@ def _least(rows: Rows, balls: list[list[arb]], frame: Frame, point: BallPoint) -
         return ()
 
 
-def _dimensions(flows: Sequence[Flow]) -> tuple[int, ...]:
+def _dimensions(flows: Sequence[AdmissibleCurve]) -> tuple[int, ...]:
     vectors: list[tuple[Any, ...]] = []
     found = []
     for k in range(LONGEST):

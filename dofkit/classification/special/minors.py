@@ -31,7 +31,7 @@ MAX_TERMS, MAX_SHORT = 12, 60
 
 
 @dataclass(frozen=True)
-class Table:
+class MinorTable:
     """``relations`` are the finite relations; ``rows`` over ``symbols`` (coordinates, then time where it enters).
 
     The first rows are the relations' differentials. Of every form ``curls`` has the coefficients of d(omega) by
@@ -54,7 +54,7 @@ class Table:
         return sum(s != ex.TIME for s in self.symbols)
 
 
-def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: frozenset[Expr]) -> Table:
+def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: frozenset[Expr]) -> MinorTable:
     """The polynomials of a block without nonlinear rows. Raises TooLargeError."""
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(hidden)
     forms = [dict(r.piece.items()) for r in block.forms if isinstance(r.piece, Pfaffian)]
@@ -72,7 +72,7 @@ def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: fr
     clear = [cleared(canon, row) for row in written]
     bent = [_curl(slopes, form, values, symbols) for form in forms]
     turned = [dict(zip(curl, cleared(canon, list(curl.values()))[0], strict=True)) for curl in bent]
-    return Table(
+    return MinorTable(
         canon,
         Reals(canon, setting.positive, nonzero),
         symbols,
@@ -106,14 +106,14 @@ def _clock(slopes: Derivation, row: Sequence[Quotient]) -> list[Poly]:
     return [row[-1][0], *(slopes.of(entry, ex.TIME)[0] for entry in row[:-1])]
 
 
-class Reduction:
+class EliminatedTable:
     """The rows after elimination with pivots that never vanish.
 
     ``solved``: (pivot column, row) with the pivot 1 and 0 in the other pivot columns, up to the factors in
     ``scales``; ``rest``: what is left of the other rows, over the ``free`` columns.
     """
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: MinorTable) -> None:
         self.table, self.canon = table, table.canon
         work = [row[:] for row in table.rows]
         self.solved: list[tuple[int, int]] = []
@@ -195,7 +195,7 @@ class Reduction:
         return lifted
 
 
-def curvatures(table: Table, vectors: Sequence[Sequence[Poly]]) -> list[list[Poly]]:
+def curvatures(table: MinorTable, vectors: Sequence[Sequence[Poly]]) -> list[list[Poly]]:
     """Of every form d(omega)(u, v) for all pairs of vectors; no pairs where it is closed."""
     canon, found = table.canon, []
     for curl in table.curls:

@@ -26,7 +26,7 @@ MAX_VALUES = 4
 
 
 @dataclass(frozen=True)
-class Condition:
+class ParameterCondition:
     """Conditions on parameters alone; ``integrals``: the constraints whose integrals are not defined under them."""
 
     leaf: Leaf
@@ -34,7 +34,7 @@ class Condition:
     integrals: tuple[str, ...] = ()
 
 
-def assignments(condition: Condition, signs: Mapping[str, Sign]) -> list[dict[Expr, Expr]]:
+def assignments(condition: ParameterCondition, signs: Mapping[str, Sign]) -> list[dict[Expr, Expr]]:
     """Values of the parameters for which the conditions hold, the declared signs kept; none where that is not sure."""
     leaf, reals = condition.leaf, condition.reals
     found: list[dict[Expr, Expr]] = [{}]

@@ -13,7 +13,7 @@ from dofkit.base.verdicts import weakest
 from dofkit.configuration.drawing.dependent_classes import chart_of, dependent_parts
 from dofkit.configuration.drawing.fewer_coordinates import smaller
 from dofkit.configuration.local.dimension import INDEPENDENT, WHOLE, numeric_dimension
-from dofkit.configuration.local.manifold import Local, Manifold
+from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.configuration.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part, dependencies
@@ -21,12 +21,12 @@ from dofkit.exact.matrices.modular import rank_of, without_time
 from dofkit.exact.matrices.sparse import SparseRow, echelon, rank_of_rows, sparse
 from dofkit.exact.points.balls import BallPoint, OutsideDomainError, jacobian, precision
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import Frame
+from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.answer import Looked
+from dofkit.relations.answer import FollowedClasses
 from dofkit.relations.chart import Chart
 
 #: A gap between singular values that tells them apart.
@@ -44,14 +44,14 @@ class AtReference:
     """
 
     instantaneous: int
-    local: Local
+    local: LocalDimension
     matrix: list[SparseRow]
     modulus: int
     rank: int
     rigid: int
     ball: BallPoint | None
     dependent: tuple[int, ...] | None = None
-    looked: Looked = field(default_factory=Looked)
+    looked: FollowedClasses = field(default_factory=FollowedClasses)
 
 
 def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = True) -> AtReference | None:
@@ -75,7 +75,7 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     ball = None
     if not exact:
         ball = ball_point(chart, known, point.rng) if "balls" in chart.engines else None
-        local = Local(None, "undecided", "measured")
+        local = LocalDimension(None, "undecided", "measured")
         return AtReference(n - rank_q, local, [], point.p, rank, rigid, ball)
     few = len(chart.columns) - rank - timed - rigid <= BALL_COLUMNS
     together = timed or rank == n - rigid or "classes" not in chart.reductions
@@ -85,7 +85,7 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
     if rank < len(matrix) and not timed:
         local, spared = _with_fewer(chart, known, point, fields, few)
-        looked = Looked(coordinates=n - spared, spared=spared)
+        looked = FollowedClasses(coordinates=n - spared, spared=spared)
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
     if rank < len(matrix) and few and "balls" in chart.engines:
         ball = ball_point(chart, known, point.rng)
@@ -95,7 +95,7 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
 
 def _with_fewer(
     chart: Chart, known: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]], few: bool
-) -> tuple[Local, int]:
+) -> tuple[LocalDimension, int]:
     """The local dimension by a chart with fewer coordinates, where there is one, and how many went.
 
     ``fields``: the motions of the whole as one body over the chart's columns; what they are on fewer is what is left.
@@ -104,9 +104,9 @@ def _with_fewer(
     spared = chart.coordinates - small.coordinates
     here = point if small is chart else pose_point(small, known, 3)
     if here is None or not on_variety(small, here):
-        return Local(None, "undecided", "with fewer coordinates the relations do not hold at the drawing"), 0
+        return LocalDimension(None, "undecided", "with fewer coordinates the relations do not hold at the drawing"), 0
     if not small.nodes:
-        return Local(free, "proved", EXPLICIT), spared
+        return LocalDimension(free, "proved", EXPLICIT), spared
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
     ball = ball_point(small, known, here.rng) if few and "balls" in chart.engines else None
@@ -116,7 +116,7 @@ def _with_fewer(
 
 def _by_parts(
     chart: Chart, known: Mapping[Expr, Expr], matrix: Sequence[SparseRow], p: int, rank: int
-) -> tuple[Local, Looked] | None:
+) -> tuple[LocalDimension, FollowedClasses] | None:
     """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
 
     See `separate`. None where one does not, or is not known to, or is all there is: then all have to be looked at
@@ -124,7 +124,7 @@ def _by_parts(
     """
     dimension = len(chart.columns) - rank
     if rank == len(matrix):
-        return Local(dimension, "proved", INDEPENDENT), Looked(rank)
+        return LocalDimension(dimension, "proved", INDEPENDENT), FollowedClasses(rank)
     parts = dependent_parts(chart, echelon(matrix, p, supports=True))
     if len(parts) == 1 and len(parts[0].rows) == len(matrix):
         return None
@@ -140,12 +140,12 @@ def _by_parts(
         more += spared
     reasons = dict.fromkeys(local.reason for local in found)
     looked_at = {row for part in parts for row in part.rows}
-    local = Local(dimension, weakest(*(local.verdict for local in found)), "; ".join(reasons))
+    local = LocalDimension(dimension, weakest(*(local.verdict for local in found)), "; ".join(reasons))
     rigid = sum(local.reason == RIGID for local in found)
-    return local, Looked(len(matrix) - len(looked_at), rigid, len(found) - rigid, followed, more)
+    return local, FollowedClasses(len(matrix) - len(looked_at), rigid, len(found) - rigid, followed, more)
 
 
-def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local | None, int]:
+def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
     """One class by itself, and how many coordinates went before it was followed.
 
     None where its set is not known to be a manifold of the codimension of its rank.
@@ -157,12 +157,12 @@ def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
     if left == rigid:
-        return Local(left, "proved", RIGID), 0
+        return LocalDimension(left, "proved", RIGID), 0
     local, spared = _with_fewer(chart, known, point, fields, left - rigid <= BALL_COLUMNS)
     return (local if local.dimension == left else None), spared
 
 
-def _at_fixed_time(local: Local, timed: int) -> Local:
+def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
     """The dimension without that of time, along which the set goes on; none where it does not."""
     if local.dimension is None:
         return local
@@ -182,11 +182,11 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
     at = values(chart.ring, ball)
     rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
     if not exact:
-        return AtReference(n - rank, Local(None, "undecided", "measured"), [], 2, rank, rigid, ball)
+        return AtReference(n - rank, LocalDimension(None, "undecided", "measured"), [], 2, rank, rigid, ball)
     of_q = ball_part([row[:n] for row in matrix])
-    local = Local(None, "undecided", f"the gap between pivots is {part.gap:.1e}")
+    local = LocalDimension(None, "undecided", f"the gap between pivots is {part.gap:.1e}")
     if part.gap > CLEAR:
-        frame = Frame(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
+        frame = Pivots(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
         manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
         local = _at_fixed_time(_followed(manifold, rigid, chart.time), timed)
     shown = sparse(dependencies(matrix, part))
@@ -194,11 +194,13 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
     return AtReference(n - of_q.rank, local, shown, 2, rank, rigid, ball, names)
 
 
-def _followed(manifold: Manifold, rigid: int, time: int | None) -> Local:
+def _followed(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
     try:
         return numeric_dimension(manifold, rigid, time)
     except (ZeroDivisionError, OutsideDomainError):
-        return Local(None, "undecided", "the relations could not be followed along a curve through this configuration")
+        return LocalDimension(
+            None, "undecided", "the relations could not be followed along a curve through this configuration"
+        )
 
 
 def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:

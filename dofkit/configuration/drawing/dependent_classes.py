@@ -24,14 +24,14 @@ from dofkit.relations.chart import Chart
 
 
 @dataclass(frozen=True)
-class Part:
+class DependentClass:
     """Rows that are looked at together, by their numbers, and how many of them are independent."""
 
     rows: tuple[int, ...]
     rank: int
 
 
-def dependent_parts(chart: Chart, found: Echelon) -> list[Part]:
+def dependent_parts(chart: Chart, found: Echelon) -> list[DependentClass]:
     """The classes with dependent rows, each with what else is said of its coordinates; ``found`` with its supports."""
     graph: nx.Graph = nx.Graph()
     for row, support in found.supports.items():
@@ -48,7 +48,7 @@ def dependent_parts(chart: Chart, found: Echelon) -> list[Part]:
         held = frozenset[Expr]().union(*(mentioned[i] for i in component))
         beside = {i for s in held for i in users[s] if mentioned[i] <= held and i not in found.supports}
         rows = tuple(sorted(component | beside))
-        parts.append(Part(rows, len(rows) - sum(r in found.supports for r in rows)))
+        parts.append(DependentClass(rows, len(rows) - sum(r in found.supports for r in rows)))
     return sorted(parts, key=lambda part: part.rows)
 
 

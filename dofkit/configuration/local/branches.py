@@ -12,7 +12,7 @@ from dofkit.base.deadline import check
 from dofkit.configuration.local.manifold import Form, Manifold
 from dofkit.configuration.local.neighbourhood import FAULTS, SURE, Neighbourhood, damped, independent
 from dofkit.exact.points.balls import BallPoint, jacobian
-from dofkit.exact.points.frames import Frame
+from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 
@@ -142,7 +142,7 @@ def _stays(here: Neighbourhood, moved: dict[Expr, arb], rows: Sequence[int], col
     point = BallPoint({s: arb(v, RADIUS) if s in own else v for s, v in moved.items()}, 0)
     dependent = tuple(sorted(here.place[c] for c in columns))
     free = tuple(i for i in range(len(ball.columns)) if i not in set(dependent))
-    there = Manifold(ball.ring, ball.nodes, ball.columns, Frame(tuple(sorted(rows)), dependent, free), point)
+    there = Manifold(ball.ring, ball.nodes, ball.columns, Pivots(tuple(sorted(rows)), dependent, free), point)
     rng = np.random.default_rng(11)
     direction: list[Any] = [arb(int(rng.integers(64, 512))) / 256 * ball.scales[c] for c in free]
     return all(s.coefficient(k).contains(0) for s in there.follow(direction, ORDER) for k in range(ORDER))

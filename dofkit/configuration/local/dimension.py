@@ -20,7 +20,7 @@ from dataclasses import replace
 from flint import arb, ctx
 
 from dofkit.configuration.local.degrees import degree as degree_of
-from dofkit.configuration.local.manifold import Local, Manifold, is_zero
+from dofkit.configuration.local.manifold import LocalDimension, Manifold, is_zero
 from dofkit.configuration.local.neighbourhood import holds_away
 from dofkit.configuration.local.second_order import UNDECIDED, by_signs, decide
 from dofkit.exact.points.balls import precision
@@ -36,7 +36,7 @@ FLAT = "may be flat here to a higher order than is followed"
 WHOLE = "nothing but motions of the whole is possible to first order"
 
 
-def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: int | None = None) -> Local:
+def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: int | None = None) -> LocalDimension:
     """The local dimension at the point; ``rigid`` is the dimension of the motions that move everything as one body.
 
     ``field`` is over GF(p), where a coefficient that is not 0 proves that the function is not; ``ball`` at the
@@ -46,60 +46,64 @@ def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: in
         return _local_dimension(field, ball, rigid, time)
 
 
-def _local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: int | None) -> Local:
+def _local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: int | None) -> LocalDimension:
     m = field.dimension
     if not field.others:
-        return _timed(field, Local(m, "proved", INDEPENDENT), time)
+        return _timed(field, LocalDimension(m, "proved", INDEPENDENT), time)
     if m == rigid:
-        return Local(m, "proved", WHOLE, time is not None)
+        return LocalDimension(m, "proved", WHOLE, time is not None)
     degree = degree_of(field)
     if degree >= LONGEST:
-        return Local(None, "undecided", f"a relation of degree {degree} {FLAT}")
+        return LocalDimension(None, "undecided", f"a relation of degree {degree} {FLAT}")
     order = max(LONG_ORDER if m - rigid <= 1 else ORDER, degree + 1)
     along = field.follow([field.base.random() for _ in range(m)], order)
     if all(s.poly.degree() < 0 for s in along):
         seen = True if ball is None else holds_away(ball, _away(ball), True)
         if not seen:
             why = f"the dependent relations hold along a random curve to order {order - 1}, {UNSEEN[seen]}"
-            return Local(None, "undecided", why)
+            return LocalDimension(None, "undecided", why)
         why = f"the dependent relations hold along a random curve to order {order - 1}: the motion is finite"
-        return _timed(field, Local(m, "probable", why), time)
+        return _timed(field, LocalDimension(m, "probable", why), time)
     if m - rigid == 1:
         first = min(k for s in along for k in range(order) if s.coefficient(k) != 0)
         why = f"the one motion left to first order breaks a relation at order {first}"
-        return Local(rigid, "proved", why, time is not None)
+        return LocalDimension(rigid, "proved", why, time is not None)
     if time is None:
         return decide(field, ball, rigid)
     return _signs_in_time(ball, rigid, time)
 
 
-def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Local:
+def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> LocalDimension:
     """The same from an approximate point: where a tiny ball contains 0 it is taken for 0; the verdict is numeric."""
     m = ball.dimension
     if not ball.others:
         return _numeric(
-            _timed(ball, Local(m, "numeric", "the relations kept are independent within the precision"), time)
+            _timed(ball, LocalDimension(m, "numeric", "the relations kept are independent within the precision"), time)
         )
     if m == rigid:
-        return Local(m, "numeric", WHOLE, time is not None)
+        return LocalDimension(m, "numeric", WHOLE, time is not None)
     order = max(ORDER, degree_of(ball) + 1)
     if order > LONG_ORDER:
-        return Local(None, "undecided", f"a relation {FLAT}")
+        return LocalDimension(None, "undecided", f"a relation {FLAT}")
     along = ball.follow(_random(ball), order)
     if all(s.coefficient(k).contains(0) for s in along for k in range(order)):
         seen = holds_away(ball, _away(ball), False)
         if not seen:
-            return Local(None, "undecided", f"the dependent relations hold along a random curve, {UNSEEN[seen]}")
+            return LocalDimension(
+                None, "undecided", f"the dependent relations hold along a random curve, {UNSEEN[seen]}"
+            )
         why = "the dependent relations hold along a random curve within the precision"
-        return _numeric(_timed(ball, Local(m, "numeric", why), time))
+        return _numeric(_timed(ball, LocalDimension(m, "numeric", why), time))
     if m - rigid == 1:
-        return Local(rigid, "numeric", "the one motion left to first order breaks a relation", time is not None)
+        return LocalDimension(
+            rigid, "numeric", "the one motion left to first order breaks a relation", time is not None
+        )
     if time is not None:
         return _numeric(_signs_in_time(ball, rigid, time))
     return _numeric(by_signs(ball.quadratic_forms(), rigid) or UNDECIDED)
 
 
-def _numeric(told: Local) -> Local:
+def _numeric(told: LocalDimension) -> LocalDimension:
     return replace(told, verdict="numeric" if told.dimension is not None else "undecided")
 
 
@@ -111,7 +115,7 @@ def _away(ball: Manifold) -> list[float]:
     return [ball.base.rng.choice((-1, 1)) * ball.base.rng.randrange(128, 256) / 256 for _ in range(ball.dimension)]
 
 
-def _timed(manifold: Manifold, told: Local, time: int | None) -> Local:
+def _timed(manifold: Manifold, told: LocalDimension, time: int | None) -> LocalDimension:
     """``told`` of the whole manifold, with time held against a random curve of it."""
     if time is None or _moves(manifold, time, 2):
         return told
@@ -130,7 +134,7 @@ def _moves(manifold: Manifold, time: int, order: int) -> bool:
     return any(not is_zero(path.coefficient(k)) for k in range(1, order))
 
 
-def _signs_in_time(ball: Manifold | None, rigid: int, time: int) -> Local:
+def _signs_in_time(ball: Manifold | None, rigid: int, time: int) -> LocalDimension:
     """By the second order's signs: a definite form stops time; an indefinite one's cone is in no hyperplane dt = 0."""
     told = None if ball is None else by_signs(ball.quadratic_forms(), rigid)
     if ball is None or told is None:

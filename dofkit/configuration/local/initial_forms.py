@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from flint import arb, arb_mat, arb_poly, nmod, nmod_mat, nmod_poly
 
 from dofkit.base.deadline import check
-from dofkit.configuration.local.manifold import Local, Manifold
+from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.exact.points.series import Series
 
 #: The order to which the relations are followed, and halvings of an interval on which a form's sign is looked for.
@@ -22,7 +22,7 @@ APART = "the initial forms of the dependent relations have no common zero: no fi
 DEFINITE = "a dependent relation begins with a definite form of degree {k}: no finite motion"
 
 
-def by_initial_forms(field: Manifold, ball: Manifold, rigid: int) -> Local | None:
+def by_initial_forms(field: Manifold, ball: Manifold, rigid: int) -> LocalDimension | None:
     """``rigid`` where the initial forms leave no other motion; None where they do not tell."""
     if field.dimension - rigid != 2:
         return None
@@ -38,10 +38,10 @@ def by_initial_forms(field: Manifold, ball: Manifold, rigid: int) -> Local | Non
     for form in forms[1:]:
         common = common.gcd(form)
     if common.degree() == 0 and any(f.degree() == orders[i] for i, f in zip(known, forms, strict=True)):
-        return Local(rigid, "probable", APART)
+        return LocalDimension(rigid, "probable", APART)
     for i in known:
         if orders[i] % 2 == 0 and _definite(ball, plane, i, orders[i]):
-            return Local(rigid, "probable", DEFINITE.format(k=orders[i]))
+            return LocalDimension(rigid, "probable", DEFINITE.format(k=orders[i]))
     return None
 
 

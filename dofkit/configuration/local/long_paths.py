@@ -28,7 +28,7 @@ THRESHOLD, TINY = 0.1, 1e-9
 FloatRow = dict[int, float]
 
 
-class Solver:
+class SparseColumns:
     """Rows solved for as many columns; raises ZeroDivisionError where they are nearly dependent."""
 
     def __init__(self, rows: Sequence[FloatRow]) -> None:
@@ -141,7 +141,7 @@ def _walk(here: Wide, ahead: np.ndarray, reach: float) -> np.ndarray | None:
         check()
         rows, norms = here.slopes(u, here.ball.rows)
         try:
-            solver = Solver(rows)
+            solver = SparseColumns(rows)
         except ZeroDivisionError:
             return None
         tangent = _tangent(rows, solver, ahead)
@@ -153,7 +153,7 @@ def _walk(here: Wide, ahead: np.ndarray, reach: float) -> np.ndarray | None:
     return u
 
 
-def _tangent(rows: Sequence[Mapping[int, float]], solver: Solver, ahead: np.ndarray) -> np.ndarray:
+def _tangent(rows: Sequence[Mapping[int, float]], solver: SparseColumns, ahead: np.ndarray) -> np.ndarray:
     """The direction with the free columns of ``ahead`` along which the relations stay 0 to first order."""
     found = ahead.copy()
     found[list(solver.columns)] = 0.0
@@ -163,7 +163,7 @@ def _tangent(rows: Sequence[Mapping[int, float]], solver: Solver, ahead: np.ndar
     return found
 
 
-def _back(here: Wide, u: np.ndarray, solver: Solver, norms: np.ndarray) -> np.ndarray | None:
+def _back(here: Wide, u: np.ndarray, solver: SparseColumns, norms: np.ndarray) -> np.ndarray | None:
     """Corrections of the solved columns until the relations hold."""
     u = u.copy()
     for _ in range(ROUNDS):

@@ -11,8 +11,8 @@ from flint import arb, arb_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.matrices.sparse import Solved
-from dofkit.exact.points.frames import Frame, solve
+from dofkit.exact.matrices.sparse import FactoredMatrix
+from dofkit.exact.points.frames import Pivots, solve
 from dofkit.exact.points.series import Series, SeriesPoint, monomial, series_values, zero_poly
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring, Scalar
@@ -21,7 +21,7 @@ Form = list[list[Scalar]]
 
 
 @dataclass(frozen=True)
-class Local:
+class LocalDimension:
     """The dimension of a set at one of its points, time counted where it is a column; None where it is not decided.
 
     ``confined``: time is constant on the set near the point.
@@ -62,7 +62,7 @@ class Manifold:
         ring: Ring,
         nodes: Sequence[int],
         columns: Sequence[int],
-        frame: Frame,
+        frame: Pivots,
         base: Any,
         scales: Sequence[float] = (),
     ) -> None:
@@ -90,7 +90,7 @@ class Manifold:
             place = {self.columns[c]: k for k, c in enumerate(self.frame.dependent)}
             slopes = (gradient(self.ring, at, self.base, [(node, one)]) for node in self.rows)
             sparse_rows = [{place[c]: int(v) for c, v in g.items() if c in place and v != 0} for g in slopes]
-            return Solved(sparse_rows, self.sample.modulus())
+            return FactoredMatrix(sparse_rows, self.sample.modulus())
         rows = []
         for node in self.rows:
             g = gradient(self.ring, at, self.base, [(node, one)])
@@ -182,7 +182,7 @@ def inverse(rows: list[list[Scalar]]) -> Any:
 
 def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
     """The inverse of a matrix times a vector."""
-    if isinstance(matrix, Solved):
+    if isinstance(matrix, FactoredMatrix):
         found_by_parts: list[Scalar] = [nmod(v, matrix.p) for v in matrix.solve([int(v) for v in vector])]
         return found_by_parts
     over_field = isinstance(matrix, nmod_mat)

@@ -18,30 +18,30 @@ from flint import arb
 from dofkit.configuration.local.branches import largest_branch
 from dofkit.configuration.local.critical_set import Split, along, split
 from dofkit.configuration.local.initial_forms import by_initial_forms
-from dofkit.configuration.local.manifold import Form, Local, Manifold
+from dofkit.configuration.local.manifold import Form, LocalDimension, Manifold
 from dofkit.configuration.local.neighbourhood import holds_on_critical
 from dofkit.configuration.local.quadratic_cone import bound, definite_combination, signature_of
 
 #: The order to which a relation is followed on its critical set, and random directions in which its sign is looked at.
 ORDER, DIRECTIONS = 12, 12
-UNDECIDED = Local(None, "undecided", "the relations are dependent here and their lowest order does not decide")
+UNDECIDED = LocalDimension(None, "undecided", "the relations are dependent here and their lowest order does not decide")
 CROSS = "the second order is an indefinite form: branches of the motion cross here"
 DEFINITE = "to second order the dependent relation is a definite form: no finite motion"
 TOGETHER = "a combination of them is definite to second order: no finite motion"
 
 
-def by_signs(forms: Sequence[Form], rigid: int) -> Local | None:
+def by_signs(forms: Sequence[Form], rigid: int) -> LocalDimension | None:
     """What certified signs of the second-order forms alone decide."""
     m = len(forms[0])
     if len(forms) > 1:
-        return Local(rigid, "proved", TOGETHER) if definite_combination(forms, m - rigid) else None
+        return LocalDimension(rigid, "proved", TOGETHER) if definite_combination(forms, m - rigid) else None
     positive, negative = signature_of(forms[0])
     if positive and negative:
-        return Local(m - 1, "proved", CROSS)
-    return Local(rigid, "proved", DEFINITE) if positive + negative == m - rigid else None
+        return LocalDimension(m - 1, "proved", CROSS)
+    return LocalDimension(rigid, "proved", DEFINITE) if positive + negative == m - rigid else None
 
 
-def decide(field: Manifold, ball: Manifold | None, rigid: int) -> Local:
+def decide(field: Manifold, ball: Manifold | None, rigid: int) -> LocalDimension:
     """The dimension of the set, where not all dependent relations vanish on M and m - mu is more than 1."""
     if ball is None:
         return UNDECIDED
@@ -54,7 +54,7 @@ def decide(field: Manifold, ball: Manifold | None, rigid: int) -> Local:
     return told if told.dimension is not None else by_initial_forms(field, ball, rigid) or UNDECIDED
 
 
-def _one(field: Manifold, ball: Manifold, forms: Sequence[Form], signs: Sequence[Form], rigid: int) -> Local:
+def _one(field: Manifold, ball: Manifold, forms: Sequence[Form], signs: Sequence[Form], rigid: int) -> LocalDimension:
     """One relation whose second order is a form of one sign with a kernel beyond the rigid motions, or 0."""
     m = field.dimension
     parts = split(forms)
@@ -67,16 +67,20 @@ def _one(field: Manifold, ball: Manifold, forms: Sequence[Form], signs: Sequence
         if not parts.solved or not holds_on_critical(ball, parts, _ahead(ball, parts)):
             return UNDECIDED
         why = f"to order {ORDER - 1} the dependent relation has its least value along a motion, all of it singular"
-        return Local(len(parts.free), "probable", why)
+        return LocalDimension(len(parts.free), "probable", why)
     if order % 2:
         why = f"beyond its second order the dependent relation changes sign at order {order}: the motion goes on"
-        return Local(m - 1, "probable", why)
+        return LocalDimension(m - 1, "probable", why)
     seen = {s for s in _signs(ball, signs, parts, order) if s}
     own = {1} if positive else {-1} if negative else set()
     if len(seen | own) > 1:
-        return Local(m - 1, "probable", f"beyond its second order the dependent relation changes sign at order {order}")
+        return LocalDimension(
+            m - 1, "probable", f"beyond its second order the dependent relation changes sign at order {order}"
+        )
     if own == seen and len(parts.free) - rigid == 1:
-        return Local(rigid, "probable", f"the dependent relation is definite at order {order}: no finite motion")
+        return LocalDimension(
+            rigid, "probable", f"the dependent relation is definite at order {order}: no finite motion"
+        )
     return UNDECIDED
 
 
@@ -95,17 +99,19 @@ def _signs(ball: Manifold, signs: Sequence[Form], parts: Split, order: int) -> l
     return found
 
 
-def _several(field: Manifold, ball: Manifold, forms: Sequence[Form], signs: Sequence[Form], rigid: int) -> Local:
+def _several(
+    field: Manifold, ball: Manifold, forms: Sequence[Form], signs: Sequence[Form], rigid: int
+) -> LocalDimension:
     most = bound(forms, rigid)
     if most == rigid:
-        return Local(rigid, "proved", "no first-order motion satisfies the second order: no finite motion")
+        return LocalDimension(rigid, "proved", "no first-order motion satisfies the second order: no finite motion")
     parts = split(forms)
     if len(parts.free) == most:
         left = along(field, forms, parts, [field.base.random() for _ in parts.free], ORDER)
         if all(s.poly.degree() < 0 for s in left) and holds_on_critical(ball, parts, _ahead(ball, parts)):
             why = f"a motion that is singular all along holds to order {ORDER - 1}, and the second order allows no more"
-            return Local(most, "probable", why)
+            return LocalDimension(most, "probable", why)
     if largest_branch(ball, signs, most) == most:
         why = "a motion was followed away from here to high precision, and the second order allows no more"
-        return Local(most, "numeric", why)
+        return LocalDimension(most, "numeric", why)
     return UNDECIDED

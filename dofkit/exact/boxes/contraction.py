@@ -1,6 +1,6 @@
 """Relations over boxes: what no point of a box satisfies is cut away, with a proof.
 
-`Relations` is one shared program of several expressions. `contract` narrows a box by running it forward and backward
+`BoxProgram` is one shared program of several expressions. `contract` narrows a box by running it forward and backward
 (hull consistency) and by interval Newton steps on combinations of the relations that are nearly solved for a variable.
 """
 
@@ -36,7 +36,7 @@ class Node:
     data: Any = None
 
 
-class Relations:
+class BoxProgram:
     """A program whose roots must each lie in a given interval.
 
     Symbols are variables; so is every value of an unknown function, which may be anything.
@@ -271,7 +271,7 @@ def _function_slope(name: str, x: Interval, value: Interval) -> Interval:
     return ((1.0, 1.0) if x[0] > 0 else (-1.0, -1.0) if x[1] < 0 else (-1.0, 1.0)) if name == "abs" else iv.WHOLE
 
 
-def contract(relations: Relations, box: Box) -> Box:
+def contract(relations: BoxProgram, box: Box) -> Box:
     """The box less what no solution is in. Raises EmptyError where nothing is left: proved."""
     for _ in range(SWEEPS):
         at = relations.forward(box)
@@ -283,7 +283,7 @@ def contract(relations: Relations, box: Box) -> Box:
     return _by_slopes(relations, narrower)
 
 
-def _by_slopes(relations: Relations, box: Box) -> Box:
+def _by_slopes(relations: BoxProgram, box: Box) -> Box:
     """What derivatives exclude, where everything is defined on the whole box (else no mean value theorem holds)."""
     over = relations.forward(box)
     if not relations.equations or not relations.total(over):
@@ -297,7 +297,7 @@ def _by_slopes(relations: Relations, box: Box) -> Box:
     return _newton(relations, box, slopes)
 
 
-def _monotone(relations: Relations, equation: int, slope: list[Interval], box: Box) -> None:
+def _monotone(relations: BoxProgram, equation: int, slope: list[Interval], box: Box) -> None:
     """Raise EmptyError where a bound at the ends of monotone variables has a sign."""
     signs = [0 if s == (0.0, 0.0) else 1 if s[0] >= 0.0 else -1 if s[1] <= 0.0 else 0 for s in slope]
     if not any(signs):
@@ -323,7 +323,7 @@ def _worth(old: Box, new: Box) -> bool:
     return False
 
 
-def _newton(relations: Relations, box: Box, slopes: list[list[Interval]]) -> Box:
+def _newton(relations: BoxProgram, box: Box, slopes: list[list[Interval]]) -> Box:
     """f(c) + f'(box) (box - c) holds 0 for the equations, combined so that each is nearly solved for one variable."""
     center = [(m, m) for m in map(iv.middle, box)]
     at = relations.forward(center)
@@ -342,7 +342,7 @@ def _weighted(weights: Sequence[float], parts: Sequence[Interval]) -> Interval:
     return total
 
 
-def _combinations(relations: Relations, at: list[Interval]) -> list[list[float]]:
+def _combinations(relations: BoxProgram, at: list[Interval]) -> list[list[float]]:
     """Each equation itself, and combinations that Gauss's elimination of the midpoint Jacobian takes."""
     count = len(relations.equations)
     alone = [[float(i == j) for j in range(count)] for i in range(count)]

@@ -16,7 +16,7 @@ ORDERED = 20_000
 Balls = Sequence[Sequence[arb]]
 
 
-class Part(NamedTuple):
+class PivotedPart(NamedTuple):
     """``rows`` (the first that are independent) and ``columns`` of a regular part.
 
     ``gap``: the smallest pivot by the largest number that is left, each as a fraction of its row.
@@ -33,16 +33,16 @@ def middles(matrix: Balls) -> np.ndarray:
     return np.array([[float(v.mid()) for v in row] for row in matrix])
 
 
-def ball_part(matrix: Balls) -> Part:
+def ball_part(matrix: Balls) -> PivotedPart:
     """A part of the matrix that is certified regular, such that the rest holds 0 after elimination."""
     if not matrix or not matrix[0]:
-        return Part(0, math.inf, [], [])
+        return PivotedPart(0, math.inf, [], [])
     if len(matrix) * len(matrix[0]) * min(len(matrix), len(matrix[0])) <= ORDERED:
         return _in_order(matrix)
     return _chosen_first(matrix)
 
 
-def _in_order(matrix: Balls) -> Part:
+def _in_order(matrix: Balls) -> PivotedPart:
     kept: list[tuple[list[arb], int]] = []
     rows: list[int] = []
     small, left = math.inf, 0.0
@@ -55,7 +55,7 @@ def _in_order(matrix: Balls) -> Part:
             kept.append((rest, c))
             rows.append(r)
             small = min(small, float(rest[c].abs_lower()) / _scale(row))
-    return Part(len(rows), _ratio(small, left), rows, [c for _, c in kept])
+    return PivotedPart(len(rows), _ratio(small, left), rows, [c for _, c in kept])
 
 
 def _reduced(row: Sequence[arb], kept: Sequence[tuple[list[arb], int]]) -> list[arb]:
@@ -90,7 +90,7 @@ def _ratio(small: float, left: float) -> float:
     return math.inf if left == 0 or math.isinf(small) else small / left
 
 
-def _chosen_first(matrix: Balls) -> Part:
+def _chosen_first(matrix: Balls) -> PivotedPart:
     """Rows that floating point finds independent, then those that the balls add."""
     _, _, rows, columns = independent_part(middles(matrix))
     while True:
@@ -101,7 +101,7 @@ def _chosen_first(matrix: Balls) -> Part:
         found = next(((r, c) for r, row in zip(others, rest, strict=True) if (c := _pivot(row)) >= 0), None)
         if found is None:
             left = max((_largest(row) / _scale(matrix[r]) for r, row in zip(others, rest, strict=True)), default=0.0)
-            return Part(len(rows), _ratio(_smallest(matrix, rows), left), rows, columns)
+            return PivotedPart(len(rows), _ratio(_smallest(matrix, rows), left), rows, columns)
         rows, columns = sorted([*rows, found[0]]), [*columns, found[1]]
 
 
@@ -140,7 +140,7 @@ def combinations_of(
         return None
 
 
-def dependencies(matrix: Balls, part: Part) -> list[list[int]]:
+def dependencies(matrix: Balls, part: PivotedPart) -> list[list[int]]:
     """Which rows depend on which of the independent ones, as a matrix over GF(2)."""
     place = {r: i for i, r in enumerate(part.rows)}
     others = [r for r in range(len(matrix)) if r not in place]

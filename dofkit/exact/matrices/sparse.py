@@ -208,7 +208,7 @@ class _Reduction:
         return found
 
 
-class Solved:
+class FactoredMatrix:
     """A square matrix over GF(p) without its zeros, factored once to be solved often; rows are equations.
 
     Raises ZeroDivisionError where it is singular.

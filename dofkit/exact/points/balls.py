@@ -20,7 +20,7 @@ import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
 from dofkit.base.deadline import check
-from dofkit.exact.matrices.certified import ORDERED, Part, ball_part
+from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part
 from dofkit.exact.matrices.singular_values import independent_part
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring, Scalar, Var
@@ -151,7 +151,7 @@ class RealPoint:
     """
 
     point: BallPoint
-    part: Part
+    part: PivotedPart
     certified: bool
     consistent: bool
     matrix: list[list[arb]]
@@ -306,7 +306,7 @@ class RealSearch:
         other = self._refined(symbols, part.rows, part.columns, seed)
         return other if other is not None and other.certified and other.consistent else found
 
-    def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> Part | None:
+    def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> PivotedPart | None:
         """A regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
         if len(self.nodes) ** 2 * len(self.columns) > ORDERED:
             return None

@@ -15,7 +15,7 @@ from dofkit.exact.ring.ring import Ring, Scalar
 
 
 @dataclass(frozen=True)
-class Rows:
+class FormRows:
     """One-forms over a ring: ``entries[a]`` maps a column to the node of its coefficient.
 
     ``columns`` are the generator indices of the symbols (coordinates, then time where it enters); a column whose
@@ -38,7 +38,7 @@ def zero_of(sample: Scalar) -> Scalar:
 
 
 @dataclass(frozen=True)
-class Frame:
+class Pivots:
     """A choice of independent rows and of dependent columns, regular at a point."""
 
     rows: tuple[int, ...]
@@ -46,22 +46,22 @@ class Frame:
     free: tuple[int, ...]
 
 
-def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Frame:
+def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Pivots:
     """The first independent rows in order, and columns solved for (the last ones where there is a choice)."""
     if not matrix or not n:
-        return Frame((), (), tuple(range(n)))
+        return Pivots((), (), tuple(range(n)))
     rows = pivots(nmod_mat([[int(v) for v in column] for column in zip(*matrix, strict=True)], p))
     chosen = [[int(v) for v in reversed(matrix[r])] for r in rows]
     dependent = sorted(n - 1 - c for c in pivots(nmod_mat(chosen, p))) if chosen else []
-    return Frame(tuple(rows), tuple(dependent), tuple(c for c in range(n) if c not in set(dependent)))
+    return Pivots(tuple(rows), tuple(dependent), tuple(c for c in range(n) if c not in set(dependent)))
 
 
-def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Frame:
+def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
     """The same for rows without their zeros."""
     kept = echelon(rows, p).independent
     dependent = last_columns([rows[i] for i in kept], n, p)
     solved = set(dependent)
-    return Frame(kept, dependent, tuple(c for c in range(n) if c not in solved))
+    return Pivots(kept, dependent, tuple(c for c in range(n) if c not in solved))
 
 
 def pivots(matrix: nmod_mat) -> list[int]:
@@ -108,7 +108,7 @@ def certified_rank(rows: Sequence[Sequence[arb]]) -> int:
     return rank
 
 
-def kernel(matrix: list[list[Scalar]], frame: Frame, zero: Scalar) -> list[list[Scalar]]:
+def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list[Scalar]]:
     """Vectors that span the kernel of the frame's rows: one for each free column."""
     n, r = len(frame.dependent) + len(frame.free), len(frame.rows)
     solved = solve([[matrix[a][c] for c in frame.dependent] for a in frame.rows],

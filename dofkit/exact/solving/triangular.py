@@ -79,7 +79,7 @@ class Plan:
     stuck: bool = False
 
 
-class Solver:
+class TriangularSolver:
     """Plans and draws points on the zero set of some nodes of a ring."""
 
     def __init__(

@@ -8,14 +8,14 @@ from typing import NoReturn
 from dofkit.expressions.text.arithmetic import UndefinedError, applied, inverse, product
 from dofkit.expressions.text.derivatives import by_time, over_dt, raise_order, size, total_differential
 from dofkit.expressions.text.limits import MAX_DIFFERENTIATED, MAX_ORDER
-from dofkit.expressions.text.reader import Reader
+from dofkit.expressions.text.reader import TextReader
 from dofkit.expressions.text.tokens import Token
 from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, diff, mul
 
 _BARE = frozenset({"number", "value", "motion", "call", "function", "root", "frac", "|"})
 
 
-def arguments(parser: Reader) -> list[Expr]:
+def arguments(parser: TextReader) -> list[Expr]:
     """Values in parentheses with commas between."""
     opening = parser.take()
     bars, parser.bars = parser.bars, 0
@@ -28,7 +28,7 @@ def arguments(parser: Reader) -> list[Expr]:
     return found
 
 
-def checked(parser: Reader, token: Token, name: str, given: list[Expr]) -> Expr:
+def checked(parser: TextReader, token: Token, name: str, given: list[Expr]) -> Expr:
     """The elementary function ``name`` at ``given``."""
     wanted = FUNCTIONS.get(name, 1)
     if len(given) != wanted:
@@ -43,7 +43,7 @@ def checked(parser: Reader, token: Token, name: str, given: list[Expr]) -> Expr:
 # Elementary functions
 
 
-def function(parser: Reader, token: Token) -> Expr:
+def function(parser: TextReader, token: Token) -> Expr:
     """`sin(x)`, `sin x`, `sin^2(x)`."""
     name = token.name
     exponent = function_power(parser, name)
@@ -54,7 +54,7 @@ def function(parser: Reader, token: Token) -> Expr:
     return found if exponent is None else parser.raise_to(found, exponent, token)
 
 
-def function_power(parser: Reader, name: str) -> Expr | None:
+def function_power(parser: TextReader, name: str) -> Expr | None:
     """The `2` of `sin^2(x)`; a negative one is a question."""
     token = parser.next
     if token.kind == "superscript":
@@ -83,7 +83,7 @@ def function_power(parser: Reader, name: str) -> Expr | None:
     return exponent
 
 
-def bare(parser: Reader, token: Token) -> Expr:
+def bare(parser: TextReader, token: Token) -> Expr:
     """The argument of a function without parentheses: numbers, then one name or letters written together."""
     first = parser.next
     name = token.name
@@ -110,7 +110,7 @@ def bare(parser: Reader, token: Token) -> Expr:
     return product(parts)
 
 
-def ask_extent(parser: Reader, token: Token, first: Token) -> NoReturn:
+def ask_extent(parser: TextReader, token: Token, first: Token) -> NoReturn:
     """`sin theta/2`: how far does the argument reach?"""
     after, end = parser.next, parser.last.end
     beyond = parser.tokens[parser.at + 1] if after.kind in ("*", "/", "^") else after
@@ -122,7 +122,7 @@ def ask_extent(parser: Reader, token: Token, first: Token) -> NoReturn:
     parser.fail(f"it is not clear what `{name}` is taken of", after, hint)
 
 
-def root(parser: Reader, token: Token) -> Expr:
+def root(parser: TextReader, token: Token) -> Expr:
     """`√x`, `√(x + y)`."""
     first = parser.next
     if first.kind == "(":
@@ -139,7 +139,7 @@ def root(parser: Reader, token: Token) -> Expr:
     return checked(parser, token, "sqrt", [first.expr])
 
 
-def fraction(parser: Reader, token: Token) -> Expr:
+def fraction(parser: TextReader, token: Token) -> Expr:
     """LaTeX's fraction of two groups in braces."""
     parts = []
     for _ in range(2):
@@ -160,7 +160,7 @@ def fraction(parser: Reader, token: Token) -> Expr:
 # Unknown functions
 
 
-def unknown(parser: Reader, token: Token) -> Expr:
+def unknown(parser: TextReader, token: Token) -> Expr:
     """`h(s)`, `h'(s)`, `h` alone, and its derivatives by time `hdot`, `dh`."""
     name = token.name
     primes = parser.take() if parser.next.kind == "prime" and parser.next.start == token.end else None
@@ -187,7 +187,7 @@ def unknown(parser: Reader, token: Token) -> Expr:
     return moved(parser, token, found, token.amount)
 
 
-def own_arguments(parser: Reader, token: Token) -> list[Expr]:
+def own_arguments(parser: TextReader, token: Token) -> list[Expr]:
     """What `h` alone is a function of, by its declaration."""
     name = token.name
     declared = parser.names.arguments.get(name, ())
@@ -210,7 +210,7 @@ def own_arguments(parser: Reader, token: Token) -> list[Expr]:
     return given
 
 
-def moved(parser: Reader, token: Token, found: Expr, order: int) -> Expr:
+def moved(parser: TextReader, token: Token, found: Expr, order: int) -> Expr:
     """``found`` differentiated ``order`` times by time; its differential for -1."""
     if order == -1:
         return kept(parser, token, total_differential(found))
@@ -219,7 +219,7 @@ def moved(parser: Reader, token: Token, found: Expr, order: int) -> Expr:
     return found
 
 
-def kept(parser: Reader, token: Token, found: Expr | None) -> Expr:
+def kept(parser: TextReader, token: Token, found: Expr | None) -> Expr:
     """A derivative that exists and holds only what is allowed."""
     if found is None:
         hint = "write the derivative of an expression in coordinates, velocities and t"
@@ -232,7 +232,7 @@ def kept(parser: Reader, token: Token, found: Expr | None) -> Expr:
 # Derivatives
 
 
-def derived(parser: Reader, token: Token) -> Expr:
+def derived(parser: TextReader, token: Token) -> Expr:
     """`diff(x, t)`, `diff(h(s), s)`, `diff(h(a, b), a, 2, b)`, `partial(h(x, t), t)`, `partial(h(x, x), 1)`."""
     name = token.name
     if parser.next.kind != "(":
@@ -260,7 +260,7 @@ def derived(parser: Reader, token: Token) -> Expr:
     return found
 
 
-def once(parser: Reader, token: Token, found: Expr, symbol: Expr) -> Expr:
+def once(parser: TextReader, token: Token, found: Expr, symbol: Expr) -> Expr:
     """One derivative; by time it is the total one for `diff`."""
     if size(found, MAX_DIFFERENTIATED) >= MAX_DIFFERENTIATED:
         parser.fail("this is too long to be differentiated here", token, "write the derivative out")
@@ -269,7 +269,7 @@ def once(parser: Reader, token: Token, found: Expr, symbol: Expr) -> Expr:
     return diff(found, symbol)
 
 
-def whole(parser: Reader, token: Token, e: Expr) -> int:
+def whole(parser: TextReader, token: Token, e: Expr) -> int:
     """A small counting number."""
     value = e.args[0]
     if value.denominator != 1 or not 1 <= value <= MAX_ORDER:
@@ -277,7 +277,7 @@ def whole(parser: Reader, token: Token, e: Expr) -> int:
     return int(value)
 
 
-def by_place(parser: Reader, token: Token, found: Expr, steps: list[Expr]) -> Expr:
+def by_place(parser: TextReader, token: Token, found: Expr, steps: list[Expr]) -> Expr:
     """Derivatives of an unknown function by its first, second, ... argument."""
     if found.op != "call" or len(steps) > MAX_ORDER:
         parser.fail("only an unknown function has a first argument", token, "write `partial(h(x, y), 1)`")
@@ -293,7 +293,7 @@ def by_place(parser: Reader, token: Token, found: Expr, steps: list[Expr]) -> Ex
     return found
 
 
-READERS: dict[str, Callable[[Reader, Token], Expr]] = {
+READERS: dict[str, Callable[[TextReader, Token], Expr]] = {
     "function": function,
     "call": unknown,
     "operator": derived,

@@ -9,7 +9,7 @@ from dofkit.expressions.text.tokens import Token
 from dofkit.expressions.tree import Expr
 
 
-class Reader(Protocol):
+class TextReader(Protocol):
     """A place in a text, and the parts of the grammar that can be read from there."""
 
     at: int

@@ -23,7 +23,7 @@ _FOREIGN: dict[str, str] = {
 _NEAR = 200
 
 
-class Piece(NamedTuple):
+class WordPart(NamedTuple):
     """A part of a word: its meaning (None for the digits after a function's name) and its place in the word."""
 
     meaning: Meaning | None
@@ -31,11 +31,11 @@ class Piece(NamedTuple):
     end: int
 
 
-def read_word(word: str, lookup: Lookup, column: int, called: bool) -> tuple[Piece, ...]:
+def read_word(word: str, lookup: Lookup, column: int, called: bool) -> tuple[WordPart, ...]:
     """The pieces of ``word``; ``called`` says that a parenthesis follows, for the advice."""
     whole = lookup.meaning(word)
     if whole is not None:
-        return (Piece(whole, 0, len(word)),)
+        return (WordPart(whole, 0, len(word)),)
     if len(word) > MAX_NAME:
         message = f"a name of {len(word)} letters stands here; at most {MAX_NAME} are read"
         raise TextError(message, column, "write the product with `*`, or shorten the name")
@@ -48,14 +48,14 @@ def read_word(word: str, lookup: Lookup, column: int, called: bool) -> tuple[Pie
     raise _unknown(word, lookup, column, called)
 
 
-def _splits(word: str, lookup: Lookup) -> list[tuple[Piece, ...]]:
+def _splits(word: str, lookup: Lookup) -> list[tuple[WordPart, ...]]:
     """At most two ways to read ``word`` as a product of known words."""
 
     @cache
-    def ways(start: int, after_function: bool) -> tuple[tuple[Piece, ...], ...]:
+    def ways(start: int, after_function: bool) -> tuple[tuple[WordPart, ...], ...]:
         if start == len(word):
             return ((),)
-        found: list[tuple[Piece, ...]] = []
+        found: list[tuple[WordPart, ...]] = []
         for piece in _pieces(word, start, after_function, lookup):
             function = piece.meaning is not None and piece.meaning.kind == "function"
             found.extend((piece, *rest) for rest in ways(piece.end, function))
@@ -66,14 +66,14 @@ def _splits(word: str, lookup: Lookup) -> list[tuple[Piece, ...]]:
     return list(ways(0, False))
 
 
-def _pieces(word: str, start: int, after_function: bool, lookup: Lookup) -> list[Piece]:
+def _pieces(word: str, start: int, after_function: bool, lookup: Lookup) -> list[WordPart]:
     """The known words that may begin at ``start``."""
     if word[start].isdigit():
         end = start
         while end < len(word) and word[end].isdigit():
             end += 1
         logarithm = word[:start].endswith(("log", "ln"))  # `log10` and `log2` name other functions
-        return [Piece(None, start, end)] if after_function and not logarithm else []
+        return [WordPart(None, start, end)] if after_function and not logarithm else []
     found = []
     for end in range(start + 1, min(len(word), start + lookup.longest + 4) + 1):
         if end < len(word) and not (word[end].isalpha() or word[end].isdigit()):
@@ -85,7 +85,7 @@ def _pieces(word: str, start: int, after_function: bool, lookup: Lookup) -> list
             continue
         if _alone(word, start, end) and meaning.expr in (PI, E):
             continue
-        found.append(Piece(meaning, start, end))
+        found.append(WordPart(meaning, start, end))
     return found
 
 
@@ -94,7 +94,7 @@ def _alone(word: str, start: int, end: int) -> bool:
     return start > 0 and word[start:end].isascii()
 
 
-def _several(word: str, ways: list[tuple[Piece, ...]], column: int) -> TextError:
+def _several(word: str, ways: list[tuple[WordPart, ...]], column: int) -> TextError:
     shown = " or ".join("`" + "*".join(word[p.start : p.end] for p in way) + "`" for way in ways)
     return TextError(f"`{word}` can be read as {shown}", column, "write `*` between the names")
 

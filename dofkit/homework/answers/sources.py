@@ -17,7 +17,7 @@ from typing import Any, BinaryIO
 
 from dofkit.homework.answers.submission import (
     MOST_BYTES,
-    Place,
+    FilePlace,
     Submission,
     clean,
     of_text,
@@ -41,7 +41,7 @@ class Handed:
     """
 
     name: str
-    place: Place
+    place: FilePlace
     data: bytes | Mapping[str, object] | None = None
     error: str = ""
 
@@ -73,7 +73,7 @@ def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], known: C
     found = list(islice((one for h in handed([path], known) for one in h.submissions()), 2))
     if len(found) == 1:
         return found[0]
-    return refused(_stem(clean(path)), Place(clean(path)), "it holds more than one submission")
+    return refused(_stem(clean(path)), FilePlace(clean(path)), "it holds more than one submission")
 
 
 def handed(sources: Sequence[str], known: Columns, others: Iterable[str | os.PathLike[str]] = ()) -> Iterator[Handed]:
@@ -139,7 +139,7 @@ def _stream(stream: BinaryIO, file: str, known: Columns) -> Iterator[Handed]:
         yield from _lines(first, stream, shown)
     else:
         data = first + stream.read(MOST_BYTES + 1 - len(first))
-        yield Handed(_stem(shown), Place(shown), data)
+        yield Handed(_stem(shown), FilePlace(shown), data)
 
 
 def _is_header(line: bytes) -> bool:
@@ -160,7 +160,7 @@ def _lines(first: bytes, stream: BinaryIO, file: str) -> Iterator[Handed]:
     """A submission a line; blank lines are none."""
     number, line = 1, first.removeprefix(b"\xef\xbb\xbf")
     while line:
-        place = Place(file, number)
+        place = FilePlace(file, number)
         if line.strip():
             yield Handed(f"{_stem(file)}:{number}", place, line.strip(b"\r\n"))
         while not line.endswith(b"\n") and (rest := stream.readline(MOST_BYTES)):
@@ -171,7 +171,7 @@ def _lines(first: bytes, stream: BinaryIO, file: str) -> Iterator[Handed]:
 def _text(first: bytes, stream: BinaryIO) -> Iterator[str]:
     """The lines of a text in UTF-8, or in UTF-16 where its first bytes say so; each at most so long."""
     wide = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}.get(first[:2])
-    source = BufferedReader(_Rest(first, stream))
+    source = BufferedReader(RewoundStream(first, stream))
     text = TextIOWrapper(source, encoding=wide or "utf-8", errors="surrogateescape", newline="")
     start = True
     while line := text.readline(MOST_CHARACTERS + 1):
@@ -181,7 +181,7 @@ def _text(first: bytes, stream: BinaryIO) -> Iterator[str]:
             pass
 
 
-class _Rest(RawIOBase):
+class RewoundStream(RawIOBase):
     """A stream again from its beginning, of which the first bytes were read already."""
 
     def __init__(self, first: bytes, stream: BinaryIO) -> None:
@@ -202,17 +202,17 @@ class _Rest(RawIOBase):
 def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
     try:
         for row in rows(lines, known):
-            place = Place(file, row.line)
+            place = FilePlace(file, row.line)
             if row.error is not None:
                 yield Handed(row.student, place, error=row.error)
             else:
                 yield Handed(row.student, place, {"student": row.student, "answers": row.answers})
     except (TableError, UnicodeError) as error:
-        yield Handed(_stem(file), Place(file, 1), error=str(error))
+        yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
 
 
 def _unreadable(path: str, why: str) -> Handed:
-    return Handed(_stem(clean(path)), Place(clean(path)), error=why)
+    return Handed(_stem(clean(path)), FilePlace(clean(path)), error=why)
 
 
 def _stem(file: str) -> str:

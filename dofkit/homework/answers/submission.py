@@ -35,7 +35,7 @@ _SURROGATES = re.compile("[\ud800-\udfff]")
 
 
 @dataclass(frozen=True)
-class Place:
+class FilePlace:
     """A file, and the line in it where something stands, from 1; 0 for all of it."""
 
     file: str = ""
@@ -61,13 +61,13 @@ class Submission:
     student: str
     answers: Mapping[str, Mapping[str, Given]] = field(default_factory=dict)
     error: str | None = None
-    place: Place = Place()
+    place: FilePlace = FilePlace()
 
 
-_NOWHERE = Place()
+_NOWHERE = FilePlace()
 
 
-def of_text(data: bytes | str, name: str, place: Place) -> list[Submission]:
+def of_text(data: bytes | str, name: str, place: FilePlace) -> list[Submission]:
     """The submissions of a JSON or YAML text: one, or a list of them; ``name`` is the student's where it gives none."""
     if len(data) > MOST_BYTES:
         return [refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")]
@@ -82,11 +82,13 @@ def of_text(data: bytes | str, name: str, place: Place) -> list[Submission]:
         return [of_value(value, name, place, document)]
     if not value:
         return [refused(name, place, "there is no submission in it", _SHAPE)]
-    return [of_value(one, name, Place(place.file, document.place((i,))[0]), document, i) for i, one in enumerate(value)]
+    return [
+        of_value(one, name, FilePlace(place.file, document.place((i,))[0]), document, i) for i, one in enumerate(value)
+    ]
 
 
 def of_value(
-    value: object, name: str, place: Place = _NOWHERE, document: Document | None = None, *path: str | int
+    value: object, name: str, place: FilePlace = _NOWHERE, document: Document | None = None, *path: str | int
 ) -> Submission:
     """The submission of a mapping; ``path``: where in the document it stands."""
     if not isinstance(value, Mapping):
@@ -119,7 +121,7 @@ def of_value(
     return Submission(student, found, place=place)
 
 
-def refused(name: str, place: Place, message: str, hint: str | None = None) -> Submission:
+def refused(name: str, place: FilePlace, message: str, hint: str | None = None) -> Submission:
     """A submission that could not be read."""
     return Submission(name, error=place.told(Fault(message, hint=hint)), place=place)
 

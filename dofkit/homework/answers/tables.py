@@ -25,7 +25,7 @@ Columns = Mapping[str, tuple[str, str]]
 
 
 @dataclass(frozen=True)
-class Row:
+class TableRow:
     """A row of a table: its answers, or why there are none."""
 
     student: str
@@ -51,7 +51,7 @@ class Header:
     fault: str | None = None
 
 
-def rows(lines: Iterable[str], known: Columns) -> Iterator[Row]:
+def rows(lines: Iterable[str], known: Columns) -> Iterator[TableRow]:
     """The rows of a table, blank ones apart. Raises TableError where it has no header.
 
     ``lines`` keep their ends; bytes that are no UTF-8 stand in them as lone surrogates. ``known``: the columns of the
@@ -165,7 +165,7 @@ def _split(name: str) -> tuple[str, str]:
     return problem.strip(), question.strip()
 
 
-def _row(header: Header, line: int, cells: list[str], error: str | None) -> Row:
+def _row(header: Header, line: int, cells: list[str], error: str | None) -> TableRow:
     width = len(header.asked)
     student = clean(cells[header.student]).strip() if len(cells) > header.student else ""
     if error is None and (len(cells) < width or any(cell.strip() for cell in cells[width:])):
@@ -178,7 +178,7 @@ def _row(header: Header, line: int, cells: list[str], error: str | None) -> Row:
     for asked, cell in zip(header.asked, cells, strict=False) if error is None else ():
         if asked is not None and cell.strip():
             answers.setdefault(asked[0], {})[asked[1]] = cell
-    return Row(student, line, answers, error)
+    return TableRow(student, line, answers, error)
 
 
 def _undecoded(cell: str) -> bool:

@@ -21,7 +21,7 @@ from dofkit.base.errors import DofkitError
 from dofkit.exact.points.field import NoPointError, field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import Solver
+from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import told_zero
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
@@ -90,7 +90,7 @@ class Sought:
 
 def places(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
     """Random points over GF(p) where the relations hold, a few: the prime, and the values of the ring's nodes."""
-    solver = Solver(ring, [ring.node(g) for g in relations], seed=3) if relations else None
+    solver = TriangularSolver(ring, [ring.node(g) for g in relations], seed=3) if relations else None
     found = 0
     for seed in range(ATTEMPTS):
         point = field_point([ring], 500 + seed) if solver is None else solver.draw(500 + seed)
@@ -224,7 +224,7 @@ def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
     return chosen
 
 
-class Motion(Enum):
+class MotionSameness(Enum):
     """How an equation of motion compares with the scene's; the value is a stable code."""
 
     FOLLOWS = "FOLLOWS"
@@ -271,7 +271,7 @@ class Answered:
         whole = len(self.known.names) + len(self.known.multipliers)
         return self.rows is not None and len(self.right) == whole
 
-    def follow(self) -> tuple[list[Motion], int] | None:
+    def follow(self) -> tuple[list[MotionSameness], int] | None:
         """How each equation compares, and how many accelerations those that follow fix; None where it is open.
 
         Multipliers of the answer's own may have any value: an equation follows where there is one at which the
@@ -312,13 +312,13 @@ class Answered:
         return None if None in told else [t is True for t in told]
 
 
-def _verdict(sound: bool, still: bool) -> Motion:
+def _verdict(sound: bool, still: bool) -> MotionSameness:
     if not sound:
-        return Motion.NOT
-    return Motion.TRIVIAL if still else Motion.FOLLOWS
+        return MotionSameness.NOT
+    return MotionSameness.TRIVIAL if still else MotionSameness.FOLLOWS
 
 
-class Seen(NamedTuple):
+class PointFindings(NamedTuple):
     """At one point over GF(p): which rows follow, the rank of all, and the rows."""
 
     sound: list[bool]
@@ -333,7 +333,7 @@ class Seen(NamedTuple):
 
 def _at_points(
     ring: Ring, right: Sequence[Sequence[int]], given: Sequence[Sequence[int]], n: int, known: Sought
-) -> Iterator[Seen]:
+) -> Iterator[PointFindings]:
     """At random points: which rows hold with the right accelerations, and the rank of all."""
     constraints = len(known.rows)
     for p, at in places(ring, known.relations):
@@ -349,7 +349,7 @@ def _at_points(
         width = len(own[0]) - 1 - n if own else 0
         every = [row[:-1] for row in own] + [[*row[:n], *([0] * width)] for row in held]
         rank = _rank_of(every, p) - _rank_of([row[n:-1] for row in own], p) if own else 0
-        yield Seen(sound, rank - (_rank_of([row[:n] for row in held], p) if held else 0), own, p)
+        yield PointFindings(sound, rank - (_rank_of([row[:n] for row in held], p) if held else 0), own, p)
 
 
 def _dot(a: Sequence[int], b: Sequence[int]) -> int:

@@ -19,7 +19,7 @@ _PLANE = {1: 1, 2: 3, 3: 6}
 
 
 @dataclass(frozen=True)
-class Facts:
+class SceneCounts:
     """Counts of a scene, each worked out when it is asked for; ``dof`` and ``n`` are known."""
 
     key: Key

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.homework.key.facts import Facts
+from dofkit.homework.key.facts import SceneCounts
 from dofkit.homework.key.key import Key
 from dofkit.report import ConstraintEntry
 
@@ -24,133 +24,133 @@ class Misconception(NamedTuple):
 
     code: str
     hint: str
-    predicts: Callable[[Facts], Numbers]
+    predicts: Callable[[SceneCounts], Numbers]
     anyway: bool = False
 
 
-def _all_links(f: Facts) -> Numbers:
+def _all_links(f: SceneCounts) -> Numbers:
     if f.links > f.n - f.dof and f.naive < f.dof:
         yield f.naive
 
 
-def _rod_three(f: Facts) -> Numbers:
+def _rod_three(f: SceneCounts) -> Numbers:
     if f.links and f.naive > f.dof:
         yield f.naive
 
 
-def _curve_one(f: Facts) -> Numbers:
+def _curve_one(f: SceneCounts) -> Numbers:
     if f.surplus_surfaces:
         yield f.dof + f.surplus_surfaces
 
 
-def _param_count(f: Facts) -> Numbers:
+def _param_count(f: SceneCounts) -> Numbers:
     if f.on_curves:
         yield f.dof - f.on_curves
 
 
-def _plane_forgotten(f: Facts) -> Numbers:
+def _plane_forgotten(f: SceneCounts) -> Numbers:
     if f.planes and f.d == 3:
         yield f.dof + f.planes
     if f.d == 2 and f.particles:
         yield f.dof + f.particles
 
 
-def _plane_twice(f: Facts) -> Numbers:
+def _plane_twice(f: SceneCounts) -> Numbers:
     if f.d == 2 and f.particles:
         yield f.dof - f.particles
 
 
-def _no_spin(f: Facts) -> Numbers:
+def _no_spin(f: SceneCounts) -> Numbers:
     if f.d == 3 and f.bodies + f.clusters:
         yield f.dof - f.bodies - f.clusters
 
 
-def _rod_spin(f: Facts) -> Numbers:
+def _rod_spin(f: SceneCounts) -> Numbers:
     if f.d == 3 and f.rods:
         yield f.dof + f.rods
 
 
-def _bar_two(f: Facts) -> Numbers:
+def _bar_two(f: SceneCounts) -> Numbers:
     if f.links:
         yield f.dof - f.links
 
 
-def _bar_point(f: Facts) -> Numbers:
+def _bar_point(f: SceneCounts) -> Numbers:
     if f.links and f.d > 1:
         yield f.dof - (f.d - 1) * f.links
 
 
-def _point_six(f: Facts) -> Numbers:
+def _point_six(f: SceneCounts) -> Numbers:
     if f.particles and f.d > 1:
         yield f.dof + f.particles * (f.body_freedom - f.d)
 
 
-def _nh_subtract(f: Facts) -> Numbers:
+def _nh_subtract(f: SceneCounts) -> Numbers:
     if f.nonholonomic:
         yield f.dof - f.nonholonomic
 
 
-def _nh_half(f: Facts) -> Numbers:
+def _nh_half(f: SceneCounts) -> Numbers:
     if f.nonholonomic:
         yield f.dof - Fraction(f.nonholonomic, 2)
 
 
-def _walls(f: Facts) -> Numbers:
+def _walls(f: SceneCounts) -> Numbers:
     if f.walls:
         yield f.dof - f.walls
 
 
-def _roll_nh(f: Facts) -> Numbers:
+def _roll_nh(f: SceneCounts) -> Numbers:
     if f.integrable:
         yield f.dof + f.integrable
 
 
-def _sum_of_squares(f: Facts) -> Numbers:
+def _sum_of_squares(f: SceneCounts) -> Numbers:
     if not f.links and f.naive > f.dof and not f.integrable and not f.nonholonomic:
         yield f.naive
     elif f.surplus_surfaces:
         yield f.dof + f.surplus_surfaces
 
 
-def _springs(f: Facts) -> Numbers:
+def _springs(f: SceneCounts) -> Numbers:
     if "spring" in f.forces:
         yield f.dof - f.forces.count("spring")
 
 
-def _trajectory(f: Facts) -> Numbers:
+def _trajectory(f: SceneCounts) -> Numbers:
     if f.dof == f.n > 1 and not f.entries:
         yield 1
 
 
-def _conservation(f: Facts) -> Numbers:
+def _conservation(f: SceneCounts) -> Numbers:
     if f.dof > 1 and (f.key.scene.energies is not None or f.forces or not f.entries):
         yield f.dof - 1
 
 
-def _pulley(f: Facts) -> Numbers:
+def _pulley(f: SceneCounts) -> Numbers:
     if f.strings > 1:
         yield f.dof - 1
     if f.strings:
         yield f.n - f.strings
 
 
-def _driven(f: Facts) -> Numbers:
+def _driven(f: SceneCounts) -> Numbers:
     if f.drives:
         yield f.dof + f.drives
 
 
-def _cart_fixed(f: Facts) -> Numbers:
+def _cart_fixed(f: SceneCounts) -> Numbers:
     if f.guides and f.dof > 1:
         yield f.dof - f.guides
 
 
-def _ground(f: Facts) -> Numbers:
+def _ground(f: SceneCounts) -> Numbers:
     if f.joints:
         yield f.dof - f.body_freedom
         yield f.dof + f.body_freedom
 
 
-def _spatial_grubler(f: Facts) -> Numbers:
+def _spatial_grubler(f: SceneCounts) -> Numbers:
     if f.d == 2 and f.joints:
         yield 6 * f.bodies - 5 * f.joints
 
@@ -200,7 +200,7 @@ def explain(given: Fraction, ask: str, key: Key) -> tuple[tuple[str, ...], str]:
     report = key.report
     if report.dof is None:
         return (), ""
-    facts = Facts(key)
+    facts = SceneCounts(key)
     right = report.dof
     wanted = len(key.coordinates) - given if ask == "k" else given
     if ask == "velocity_dof" or (ask == "dof" and key.convention == "velocity"):

@@ -8,18 +8,18 @@ from pydantic import Field
 
 from dofkit.homework.questions.base import Earlier, Identifier, Points, QuestionBase
 from dofkit.homework.questions.equations import EquationQuestion, IntegralQuestion
-from dofkit.homework.questions.labels import Label
-from dofkit.homework.questions.motion import GeneralizedForce, Lagrangian, Momentum, Motion
+from dofkit.homework.questions.labels import LabelQuestion
+from dofkit.homework.questions.motion import GeneralizedForce, Lagrangian, Momentum, MotionQuestion
 from dofkit.homework.questions.names import Coordinates, Redundant
-from dofkit.homework.questions.numbers import Count, Dof, VelocityDof
+from dofkit.homework.questions.numbers import CountQuestion, Dof, VelocityDof
 
 __all__ = ["KINDS", "AnyQuestion", "Earlier", "Identifier", "Points", "QuestionBase"]
 
 AnyQuestion = Annotated[
     Dof
     | VelocityDof
-    | Count
-    | Label
+    | CountQuestion
+    | LabelQuestion
     | EquationQuestion
     | IntegralQuestion
     | Coordinates
@@ -27,7 +27,7 @@ AnyQuestion = Annotated[
     | Lagrangian
     | Momentum
     | GeneralizedForce
-    | Motion,
+    | MotionQuestion,
     Field(discriminator="ask"),
 ]
 
@@ -35,7 +35,7 @@ AnyQuestion = Annotated[
 KINDS: dict[str, type[QuestionBase]] = {
     q.kind(): q
     for q in (
-        Dof, VelocityDof, Count, Label, EquationQuestion, IntegralQuestion, Coordinates, Redundant,
-        Lagrangian, Momentum, GeneralizedForce, Motion,
+        Dof, VelocityDof, CountQuestion, LabelQuestion, EquationQuestion, IntegralQuestion, Coordinates, Redundant,
+        Lagrangian, Momentum, GeneralizedForce, MotionQuestion,
     )
 }  # fmt: skip

@@ -12,7 +12,7 @@ from pydantic import BeforeValidator, Field
 from dofkit.base.errors import Fault
 from dofkit.homework.judgement import Given, Judgement
 from dofkit.homework.key.key import Key
-from dofkit.scene.fields import Model, Number, exact, fault_error
+from dofkit.scene.fields import Number, WrittenModel, exact, fault_error
 
 #: The numbers that a student gave to earlier questions of the same problem, by what was asked.
 Earlier = Mapping[str, Fraction]
@@ -38,7 +38,7 @@ Points = Annotated[Number, BeforeValidator(_points)]
 Identifier = Annotated[str, BeforeValidator(identifier), Field(min_length=1, max_length=200)]
 
 
-class QuestionBase(Model):
+class QuestionBase(WrittenModel):
     """One question: how an answer is read and judged, and what is right."""
 
     id: Identifier = Field(description="its name, unique within the problem")

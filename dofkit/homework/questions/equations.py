@@ -39,7 +39,7 @@ ANSWER = "the answer"
 Found = TypeVar("Found")
 
 
-class Posed(NamedTuple):
+class PosedAnswer(NamedTuple):
     """A scene's mathematics with an answer in it, and the numbers of the answer's constraints."""
 
     system: System
@@ -160,11 +160,11 @@ def _none(answer: Given) -> bool:
     return is_none(split_words(answer)) if isinstance(answer, str) else False
 
 
-def _beside(key: Key, read: Read, question: Callable[[Posed], Found]) -> Found:
+def _beside(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
     """What is found of the scene with the answer. Raises TextError where the scene cannot hold it."""
     try:
         system = lower(with_equations(key.scene, read, ANSWER))
-        return question(Posed(system, range(len(key.scene.constraints), len(system.constraints))))
+        return question(PosedAnswer(system, range(len(key.scene.constraints), len(system.constraints))))
     except SceneError as error:
         fault = error.faults[0]
         raise TextError(fault.message, fault.column or 1, fault.hint) from None

@@ -66,7 +66,7 @@ ALIKE = 0.86
 _HYPHEN = re.compile("[-\u2010-\u2015_]")
 
 
-class Label(QuestionBase):
+class LabelQuestion(QuestionBase):
     """Words in any order; each part that is asked for counts the same."""
 
     ask: Literal["label"] = Field(description="the labels of a constraint")

@@ -16,7 +16,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
 from dofkit.homework.key.equations_of_motion import Answered, Sought, is_zero, same_lagrangian
-from dofkit.homework.key.equations_of_motion import Motion as Found
+from dofkit.homework.key.equations_of_motion import MotionSameness as Found
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.scene.added_equations import as_text
@@ -174,7 +174,7 @@ class GeneralizedForce(_OfCoordinate):
         return "WRONG_FORCE"
 
 
-class Motion(_MotionQuestion):
+class MotionQuestion(_MotionQuestion):
     """The equations of motion, up to factors and linear combinations."""
 
     ask: Literal["motion"] = Field(description="an equation of motion, or all")

@@ -113,7 +113,7 @@ class VelocityDof(NumberQuestion):
             yield earlier["dof"] - (dof - velocity_dof)
 
 
-class Count(NumberQuestion):
+class CountQuestion(NumberQuestion):
     """k: the number of independent finite constraint equations, coordinates less the configuration's dimension."""
 
     ask: Literal["k"] = Field(description="the number of independent finite constraint equations")

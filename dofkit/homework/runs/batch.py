@@ -23,7 +23,7 @@ from dofkit.homework.result import Result
 BEAT = 0.25
 
 
-class Line(NamedTuple):
+class ResultLine(NamedTuple):
     """What is written of a submission: whose it is, whether it could not be graded, and the JSON."""
 
     student: str
@@ -31,7 +31,7 @@ class Line(NamedTuple):
     text: str
 
     @classmethod
-    def of(cls, result: Result | Echo) -> Line:
+    def of(cls, result: Result | Echo) -> ResultLine:
         """The line of a result."""
         return cls(result.student, result.error is not None, result.model_dump_json())
 
@@ -57,15 +57,15 @@ class Orders:
         points = sum((question.points for _, question in prepared.questions()), Fraction(0))
         return cls(pickle.dumps(prepared), float(points), check_only)
 
-    def refused(self, student: str, error: str) -> Line:
+    def refused(self, student: str, error: str) -> ResultLine:
         """The line of a submission that could not be graded."""
         if self.check_only:
-            return Line.of(Echo(student=student, items=[], error=error))
-        return Line.of(Result(student=student, score=None, max_score=self.max_score, items=[], error=error))
+            return ResultLine.of(Echo(student=student, items=[], error=error))
+        return ResultLine.of(Result(student=student, score=None, max_score=self.max_score, items=[], error=error))
 
 
 @dataclass(frozen=True)
-class Task:
+class GradingTask:
     """Submissions to grade. ``careful``: tell of every answer that it comes next."""
 
     orders: Orders
@@ -74,11 +74,11 @@ class Task:
     careful: bool = False
 
 
-def graded(task: Task) -> Iterator[Json]:
+def graded(task: GradingTask) -> Iterator[Json]:
     """The answers that come next, from time to time; at the end ``{"lines": ...}``, a list for each of ``handed``."""
     grader = _grader(task.orders)
     grader.condemned = task.condemned
-    last, lines = time.monotonic(), list[list[Line]]()
+    last, lines = time.monotonic(), list[list[ResultLine]]()
     for one in task.handed:
         lines.append([])
         allow_processor(task.orders.hard)
@@ -89,7 +89,7 @@ def graded(task: Task) -> Iterator[Json]:
                 try:
                     spot = next(steps)
                 except StopIteration as stop:
-                    lines[-1].append(Line.of(stop.value))
+                    lines[-1].append(ResultLine.of(stop.value))
                     break
                 if task.careful or time.monotonic() - last > BEAT:
                     yield {"next": spot}

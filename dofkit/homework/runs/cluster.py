@@ -15,7 +15,7 @@ from dofkit.homework.runs.batch import Orders
 from dofkit.homework.runs.keeper import Graded, Keeper
 
 
-class Cluster:
+class GradingCluster:
     """The workers of a Dask scheduler. Raises StoppedError where `distributed` is missing or nobody answers."""
 
     def __init__(self, address: str, orders: Orders) -> None:
@@ -23,11 +23,11 @@ class Cluster:
         self._machines = crews.Cluster(address)
         self.width = self._machines.width
 
-    def submit(self, handed: Sequence[Handed]) -> Task:
+    def submit(self, handed: Sequence[Handed]) -> GradingFuture:
         """Begin with a batch."""
-        return Task(self._machines.submit(graded, self._orders, tuple(handed)))
+        return GradingFuture(self._machines.submit(graded, self._orders, tuple(handed)))
 
-    def __enter__(self) -> Cluster:
+    def __enter__(self) -> GradingCluster:
         return self
 
     def __exit__(
@@ -37,7 +37,7 @@ class Cluster:
 
 
 @dataclass(frozen=True)
-class Task:
+class GradingFuture:
     """A batch under way."""
 
     future: Future[Graded]

@@ -11,7 +11,7 @@ from typing import Protocol
 
 from dofkit.base.workers.crews import Threads
 from dofkit.homework.answers.sources import Handed
-from dofkit.homework.runs.batch import Line, Orders
+from dofkit.homework.runs.batch import Orders, ResultLine
 from dofkit.homework.runs.keeper import Graded, Keeper
 
 #: Seconds that a batch should take, and the most submissions and bytes in one.
@@ -36,7 +36,7 @@ class Awaited(Protocol):
         """What was found, when it is there."""
 
 
-class Local:
+class LocalRunner:
     """Workers on this machine."""
 
     def __init__(self, keeper: Keeper, workers: int) -> None:
@@ -48,7 +48,7 @@ class Local:
         """Begin with a batch."""
         return self._threads.submit(self._keeper.graded, handed)
 
-    def __enter__(self) -> Local:
+    def __enter__(self) -> LocalRunner:
         return self
 
     def __exit__(
@@ -57,7 +57,7 @@ class Local:
         self._threads.__exit__(kind, error, trace)
 
 
-def in_order(runner: Runner, handed: Iterable[Handed]) -> Iterator[tuple[Handed, list[Line]]]:
+def in_order(runner: Runner, handed: Iterable[Handed]) -> Iterator[tuple[Handed, list[ResultLine]]]:
     """Everything handed in with its lines, in order; no more of it is taken than the workers can use soon.
 
     Batches are so large that each takes about half a second: what is in one makes no difference to its results.
@@ -90,8 +90,8 @@ def _batch(stream: Iterator[Handed], size: int) -> list[Handed]:
 
 
 def once(
-    orders: Orders, graded: Iterable[tuple[Handed, list[Line]]], seen: Seen
-) -> Iterator[tuple[Handed, list[Line]]]:
+    orders: Orders, graded: Iterable[tuple[Handed, list[ResultLine]]], seen: HandedIn
+) -> Iterator[tuple[Handed, list[ResultLine]]]:
     """The same, but a student's second submission is refused, and both places are named."""
     for one, lines in graded:
         told = []
@@ -104,7 +104,7 @@ def once(
         yield one, told
 
 
-class Seen:
+class HandedIn:
     """Who has handed in, and where; kept in a file that the system takes away, not in memory."""
 
     def __init__(self) -> None:

@@ -20,8 +20,8 @@ from dofkit.base.errors import DofkitError
 from dofkit.base.version import __version__
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.runs.batch import Line
-from dofkit.homework.runs.in_order import Seen
+from dofkit.homework.runs.batch import ResultLine
+from dofkit.homework.runs.in_order import HandedIn
 
 if sys.platform != "win32":
     import fcntl
@@ -68,7 +68,7 @@ class Journal:
             return marks.readline().decode("ascii", "replace").rstrip("\n")
         return None
 
-    def taken_over(self, handed: Iterator[Handed], seen: Seen) -> Iterator[Handed]:
+    def taken_over(self, handed: Iterator[Handed], seen: HandedIn) -> Iterator[Handed]:
         """What is left of ``handed`` after what was graded before; who is behind that is noted in ``seen``."""
         self._marks.readline()
         for one in handed:
@@ -84,7 +84,7 @@ class Journal:
         self._cut(self._results.tell(), self._marks.tell())
         return iter(())
 
-    def _known(self, one: Handed) -> list[Line] | None:
+    def _known(self, one: Handed) -> list[ResultLine] | None:
         """The results of what was handed in, if they stand next in the file, whole."""
         parts = self._marks.readline().decode("ascii", "replace").split(" ")
         if len(parts) != 3 or parts[0] != one.digest() or not parts[1].isdigit():
@@ -100,7 +100,7 @@ class Journal:
             file.seek(place)
             file.truncate()
 
-    def write(self, one: Handed, lines: list[Line]) -> None:
+    def write(self, one: Handed, lines: list[ResultLine]) -> None:
         """Note the results of something handed in: first they are written, then that they are."""
         texts = [f"{line.text}\n".encode() for line in lines]
         self._results.writelines(texts)
@@ -134,6 +134,6 @@ def _digest(texts: list[bytes]) -> str:
     return hashlib.blake2b(b"".join(texts), digest_size=8).hexdigest()
 
 
-def _line(text: bytes) -> Line:
+def _line(text: bytes) -> ResultLine:
     value = json.loads(text)
-    return Line(str(value["student"]), value["error"] is not None, text.decode().rstrip("\n"))
+    return ResultLine(str(value["student"]), value["error"] is not None, text.decode().rstrip("\n"))

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import NamedTuple
 
-from dofkit.base.workers import MEMORY, Job, Outcome, Pool
+from dofkit.base.workers import MEMORY, Job, JobOutcome, Pool
 from dofkit.base.workers.crews import StoppedError
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.grading import Spot
-from dofkit.homework.runs.batch import Line, Orders, Task, graded
+from dofkit.homework.runs.batch import GradingTask, Orders, ResultLine, graded
 
 #: What a student reads of an answer that broke its worker, by how that ended.
 _ENDED = {
@@ -26,7 +26,7 @@ _ENDED = {
 class Graded(NamedTuple):
     """The lines of a batch, a list for everything handed in, and how many seconds it took."""
 
-    lines: list[list[Line]]
+    lines: list[list[ResultLine]]
     seconds: float
 
 
@@ -52,32 +52,32 @@ class Keeper:
         start = time.monotonic()
         outcome = self._run(tuple(handed), careful=False)
         if outcome.finished:
-            lines = [[Line(*line) for line in lines] for lines in outcome.value["lines"]]
+            lines = [[ResultLine(*line) for line in lines] for lines in outcome.value["lines"]]
         else:
             lines = [self._alone(one) for one in handed]
         return Graded(lines, time.monotonic() - start)
 
-    def _alone(self, one: Handed) -> list[Line]:
+    def _alone(self, one: Handed) -> list[ResultLine]:
         """One at a time, and telling of every answer before it is judged: so one that breaks the worker is found."""
         while True:
             outcome = self._run((one,), careful=True)
             if outcome.finished:
-                return [Line(*line) for line in outcome.value["lines"][0]]
+                return [ResultLine(*line) for line in outcome.value["lines"][0]]
             spot = outcome.value["next"] if outcome.value else None
             with self._lock:
                 if spot is None or spot in self._condemned:
                     return [self._lost(one, outcome)]
                 self._condemned[spot] = _ENDED[outcome.ended]
 
-    def _lost(self, one: Handed, outcome: Outcome) -> Line:
+    def _lost(self, one: Handed, outcome: JobOutcome) -> ResultLine:
         return self.orders.refused(one.name, f"{one.place}: it could not be graded: {_ENDED[outcome.ended]}")
 
-    def _run(self, handed: tuple[Handed, ...], careful: bool) -> Outcome:
+    def _run(self, handed: tuple[Handed, ...], careful: bool) -> JobOutcome:
         with self._lock:
             condemned = dict(self._condemned)
         if self._stopped:
             raise StoppedError("grading was stopped")
-        task = Task(self.orders, handed, condemned, careful)
+        task = GradingTask(self.orders, handed, condemned, careful)
         outcome = self._pool.run(Job(graded, task, self.orders.wall))
         if self._stopped:
             raise StoppedError("grading was stopped")

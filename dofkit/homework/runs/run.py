@@ -17,9 +17,9 @@ from dofkit.homework.answers.sources import Handed, handed
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.result import Result
-from dofkit.homework.runs.batch import Line, Orders
-from dofkit.homework.runs.cluster import Cluster
-from dofkit.homework.runs.in_order import Local, Runner, Seen, in_order, once
+from dofkit.homework.runs.batch import Orders, ResultLine
+from dofkit.homework.runs.cluster import GradingCluster
+from dofkit.homework.runs.in_order import HandedIn, LocalRunner, Runner, in_order, once
 from dofkit.homework.runs.journal import Journal, fingerprint, ledger
 from dofkit.homework.runs.keeper import Keeper
 
@@ -27,7 +27,7 @@ NATIVE = "native"
 
 
 @dataclass(frozen=True)
-class Options:
+class GradingOptions:
     """What the command line says besides the files. ``out``: where results go, None for standard output."""
 
     form: str = NATIVE
@@ -61,7 +61,7 @@ def _native(form: Format, out: Path) -> Path:
     return out if form.name == NATIVE else out.with_name(out.name + ".results.jsonl")
 
 
-def run(assignment: str, sources: list[str], options: Options) -> bool:
+def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     """Grade everything, in the order given; was every submission read?
 
     Raises AssignmentError, FormatError, OSError for what cannot be written, and StoppedError.
@@ -73,7 +73,7 @@ def run(assignment: str, sources: list[str], options: Options) -> bool:
     prepared = load_assignment(assignment)
     orders = Orders.of(prepared, options.check_only)
     stream = handed(sources, prepared.columns(), [assignment, *options.written])
-    with _runner(orders, options) as runner, closing(Seen()) as seen:
+    with _runner(orders, options) as runner, closing(HandedIn()) as seen:
         one = _Run(form, prepared, orders, runner, seen)
         if options.out is None:
             one.to_stdout(stream)
@@ -83,15 +83,15 @@ def run(assignment: str, sources: list[str], options: Options) -> bool:
 
 
 @contextmanager
-def _runner(orders: Orders, options: Options) -> Iterator[Runner]:
+def _runner(orders: Orders, options: GradingOptions) -> Iterator[Runner]:
     if options.scheduler is not None:
-        with Cluster(options.scheduler, orders) as cluster:
+        with GradingCluster(options.scheduler, orders) as cluster:
             yield cluster
         return
     workers = options.workers or cores()
     with Keeper(orders, workers) as keeper:
         keeper.fork()
-        with Local(keeper, workers) as local:
+        with LocalRunner(keeper, workers) as local:
             yield local
 
 
@@ -103,7 +103,7 @@ class _Run:
     prepared: Prepared
     orders: Orders
     runner: Runner
-    seen: Seen
+    seen: HandedIn
     failed: int = 0
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
@@ -129,7 +129,7 @@ class _Run:
             path.unlink()
         journal.finish()
 
-    def _graded(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[Line]]]:
+    def _graded(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[ResultLine]]]:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)

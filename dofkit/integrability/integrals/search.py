@@ -24,7 +24,7 @@ from dofkit.integrability.integrals.normal_shape import Pair, arranged, cost, sh
 from dofkit.integrability.integrals.potential import Form, potential
 from dofkit.relations.normal.normal_form import Pfaffian
 
-__all__ = ["Found", "integrate"]
+__all__ = ["Integral", "integrate"]
 
 #: Forms past this size, in nodes, are left alone.
 MAX_FORM = 300
@@ -34,7 +34,7 @@ LONG = 60
 
 
 @dataclass(frozen=True)
-class Found:
+class Integral:
     """The finite relation a form integrates to, as text.
 
     ``factor``: the integrating factor mu, e.g. ``1/x^2``; None where the form is closed as written.
@@ -45,7 +45,7 @@ class Found:
     integral: str
 
 
-def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Found | None:
+def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
     """f = C and mu with df = mu omega in (q, t), proved; None where none was found."""
     work = Algebra(positive)
     try:
@@ -54,7 +54,7 @@ def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Found | None:
         return None
 
 
-def _integrate(work: Algebra, form: Pfaffian) -> Found | None:
+def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
     items = {s: a for s, a in form.items() if not work.vanishes(a)}
     if not items or sum(size(a) for a in items.values()) > MAX_FORM:
         return None
@@ -65,11 +65,11 @@ def _integrate(work: Algebra, form: Pfaffian) -> Found | None:
         if closed is not None:
             for shown in dict.fromkeys((arranged(upright(closed)), arranged(closed), closed)):
                 if _proved(work, whole, (shown, ex.ONE)):
-                    return Found(None, _equation(shown, whole))
+                    return Integral(None, _equation(shown, whole))
     return _with_factor(work, whole)
 
 
-def _with_factor(work: Algebra, form: Form) -> Found | None:
+def _with_factor(work: Algebra, form: Form) -> Integral | None:
     """The simplest of the integrals that the first fruitful families of factors give."""
     best: Pair | None = None
     try:
@@ -80,7 +80,7 @@ def _with_factor(work: Algebra, form: Form) -> Found | None:
                 break
     except GivenUpError:
         pass
-    return None if best is None else Found(to_text(best[1]), _equation(best[0], form))
+    return None if best is None else Integral(to_text(best[1]), _equation(best[0], form))
 
 
 def _equation(integral: Expr, form: Form) -> str:

@@ -99,7 +99,7 @@ def _read(e: Expr) -> Expr | Pfaffian | str:
 
 
 @dataclass(frozen=True)
-class Posed:
+class WrittenAnswer:
     """An answer, the constraint that it should be, and the others, as written."""
 
     answer: Written
@@ -107,7 +107,7 @@ class Posed:
     rest: Written
 
 
-def posed(scene: Scene, answer: Mapping[str, str]) -> Posed:
+def posed(scene: Scene, answer: Mapping[str, str]) -> WrittenAnswer:
     """What is compared where an answer is; raises SceneError where it cannot be read."""
     texts = [part for part in answer["text"].replace("\n", ";").split(";") if part.strip()]
     more = [Equation(type="equation", name=f"{ANSWER} {k}", text=text) for k, text in enumerate(texts)]
@@ -116,7 +116,7 @@ def posed(scene: Scene, answer: Mapping[str, str]) -> Posed:
     asked = [i for i, name in enumerate(names) if name == answer["constraint"]]
     given = [i for i, name in enumerate(names) if name.startswith(ANSWER)]
     rest = [i for i in range(len(names)) if i not in asked and i not in given]
-    return Posed(whole.only(given), whole.only(asked), whole.only(rest))
+    return WrittenAnswer(whole.only(given), whole.only(asked), whole.only(rest))
 
 
 def labelled(written: Written, holonomic: Mapping[int, bool]) -> dict[str, bool]:

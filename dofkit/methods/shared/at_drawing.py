@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from dofkit.base.verdicts import Verdict
-from dofkit.methods.shared.pointwise import Looked, Numbers, freedom, regular
-from dofkit.methods.shared.reporting import Found, Label, many
+from dofkit.methods.shared.pointwise import Decider, SampledPoints, freedom, regular
+from dofkit.methods.shared.reporting import MethodFindings, MethodLabel, many
 
 FAILS = "At a regular point the form fails Frobenius' test (its differential does not vanish on what the others allow)."
 PASSES = "At the point that was looked at the form passes Frobenius' test; elsewhere it need not."
@@ -16,7 +16,7 @@ SINGULAR = (
 )
 
 
-def at_points(looked: Looked, numbers: Numbers, sure: Verdict, trusted: bool) -> Found:
+def at_points(looked: SampledPoints, numbers: Decider, sure: Verdict, trusted: bool) -> MethodFindings:
     """Velocities at the drawing; freedom where all equations are independent there (implicit function theorem).
 
     ``trusted``: what is not 0 at the points is not 0, as surely as ``sure`` says.
@@ -51,10 +51,10 @@ def at_points(looked: Looked, numbers: Numbers, sure: Verdict, trusted: bool) ->
         )
     else:
         told.append(_believed(looked, numbers, rows - rank, where))
-    return Found(fields, _labels(looked, numbers, sure, trusted), told, independent, sure)
+    return MethodFindings(fields, _labels(looked, numbers, sure, trusted), told, independent, sure)
 
 
-def _believed(looked: Looked, numbers: Numbers, dependent: int, where: str) -> str:
+def _believed(looked: SampledPoints, numbers: Decider, dependent: int, where: str) -> str:
     count = many(freedom(looked, numbers), "degree")
     if dependent:
         also = f"{many(dependent, 'equation')} depend{'s' * (dependent == 1)} on the others {where}"
@@ -62,16 +62,16 @@ def _believed(looked: Looked, numbers: Numbers, dependent: int, where: str) -> s
     return f"The rank {where} gives {count} of freedom; it takes what holds at that point to hold everywhere."
 
 
-def _labels(looked: Looked, numbers: Numbers, sure: Verdict, trusted: bool) -> dict[int, Label]:
+def _labels(looked: SampledPoints, numbers: Decider, sure: Verdict, trusted: bool) -> dict[int, MethodLabel]:
     written = looked.rows.written
     generic = written.system.reference is not None or not written.finite
     good = trusted and generic and regular(looked, numbers)
-    told: dict[int, Label] = {}
+    told: dict[int, MethodLabel] = {}
     for (i, _), passes in zip(looked.rows.forms, looked.passing, strict=True):
         if i in written.others:
             continue
         if not passes and good:
-            told[i] = Label(False, FAILS, sure)
+            told[i] = MethodLabel(False, FAILS, sure)
         elif i not in told:
-            told[i] = Label(None, PASSES if passes else SINGULAR, "undecided")
+            told[i] = MethodLabel(None, PASSES if passes else SINGULAR, "undecided")
     return told

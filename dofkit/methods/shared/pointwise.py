@@ -15,13 +15,13 @@ from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Point, Ring, Scalar
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.methods.shared.as_written import Posed, Written, labelled
-from dofkit.methods.shared.reply import Told
+from dofkit.methods.shared.as_written import Written, WrittenAnswer, labelled
+from dofkit.methods.shared.reply import MethodReply
 
 Matrix = list[list[Scalar]]
 
 
-class Numbers(Protocol):
+class Decider(Protocol):
     """What a method decides by."""
 
     @property
@@ -30,10 +30,10 @@ class Numbers(Protocol):
     def rank(self, matrix: Matrix) -> int: ...
     def kernel(self, matrix: Matrix, columns: int) -> Matrix: ...
     def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool: ...
-    def points(self, written: Written, rows: Rows, drawn: bool) -> Sequence[Point]: ...
+    def points(self, written: Written, rows: WrittenRows, drawn: bool) -> Sequence[Point]: ...
 
 
-class Rows:
+class WrittenRows:
     """The equations of a scene as a program that can be run at points."""
 
     def __init__(self, written: Written, more: Sequence[Expr] = ()) -> None:
@@ -46,14 +46,14 @@ class Rows:
         self.forms = [(i, {place[s]: self.ring.node(a) for s, a in f.items()}) for i, f in written.forms]
         self.indices = [self.ring.var_index(s) for s in self.columns]
 
-    def at(self, point: Point, zero: Scalar) -> Sampled:
+    def at(self, point: Point, zero: Scalar) -> SampledRows:
         """Everything at one point."""
         known = values(self.ring, point)
         slopes = {node: self._slope(known, point, node, zero) for node in self._nodes()}
         finite = [slopes[node] for _, node in self.finite]
         forms = [[known[a[c]] if c in a else zero for c in range(len(self.columns))] for _, a in self.forms]
         curls = [self._curl({c: slopes[node] for c, node in a.items()}, zero) for _, a in self.forms]
-        return Sampled(finite, forms, curls, [known[node] for _, node in self.finite], known)
+        return SampledRows(finite, forms, curls, [known[node] for _, node in self.finite], known)
 
     def _nodes(self) -> set[int]:
         return {node for _, node in self.finite} | {node for _, a in self.forms for node in a.values()}
@@ -71,7 +71,7 @@ class Rows:
 
 
 @dataclass(frozen=True)
-class Sampled:
+class SampledRows:
     """Rows of the finite equations and of the forms, their exterior derivatives, and what the finite equations give."""
 
     finite: Matrix
@@ -86,17 +86,17 @@ class Sampled:
 
 
 @dataclass(frozen=True)
-class Looked:
+class SampledPoints:
     """The points that were found, and which forms pass Frobenius' test at all of them."""
 
-    rows: Rows
-    samples: list[Sampled]
+    rows: WrittenRows
+    samples: list[SampledRows]
     passing: list[bool]
 
 
-def look(written: Written, numbers: Numbers) -> Looked | None:
+def look(written: Written, numbers: Decider) -> SampledPoints | None:
     """At the drawing where there is one, else at the points that the numbers find; None where they find none."""
-    rows = Rows(written)
+    rows = WrittenRows(written)
     drawn = written.system.reference is not None
     samples = [rows.at(p, numbers.zero) for p in numbers.points(written, rows, drawn)]
     if not samples:
@@ -106,10 +106,10 @@ def look(written: Written, numbers: Numbers) -> Looked | None:
         basis = numbers.kernel(s.rows, len(rows.columns))
         for k, curl in enumerate(s.curls):
             passing[k] = passing[k] and _flat(curl, basis, numbers)
-    return Looked(rows, samples, passing)
+    return SampledPoints(rows, samples, passing)
 
 
-def _flat(curl: Matrix, basis: Matrix, numbers: Numbers) -> bool:
+def _flat(curl: Matrix, basis: Matrix, numbers: Decider) -> bool:
     """N^T C N = 0?"""
     scale = [v for row in curl for v in row]
     for a, u in enumerate(basis):
@@ -120,14 +120,14 @@ def _flat(curl: Matrix, basis: Matrix, numbers: Numbers) -> bool:
     return True
 
 
-def freedom(found: Looked, numbers: Numbers) -> int:
+def freedom(found: SampledPoints, numbers: Decider) -> int:
     """Coordinates less the rank of the finite equations and of the forms that pass: the least over the points."""
     n = found.rows.n
     kept = [[*s.finite, *(f for f, p in zip(s.forms, found.passing, strict=True) if p)] for s in found.samples]
     return min(n - numbers.rank([row[:n] for row in rows]) for rows in kept)
 
 
-def labels(found: Looked) -> dict[str, bool]:
+def labels(found: SampledPoints) -> dict[str, bool]:
     """Whether each constraint is taken for holonomic."""
     told: dict[int, bool] = {}
     for (i, _), passes in zip(found.rows.forms, found.passing, strict=True):
@@ -135,7 +135,7 @@ def labels(found: Looked) -> dict[str, bool]:
     return labelled(found.rows.written, told)
 
 
-def droppable(found: Looked, numbers: Numbers) -> list[str]:
+def droppable(found: SampledPoints, numbers: Decider) -> list[str]:
     """Constraints without which the rank stays as it is, the last written first; finite ones are fixed by finite ones.
 
     Inequalities and what is nonlinear in velocities are left in.
@@ -160,22 +160,24 @@ def droppable(found: Looked, numbers: Numbers) -> list[str]:
     return sorted(names[i] for i in dropped)
 
 
-def same(question: Posed, numbers: Numbers) -> Told:
+def same(question: WrittenAnswer, numbers: Decider) -> MethodReply:
     """Does each hold where the other does, at the points that are looked at?"""
     answer, asked, rest = question.answer, question.asked, question.rest
     if answer.others or asked.others:
-        return Told(None, "inequalities and equations nonlinear in the velocities are not compared at points", True)
+        return MethodReply(
+            None, "inequalities and equations nonlinear in the velocities are not compared at points", True
+        )
     if bool(answer.forms) != bool(asked.forms) or bool(answer.finite) != bool(asked.finite):
-        return Told(False, "one is about positions, the other about velocities")
+        return MethodReply(False, "one is about positions, the other about velocities")
     if asked.forms:
         return _same_span(answer, asked, rest, numbers)
     for given, held in ((asked, answer), (answer, asked)):
         held_there = _holds_on(together(rest, given), held, numbers)
         if held_there is None:
-            return Told(None, "no point of the constraints was found")
+            return MethodReply(None, "no point of the constraints was found")
         if not held_there:
-            return Told(False, "there is a point where one holds and the other does not")
-    return Told(True)
+            return MethodReply(False, "there is a point where one holds and the other does not")
+    return MethodReply(True)
 
 
 def together(first: Written, second: Written) -> Written:
@@ -184,10 +186,10 @@ def together(first: Written, second: Written) -> Written:
     return Written(first.system, first.finite + second.finite, first.forms + second.forms, others)
 
 
-def _holds_on(given: Written, held: Written, numbers: Numbers) -> bool | None:
+def _holds_on(given: Written, held: Written, numbers: Decider) -> bool | None:
     standing = Written(given.system, given.finite, ())
-    rows = Rows(standing, held.expressions)
-    asked = Rows(together(standing, held))
+    rows = WrittenRows(standing, held.expressions)
+    asked = WrittenRows(together(standing, held))
     points = numbers.points(standing, rows, False)
     if not points:
         return None
@@ -200,22 +202,22 @@ def _holds_on(given: Written, held: Written, numbers: Numbers) -> bool | None:
     return True
 
 
-def _same_span(answer: Written, asked: Written, rest: Written, numbers: Numbers) -> Told:
+def _same_span(answer: Written, asked: Written, rest: Written, numbers: Decider) -> MethodReply:
     """At points of the finite equations, the forms of both and of the others span the same."""
     whole = together(rest, together(asked, answer))
     standing = Written(whole.system, rest.finite, ())
-    points = numbers.points(standing, Rows(standing, whole.expressions), False)
+    points = numbers.points(standing, WrittenRows(standing, whole.expressions), False)
     if not points:
-        return Told(None, "no point of the constraints was found")
-    given, wanted, both = (Rows(together(rest, w)) for w in (answer, asked, together(asked, answer)))
+        return MethodReply(None, "no point of the constraints was found")
+    given, wanted, both = (WrittenRows(together(rest, w)) for w in (answer, asked, together(asked, answer)))
     for point in points:
         mine, theirs, all_rows = (numbers.rank(_padded(r, whole, point, numbers)) for r in (given, wanted, both))
         if not mine == theirs == all_rows:
-            return Told(False, "at a point they allow different velocities")
-    return Told(True)
+            return MethodReply(False, "at a point they allow different velocities")
+    return MethodReply(True)
 
 
-def _padded(rows: Rows, whole: Written, point: Point, numbers: Numbers) -> Matrix:
+def _padded(rows: WrittenRows, whole: Written, point: Point, numbers: Decider) -> Matrix:
     """The rows over (q, t) even where time does not occur."""
     more = [numbers.zero] if whole.timed and not rows.written.timed else []
     return [[*row, *more] for row in rows.at(point, numbers.zero).rows]
@@ -228,7 +230,7 @@ def drawn_value(value: Expr, point: Any) -> Scalar:
     return values(ring, point)[node]
 
 
-def regular(found: Looked, numbers: Numbers) -> bool:
+def regular(found: SampledPoints, numbers: Decider) -> bool:
     """Are all rows independent over q at every point that was looked at? Then dt is not in their span either."""
     n = found.rows.n
     return all(numbers.rank([row[:n] for row in s.rows]) == len(s.rows) for s in found.samples)

@@ -21,7 +21,7 @@ class Knobs:
 
 
 @dataclass(frozen=True)
-class Told:
+class MethodReply:
     """What a method answers to a question: None where it cannot or does not, and then why.
 
     ``cannot``: it never answers such a question, or one about such a scene; else it tried.
@@ -32,6 +32,6 @@ class Told:
     cannot: bool = False
 
 
-def cannot(reason: str) -> Told:
+def cannot(reason: str) -> MethodReply:
     """Nothing, and why."""
-    return Told(None, reason, cannot=True)
+    return MethodReply(None, reason, cannot=True)

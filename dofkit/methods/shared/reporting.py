@@ -26,7 +26,7 @@ UNILATERAL = "It is an inequality: it allows both sides to move away from it, so
 
 
 @dataclass(frozen=True)
-class Label:
+class MethodLabel:
     """What a method knows of one constraint's holonomy, and why; ``exact``: closed as written."""
 
     holonomic: bool | None
@@ -37,14 +37,14 @@ class Label:
 
 
 @dataclass(frozen=True)
-class Found:
+class MethodFindings:
     """What a method tells: fields of the report it is sound for, labels by constraint, and sentences.
 
     ``independent``: all equations are independent, as surely as ``verdict`` says.
     """
 
     fields: Mapping[str, Any]
-    labels: Mapping[int, Label]
+    labels: Mapping[int, MethodLabel]
     warnings: Sequence[str]
     independent: bool = False
     verdict: Verdict = "proved"
@@ -54,11 +54,11 @@ def report_alone(system: System, method: MethodName) -> Report:
     """The report of a method by itself."""
     base = sketch(system, f"{method} alone does not tell")
     try:
-        found: Found = module_of(method).found(system)
+        found: MethodFindings = module_of(method).found(system)
     except OutOfTimeError:
         raise
     except FAILURES as error:
-        found = Found({}, {}, [f"{method} alone came to nothing: {str(error) or type(error).__name__}."])
+        found = MethodFindings({}, {}, [f"{method} alone came to nothing: {str(error) or type(error).__name__}."])
     best = METHODS[method].best
     pairs = zip(system.constraints, base.constraints, strict=True)
     entries = [_entry(c, e, found, found.labels.get(i), best) for i, (c, e) in enumerate(pairs)]
@@ -79,17 +79,17 @@ def _all(labels: Sequence[bool | None]) -> bool | None:
 
 
 def _entry(
-    constraint: Constraint, entry: ConstraintEntry, found: Found, label: Label | None, best: Verdict
+    constraint: Constraint, entry: ConstraintEntry, found: MethodFindings, label: MethodLabel | None, best: Verdict
 ) -> ConstraintEntry:
     """An entry with what stands in the text itself, and what the method tells."""
     if label is None:
-        label = Label(None, entry.reason, "undecided")
+        label = MethodLabel(None, entry.reason, "undecided")
         if entry.form == "finite":
-            label = Label(True, FINITE, alone=True)
+            label = MethodLabel(True, FINITE, alone=True)
         elif entry.form == "inequality":
-            label = Label(False, UNILATERAL, alone=False)
+            label = MethodLabel(False, UNILATERAL, alone=False)
         elif entry.form == "nonlinear":
-            label = Label(None, f"{NONLINEAR} {entry.reason}", "undecided")
+            label = MethodLabel(None, f"{NONLINEAR} {entry.reason}", "undecided")
     still = True if without_time(constraint) else None
     known = found.independent and entry.bilateral
     told = [label.holonomic, still, *([True] if known or not entry.bilateral else [None])]

@@ -18,7 +18,7 @@ class Proof(NamedTuple):
     reason: str
 
 
-class Solved(Protocol):
+class GraphAnswer(Protocol):
     """A graph of links in general position. Joints and links are numbers from 0, links in the order given."""
 
     @property

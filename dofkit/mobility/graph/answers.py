@@ -14,10 +14,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from dofkit.mobility.graph.answer import Proof, Solved
-from dofkit.mobility.graph.line import Line
+from dofkit.mobility.graph.answer import GraphAnswer, Proof
+from dofkit.mobility.graph.line import LineGraph
 from dofkit.mobility.graph.links import Joint, Link, LinkageError, read
-from dofkit.mobility.graph.plane import Plane
+from dofkit.mobility.graph.plane import PlaneGraph
 from dofkit.mobility.graph.result import Group, Hinge, Linkage
 
 if TYPE_CHECKING:
@@ -56,11 +56,11 @@ def redundant_links(links: Iterable[Link] | nx.Graph[Any], dimension: int) -> li
     return linkage(links, dimension).redundant
 
 
-def _solved(dimension: int, joints: int, ends: Sequence[int]) -> Solved:
+def _solved(dimension: int, joints: int, ends: Sequence[int]) -> GraphAnswer:
     if dimension == 1:
-        return Line(joints, ends)
+        return LineGraph(joints, ends)
     if dimension == 2:
-        return Plane(joints, ends)
-    from dofkit.mobility.graph.space import Space
+        return PlaneGraph(joints, ends)
+    from dofkit.mobility.graph.space import SpaceGraph
 
-    return Space(joints, ends)
+    return SpaceGraph(joints, ends)

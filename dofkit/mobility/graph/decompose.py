@@ -18,11 +18,11 @@ DEGREE = 3
 
 
 @dataclass(frozen=True)
-class Piece:
+class PeeledGraph:
     """Joints taken off with their links, in that order, and what is left: several parts, or one ``core`` of links."""
 
     peeled: list[tuple[int, list[int]]]
-    parts: list[Piece]
+    parts: list[PeeledGraph]
     core: list[int]
 
     def cores(self) -> list[list[int]]:
@@ -31,13 +31,13 @@ class Piece:
         return [self.core, *found] if self.core else found
 
 
-def decompose(links: Sequence[int], ends: Ends) -> Piece:
+def decompose(links: Sequence[int], ends: Ends) -> PeeledGraph:
     """Links with different pairs of ends taken apart; joints of at most three links are taken off."""
     peeled, core = peel(links, ends)
     blocks = _blocks(core, ends)
     if len(blocks) < 2:
-        return Piece(peeled, [], core)
-    return Piece(peeled, [decompose(block, ends) for block in blocks], [])
+        return PeeledGraph(peeled, [], core)
+    return PeeledGraph(peeled, [decompose(block, ends) for block in blocks], [])
 
 
 def peel(links: Sequence[int], ends: Ends) -> tuple[list[tuple[int, list[int]]], list[int]]:

@@ -16,7 +16,7 @@ from dofkit.mobility.graph.grouping import gathered
 _PROOF = Proof("proved", "spanning forest: in one dimension a link is redundant if and only if it closes a cycle")
 
 
-class Line:
+class LineGraph:
     """A graph of links in one dimension; see `dofkit.linkage.solved.Solved`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:

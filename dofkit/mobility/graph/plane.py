@@ -61,7 +61,7 @@ def _leaders(engine: Engine, group: Any) -> list[int]:
     return [int(engine.kernels.leader(group, i)) for i in range(len(group))]
 
 
-class Plane:
+class PlaneGraph:
     """A graph of links in two dimensions; see `dofkit.linkage.solved.Solved`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:

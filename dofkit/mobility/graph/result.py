@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
-from dofkit.mobility.graph.answer import Proof, Question, Solved
+from dofkit.mobility.graph.answer import GraphAnswer, Proof, Question
 from dofkit.mobility.graph.links import Graph, Joint, Link, LinkageError
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class Linkage:
 
     dimension: int
     _graph: Graph = field(repr=False)
-    _solved: Solved = field(repr=False)
+    _solved: GraphAnswer = field(repr=False)
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:

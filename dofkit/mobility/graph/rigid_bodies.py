@@ -11,7 +11,7 @@ import numpy as np
 from dofkit.exact.matrices.dense import product, residues
 
 
-class Bodies:
+class RigidBodies:
     """Maximal sets of joints that keep all their distances; two of them share two joints at most."""
 
     def __init__(self) -> None:

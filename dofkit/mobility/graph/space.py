@@ -14,10 +14,10 @@ from typing import Protocol
 
 from dofkit.mobility.graph.answer import Proof, Question
 from dofkit.mobility.graph.core import Core, core_of
-from dofkit.mobility.graph.decompose import Ends, Piece, decompose
+from dofkit.mobility.graph.decompose import Ends, PeeledGraph, decompose
 from dofkit.mobility.graph.grouping import connected
 from dofkit.mobility.graph.hinged_bodies import bodies_of_core, hinged_bound, rigid_by_count
-from dofkit.mobility.graph.rigid_bodies import Bodies
+from dofkit.mobility.graph.rigid_bodies import RigidBodies
 from dofkit.mobility.graph.sparse_core import Large, too_large
 
 #: Positions that are tried for dependences that no count proves, and before a run of bad luck is given up.
@@ -26,7 +26,7 @@ _INDEPENDENT = "links are independent in general position where they are at one 
 _PEELED = "every joint can be taken off with at most three links, so all links are independent"
 
 
-class Part(Protocol):
+class CorePart(Protocol):
     """A core: the links that depend on those before them, in order, and what is told of them."""
 
     @property
@@ -45,7 +45,7 @@ class Part(Protocol):
         """Maximal sets of joints that keep all their distances, and whether each is proved to."""
 
 
-class Space:
+class SpaceGraph:
     """A graph of links in three dimensions; see `dofkit.linkage.solved.Solved`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:
@@ -79,12 +79,12 @@ class Space:
         return connected([i, *circuit] for i, circuit in self._circuits.items())
 
     @cached_property
-    def _bodies(self) -> tuple[Bodies, bool]:
+    def _bodies(self) -> tuple[RigidBodies, bool]:
         """Rigid clusters, and whether each of them is rigid by the count of its own independent links."""
-        bodies = Bodies()
+        bodies = RigidBodies()
         return bodies, self._built(self._piece, bodies)
 
-    def _built(self, piece: Piece, bodies: Bodies) -> bool:
+    def _built(self, piece: PeeledGraph, bodies: RigidBodies) -> bool:
         proved = sum(not self._built(part, bodies) for part in piece.parts) == 0
         if piece.core:
             found, sure = self._cores[tuple(piece.core)].bodies()
@@ -112,7 +112,7 @@ class Space:
 
 @dataclass(frozen=True)
 class Small:
-    """A core whose matrix was eliminated; see `Part`."""
+    """A core whose matrix was eliminated; see `CorePart`."""
 
     core: Core
     chance: float
@@ -131,7 +131,7 @@ class Small:
         return found, len(found) == 1 or rigid_by_count(found, [self.ends[i] for i in self.core.links])
 
 
-def _part(links: Sequence[int], ends: Ends) -> Part:
+def _part(links: Sequence[int], ends: Ends) -> CorePart:
     if too_large(links, ends):
         return Large(links, ends)
     return Small(*_sure(links, ends), ends)

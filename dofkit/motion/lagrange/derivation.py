@@ -11,7 +11,7 @@ from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.handover import Handover, handover
-from dofkit.motion.lagrange.model import Model
+from dofkit.motion.lagrange.model import LagrangeModel
 from dofkit.motion.lagrange.term_order import ordered
 from dofkit.motion.lagrange.tidying import Tidier
 
@@ -20,7 +20,7 @@ from dofkit.motion.lagrange.tidying import Tidier
 class Derived:
     """The equations (each is zero), momenta and generalized forces of the coordinates kept; multipliers by name."""
 
-    model: Model
+    model: LagrangeModel
     lagrangian: Expr
     momenta: dict[str, Expr]
     forces: dict[str, Expr]
@@ -29,7 +29,7 @@ class Derived:
     handover: Handover
 
 
-def derive(model: Model) -> Derived:
+def derive(model: LagrangeModel) -> Derived:
     """Lagrange's equations of a model. Raises UntranslatableError where SymPy's answer cannot be written here."""
     bridge = Bridge([c.name for c in model.study.system.coordinates], model.positive)
     given = handover(model, bridge)
@@ -63,7 +63,7 @@ def _over(term: Expr, factor: Expr) -> Expr:
     return ex.mul(*(term.args if term.op == "mul" else (term,)), ex.power(factor, ex.MINUS_ONE))
 
 
-def _multipliers(model: Model) -> tuple[str, ...]:
+def _multipliers(model: LagrangeModel) -> tuple[str, ...]:
     """lam1, lam2, ..., or the like where the scene has such names."""
     system = model.study.system
     taken = {*(c.name for c in system.coordinates), *system.parameters, *system.functions}

@@ -36,7 +36,7 @@ ELIMINATIONS = (Care(400, 1), Care(24, 0), Care(0, 0))
 Remaining = Finite | Pfaffian | Nonlinear
 
 
-class Relation(NamedTuple):
+class EliminatedRelation(NamedTuple):
     """g = 0, and the constants of integration that it brought with it."""
 
     expr: Expr
@@ -80,7 +80,9 @@ class Eliminator:
     choose: Callable[[str, Expr, Expr, Mapping[str, Expr]], tuple[Expr, str]]
     care: Care = ELIMINATIONS[0]
 
-    def eliminated(self, relations: Sequence[Relation], names: Sequence[str], preferred: Sequence[str]) -> Elimination:
+    def eliminated(
+        self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str]
+    ) -> Elimination:
         """As many relations as possible solved for some of ``names``; ``preferred`` ones go first.
 
         Relations that need more than `care.roots` roots are all left.
@@ -93,7 +95,7 @@ class Eliminator:
         return found
 
     def _attempt(
-        self, relations: Sequence[Relation], names: Sequence[str], preferred: Sequence[str], most: int
+        self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], most: int
     ) -> Elimination | None:
         """An elimination by ``most`` roots; None where it would need more, unless that is 0."""
         solved: dict[str, Expr] = {}
@@ -126,14 +128,14 @@ class Eliminator:
             constants |= relation.constants
         return Elimination(solved, frozenset(constants), tuple(notes))
 
-    def _rest(self, relation: Relation, mapping: Mapping[Expr, Expr]) -> list[Relation]:
+    def _rest(self, relation: EliminatedRelation, mapping: Mapping[Expr, Expr]) -> list[EliminatedRelation]:
         """A relation after a substitution; nothing where it then holds identically."""
         e = ex.substitute(relation.expr, mapping)
         return [] if is_identically_zero(e, self.positive) else [relation._replace(expr=e)]
 
     def _best(
-        self, relations: Sequence[Relation], names: Sequence[str], preferred: Sequence[str], roots: bool
-    ) -> tuple[Relation, Candidate] | None:
+        self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], roots: bool
+    ) -> tuple[EliminatedRelation, Candidate] | None:
         found = [
             (relation, candidate)
             for relation in relations
@@ -170,7 +172,7 @@ class Eliminator:
     def _tidy(self, e: Expr) -> Expr:
         return ex.add(*(ex.mul(*(t.args if t.op == "mul" else (t,))) for t in (e.args if e.op == "add" else (e,))))
 
-    def _checked(self, relation: Relation, candidate: Candidate) -> bool:
+    def _checked(self, relation: EliminatedRelation, candidate: Candidate) -> bool:
         """Does the relation hold identically with what it was solved to? Zero in the canonical ring is a proof."""
         q = ex.coordinate(candidate.name)
         for value in (candidate.value, candidate.other):

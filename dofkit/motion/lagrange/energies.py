@@ -43,7 +43,7 @@ class Energy:
 
 
 @dataclass
-class Reader:
+class EnergyReader:
     """Reads the energies of a scene; faults go to its world."""
 
     scene: Scene

@@ -20,8 +20,8 @@ from dofkit.motion.lagrange.angles import compound
 from dofkit.motion.lagrange.conserved import conserved, cyclic
 from dofkit.motion.lagrange.derivation import Derived, derive
 from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
-from dofkit.motion.lagrange.energies import Energy, Reader, missing
-from dofkit.motion.lagrange.model import Model, MotionError, modelled
+from dofkit.motion.lagrange.energies import Energy, EnergyReader, missing
+from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
 from dofkit.motion.lagrange.regularity import SINGULAR, degenerate
 from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.motion.lagrange.small_motions import linearized
@@ -31,7 +31,7 @@ from dofkit.scene.lowering import system_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import survey
 
-__all__ = ["Conserved", "Linearized", "MotionError", "MotionReport", "derived_of", "lagrange"]
+__all__ = ["Conserved", "Linearized", "MotionReport", "NoEquationsError", "derived_of", "lagrange"]
 
 #: Equations of longer Lagrangians than this are too long to be read, where much was eliminated.
 LONGEST = 500
@@ -47,7 +47,7 @@ def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None)
     """Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a of a scene.
 
     ``linearize``: also M, C and K at an equilibrium, or a note that says why not. Raises `SceneError` with every fault
-    of the scene, and `MotionError` where the equations cannot be given, saying why: nothing is guessed.
+    of the scene, and `NoEquationsError` where the equations cannot be given, saying why: nothing is guessed.
 
     >>> import dofkit
     >>> pendulum = {"coordinates": ["theta"], "parameters": {"m": "positive", "l": "positive", "g": "positive"}}
@@ -60,7 +60,7 @@ def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None)
             derived = derived_of(scene)
             return _told(derived, *(_small(scene, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
-        raise MotionError(f"no equations of motion are given: {error}") from None
+        raise NoEquationsError(f"no equations of motion are given: {error}") from None
 
 
 def derived_of(scene: Scene) -> Derived:
@@ -69,7 +69,7 @@ def derived_of(scene: Scene) -> Derived:
     Where they would be longer than a text of a scene may be, less is eliminated, and more multipliers are kept.
     """
     source = read(scene)
-    freest: Model | None = None
+    freest: LagrangeModel | None = None
     for care in ELIMINATIONS[:-1]:
         model = source.model(care)
         if not model.elimination.solved:
@@ -88,7 +88,7 @@ def derived_of(scene: Scene) -> Derived:
     return _with_note(derive(source.model(ELIMINATIONS[-1])), freest)
 
 
-def _with_note(derived: Derived, freest: Model | None) -> Derived:
+def _with_note(derived: Derived, freest: LagrangeModel | None) -> Derived:
     """Says so where more could have been eliminated."""
     model = derived.model
     if freest is None or model.elimination.solved.keys() >= freest.elimination.solved.keys():
@@ -104,14 +104,14 @@ def _short(lagrangian: Expr) -> bool:
     return len(to_text(lagrangian)) <= (LONGEST if roots else 2 * LONGEST)
 
 
-def _sorted(model: Model) -> Model:
+def _sorted(model: LagrangeModel) -> LagrangeModel:
     """The same with kinetic and potential energies sorted by velocities, where that is shorter."""
     energy = model.energy
     kinetic, potential = (_shorter(e, model) for e in (energy.kinetic, energy.potential))
     return replace(model, energy=replace(energy, kinetic=kinetic, potential=potential))
 
 
-def _shorter(e: Expr, model: Model) -> Expr:
+def _shorter(e: Expr, model: LagrangeModel) -> Expr:
     if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
         return e
     try:
@@ -134,7 +134,7 @@ def _readable(derived: Derived) -> bool:
 
 
 @dataclass(frozen=True)
-class Source:
+class MotionSource:
     """What the equations of motion of a scene are derived from."""
 
     scene: Scene
@@ -142,7 +142,7 @@ class Source:
     energy: Energy
     names: Names
 
-    def model(self, care: Care = ELIMINATIONS[0]) -> Model:
+    def model(self, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
         """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""
         model = modelled(self.study, self.energy, self.names, care)
         used = frozenset().union(*(e.symbols for e in _energies(model)))
@@ -152,12 +152,12 @@ class Source:
         return model
 
 
-def read(scene: Scene) -> Source:
+def read(scene: Scene) -> MotionSource:
     """The scene's energies and what is known of its constraints. Raises SceneError with all its faults."""
     found = survey(scene, euler=True)
     if found.world.faults:
         raise SceneError(tuple(found.world.faults), scene.name)
-    energy = Reader(scene, found.world).energy()
+    energy = EnergyReader(scene, found.world).energy()
     if found.world.faults:
         raise SceneError(tuple(found.world.faults), scene.name)
     if not _given(scene):
@@ -166,7 +166,7 @@ def read(scene: Scene) -> Source:
         )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
-    return Source(scene, studied(system_of(scene, found)), energy, found.world.names)
+    return MotionSource(scene, studied(system_of(scene, found)), energy, found.world.names)
 
 
 def _given(scene: Scene) -> bool:
@@ -176,7 +176,7 @@ def _given(scene: Scene) -> bool:
     return any(p.mass is not None for p in scene.particles) or any(b.mass is not None for b in scene.bodies)
 
 
-def _energies(model: Model) -> list[Expr]:
+def _energies(model: LagrangeModel) -> list[Expr]:
     e = model.energy
     return [e.kinetic, e.potential, e.dissipation, *e.forces.values()]
 
@@ -185,13 +185,13 @@ def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str
     """Small motions, or why they are not given; what was eliminated may have no value at rest, and is then kept."""
     try:
         return linearized(derived), ()
-    except MotionError as error:
+    except NoEquationsError as error:
         why = f"Not linearized: {error}."
     if not derived.model.elimination.solved or derived.model.elimination.constants:
         return None, (why,)
     try:
         return linearized(derive(read(scene).model(ELIMINATIONS[-1]))), ()
-    except MotionError:
+    except NoEquationsError:
         return None, (why,)
 
 

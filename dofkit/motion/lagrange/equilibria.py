@@ -11,7 +11,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import HALF, MINUS_ONE, PI, ZERO, Expr
 from dofkit.motion.lagrange.derivation import Derived
-from dofkit.motion.lagrange.elimination import Care, Elimination, Eliminator, Relation, by_potential
+from dofkit.motion.lagrange.elimination import Care, EliminatedRelation, Elimination, Eliminator, by_potential
 from dofkit.motion.lagrange.tidying import Tidier
 
 Place = Mapping[Expr, Expr]
@@ -128,7 +128,7 @@ def _branches(derived: Derived) -> Iterator[Elimination]:
         return
     choose = by_potential(model.energy.potential, model.study.system.reference)
     for names in (model.names, model.names[::-1]):
-        relations = [Relation(g) for g in model.holonomic]
+        relations = [EliminatedRelation(g) for g in model.holonomic]
         try:
             found = Eliminator(model.positive, choose, ALL).eliminated(relations, names, ())
         except ZeroDivisionError:

@@ -14,7 +14,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrange.model import Model
+from dofkit.motion.lagrange.model import LagrangeModel
 
 #: Random points that are tried.
 ATTEMPTS = 20
@@ -97,7 +97,7 @@ def _parted(given: tuple[Any, ...], tied: tuple[int, ...]) -> tuple[list[Any], l
     return [g for i, g in enumerate(given) if i not in tied], [given[i] for i in tied]
 
 
-def _tied(model: Model, rows: Sequence[Sequence[Expr]]) -> tuple[int, ...]:
+def _tied(model: LagrangeModel, rows: Sequence[Sequence[Expr]]) -> tuple[int, ...]:
     """Columns, the last ones possible, in which the rows are independent at a random point over GF(p)."""
     if not rows:
         return ()
@@ -113,7 +113,7 @@ def _tied(model: Model, rows: Sequence[Sequence[Expr]]) -> tuple[int, ...]:
     return tuple(range(len(model.names) - len(rows), len(model.names)))
 
 
-def handover(model: Model, bridge: Bridge) -> Handover:
+def handover(model: LagrangeModel, bridge: Bridge) -> Handover:
     """A model in SymPy's terms."""
     from sympy import Function
 

@@ -17,9 +17,9 @@ from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.elimination import (
     ELIMINATIONS,
     Care,
+    EliminatedRelation,
     Elimination,
     Eliminator,
-    Relation,
     Remaining,
     by_potential,
     inserted,
@@ -37,12 +37,12 @@ from dofkit.report import BRANCH_WARNING
 MOST_CONSTANTS = 4
 
 
-class MotionError(DofkitError):
+class NoEquationsError(DofkitError):
     """The equations of motion of a scene cannot be written down; the message says why."""
 
 
 @dataclass(frozen=True)
-class Model:
+class LagrangeModel:
     """What Lagrange's equations are written from.
 
     ``names``: the coordinates that are kept; ``energy`` in them; ``constraints``: the independent relations that keep
@@ -86,7 +86,7 @@ def in_velocities(piece: Remaining) -> Expr:
     return piece.expr
 
 
-def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> Model:
+def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
     """The system with as much eliminated as is possible in closed form, and as ``care`` allows.
 
     Integrals of differential constraints are used where their constants do not enter the motion. Raises MotionError
@@ -96,8 +96,8 @@ def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIO
     outcome = study.outcome
     coordinates = [c.name for c in study.system.coordinates]
     free = study.report.generalized_coordinates or []
-    finite = [Relation(r.piece.expr) for r in outcome.rows if isinstance(r.piece, Finite)]
-    finite += [Relation(g) for a in outcome.answers for g in a.hidden]
+    finite = [EliminatedRelation(r.piece.expr) for r in outcome.rows if isinstance(r.piece, Finite)]
+    finite += [EliminatedRelation(g) for a in outcome.answers for g in a.hidden]
     integrals = list(_integrals(study, names))
     eliminator = Eliminator(study.setting.positive, by_potential(energy.potential, study.system.reference), care)
     for relations in ([*finite, *integrals], finite, []):
@@ -105,11 +105,13 @@ def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIO
         model = _built_somehow(study, energy, elimination, coordinates)
         if model is not None:
             return model
-    raise MotionError("which of the constraints are independent was not decided, so no equations of motion are given")
+    raise NoEquationsError(
+        "which of the constraints are independent was not decided, so no equations of motion are given"
+    )
 
 
 def _agreeing(
-    eliminator: Eliminator, relations: Sequence[Relation], coordinates: Sequence[str], free: Sequence[str]
+    eliminator: Eliminator, relations: Sequence[EliminatedRelation], coordinates: Sequence[str], free: Sequence[str]
 ) -> Elimination:
     """An elimination that keeps the report's generalized coordinates, where just as many can be eliminated so."""
     dependent = [c for c in coordinates if c not in free]
@@ -125,21 +127,25 @@ def _possible(study: Study) -> None:
     report = study.report
     own = {c.name for c in study.system.coordinates}
     if any(coordinates_of(r.piece) - own for r in study.outcome.rows):
-        raise MotionError("a constraint on accelerations brings constants of integration: write what it integrates to")
+        raise NoEquationsError(
+            "a constraint on accelerations brings constants of integration: write what it integrates to"
+        )
     if report.consistent is False:
         names = ", ".join(report.conflicting) or "its constraints"
         raise SceneError((Fault(f"the scene is inconsistent: no motion satisfies all of {names}", ("constraints",)),))
     several = [c.name for c in report.constraints if BRANCH_WARNING.format(name=c.name) in report.warnings]
     if several:
-        raise MotionError(
+        raise NoEquationsError(
             f"{', '.join(several)} holds on several branches, and each has its own motions: write the one that is meant"
         )
     if report.consistent is None or report.dof is None or report.velocity_dof is None:
         why = "; ".join(dict.fromkeys(r for a in study.outcome.answers for r in a.reasons)) or "it was not decided"
-        raise MotionError(f"it is undecided how the system can move, so no equations of motion are given: {why}")
+        raise NoEquationsError(f"it is undecided how the system can move, so no equations of motion are given: {why}")
 
 
-def _built_somehow(study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]) -> Model | None:
+def _built_somehow(
+    study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
+) -> LagrangeModel | None:
     """The model after an elimination; None where it cannot be built, also because something has no value there."""
     try:
         return _built(study, energy, elimination, coordinates)
@@ -147,7 +153,7 @@ def _built_somehow(study: Study, energy: Energy, elimination: Elimination, coord
         return None
 
 
-def _integrals(study: Study, names: Names) -> Iterator[Relation]:
+def _integrals(study: Study, names: Names) -> Iterator[EliminatedRelation]:
     """The finite relations that holonomic differential constraints integrate to."""
     owners = {r.constraint for r in study.outcome.rows if isinstance(r.piece, Pfaffian)}
     for i in sorted(owners):
@@ -158,7 +164,7 @@ def _integrals(study: Study, names: Names) -> Iterator[Relation]:
                 yield found
 
 
-def _read_integral(text: str, names: Names) -> Relation | None:
+def _read_integral(text: str, names: Names) -> EliminatedRelation | None:
     own: dict[str, Expr] = {}
     while len(own) <= MOST_CONSTANTS:
         known = Names(names.coordinates, {**names.parameters, **own}, names.functions, names.arguments)
@@ -169,11 +175,11 @@ def _read_integral(text: str, names: Names) -> Relation | None:
         except (TextError, ValueError):
             return None
         else:
-            return Relation(found.left - found.right, frozenset(own.values()))
+            return EliminatedRelation(found.left - found.right, frozenset(own.values()))
     return None
 
 
-def _built(study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]) -> Model | None:
+def _built(study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]) -> LagrangeModel | None:
     """The model after an elimination; None where constants enter it, or the count of constraints does not come out."""
     kept = elimination.kept(coordinates)
     reduced = _reduced(energy, elimination, kept, study.setting)
@@ -194,7 +200,7 @@ def _built(study: Study, energy: Energy, elimination: Elimination, coordinates: 
     if used:
         notes.append(f"Constants of integration, which the initial state sets: {', '.join(used)}.")
     notes += [n for n in study.report.warnings if "branch" in n]
-    return Model(
+    return LagrangeModel(
         study,
         tuple(kept),
         reduced,

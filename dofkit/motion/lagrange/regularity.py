@@ -10,7 +10,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.derivation import Derived
-from dofkit.motion.lagrange.model import MotionError
+from dofkit.motion.lagrange.model import NoEquationsError
 
 #: Points of GF(p) at which the rank is looked at, and how many are tried for them.
 POINTS, ATTEMPTS = 3, 20
@@ -29,9 +29,9 @@ def degenerate(derived: Derived) -> bool:
             and all(s.args[0] == "parameter" for s in e.symbols)
             and not (e.symbols & {ex.parameter(n) for n in derived.multipliers})
         ):
-            raise MotionError(f"there is no motion: Lagrange's equation for {name} reads {to_text(e)} = 0")
+            raise NoEquationsError(f"there is no motion: Lagrange's equation for {name} reads {to_text(e)} = 0")
     if model.names and not any(s.args[0] == "velocity" for s in derived.lagrangian.symbols):
-        raise MotionError("no velocity occurs in the kinetic energy: there is nothing to derive motion from")
+        raise NoEquationsError("no velocity occurs in the kinetic energy: there is nothing to derive motion from")
     rows = _rows(derived)
     if not rows:
         return False

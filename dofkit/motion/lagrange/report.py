@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from pydantic import Field, PrivateAttr
 
 from dofkit.base.verdicts import Verdict
-from dofkit.report import Model
+from dofkit.report import ToldModel
 
 if TYPE_CHECKING:
     from dofkit.motion.lagrange.derivation import Derived
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 QP = "action, M L^2 T^-1: each product q*p has the dimension of energy times time, whatever q is"
 
 
-class Conserved(Model):
+class Conserved(ToldModel):
     """A quantity that does not change along the motion: what it is called, it, and why."""
 
     name: str
@@ -25,7 +25,7 @@ class Conserved(Model):
     reason: str
 
 
-class Linearized(Model):
+class Linearized(ToldModel):
     """M qddot + C qdot + K q = 0 for small deviations q of ``coordinates`` from an equilibrium.
 
     ``characteristic``: det(M s^2 + C s + K), empty for large systems; ``frequencies``: the angular ones where C is 0,
@@ -44,7 +44,7 @@ class Linearized(Model):
     others: list[dict[str, str]] = Field(default_factory=list)
 
 
-class MotionReport(Model):
+class MotionReport(ToldModel):
     """Lagrange's equations of a scene, as texts in the grammar of scenes (``qddot`` for accelerations).
 
     ``coordinates`` are those kept; ``eliminated`` ones are functions of them. ``forces`` are dL/dq plus the

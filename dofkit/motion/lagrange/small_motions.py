@@ -13,7 +13,7 @@ from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.derivation import Derived
 from dofkit.motion.lagrange.equilibria import MOST, Equilibrium, equilibria, still
-from dofkit.motion.lagrange.model import MotionError
+from dofkit.motion.lagrange.model import NoEquationsError
 from dofkit.motion.lagrange.report import Linearized
 from dofkit.motion.lagrange.tidying import Tidier
 
@@ -40,20 +40,20 @@ def linearized(derived: Derived) -> Linearized:
     equilibrium is known.
     """
     if any(ex.TIME in e.symbols for e in (*derived.model.holonomic, *derived.model.nonholonomic)):
-        raise MotionError("time enters the constraints, so that the system does not rest")
+        raise NoEquationsError("time enters the constraints, so that the system does not rest")
     found = list(islice(equilibria(derived), MOST))
     if not found:
         if any(ex.TIME in e.symbols for e in derived.equations.values()):
-            raise MotionError("time enters the equations, and no place of rest is known")
+            raise NoEquationsError("time enters the equations, and no place of rest is known")
         hint = "give one as the scene's `configuration`"
-        raise MotionError(f"no equilibrium is known, neither the reference configuration nor 0 is one: {hint}")
+        raise NoEquationsError(f"no equilibrium is known, neither the reference configuration nor 0 is one: {hint}")
     bridge = Bridge(derived.model.names, derived.model.positive)
     for equilibrium in found:
         told = _matrices(derived, equilibrium, bridge)
         if told is not None:
             others = [_texts(derived, bridge, e) for e in found if e is not equilibrium]
             return _told(derived, bridge, equilibrium, told, others)
-    raise MotionError("the constraints are singular at the equilibrium")
+    raise NoEquationsError("the constraints are singular at the equilibrium")
 
 
 def _matrices(derived: Derived, at: Equilibrium, bridge: Bridge) -> Matrices | None:
@@ -64,7 +64,7 @@ def _matrices(derived: Derived, at: Equilibrium, bridge: Bridge) -> Matrices | N
     for kind in kinds:
         rows = [[still(ex.diff(e, ex.sym(kind, n)), known) for n in names] for e in derived.equations.values()]
         if any(ex.TIME in e.symbols for row in rows for e in row):
-            raise MotionError("time enters the equations at the equilibrium, so that they are not linearized")
+            raise NoEquationsError("time enters the equations at the equilibrium, so that they are not linearized")
         whole.append(_matrix(bridge, rows))
     if not derived.multipliers:
         return Matrices(names, *whole)
@@ -90,7 +90,7 @@ def _allowed(derived: Derived, at: Equilibrium, bridge: Bridge) -> tuple[list[in
     rows = [[still(ex.diff(g, ex.coordinate(n)), at.place) for n in names] for g in model.holonomic]
     for r in model.nonholonomic:
         if any(not still(ex.diff(r, ex.coordinate(n)), at.place).is_zero for n in names):
-            raise MotionError("a constraint between velocities changes with the place where nothing moves")
+            raise NoEquationsError("a constraint between velocities changes with the place where nothing moves")
         rows.append([still(ex.diff(r, ex.velocity(n)), at.place) for n in names])
     whole = _matrix(bridge, rows)
     for tied in islice(combinations(range(len(names) - 1, -1, -1), len(rows)), CHOICES):

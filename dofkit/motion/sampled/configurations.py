@@ -16,8 +16,8 @@ from dofkit.exact.points.balls import PRECISION, RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.motion.sampled.continuation import STRAIGHT, Follower, Reached
-from dofkit.motion.sampled.poses import Pose, Relations, number
-from dofkit.relations.normal.domain import Condition
+from dofkit.motion.sampled.poses import Pose, PoseRelations, number
+from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -30,7 +30,7 @@ STARTS = 24
 STILL = 1e-6
 
 
-class MotionError(DofkitError):
+class NoMotionError(DofkitError):
     """No motion can be sampled: nothing moves, nothing is consistent, or it was not decided; the message says which."""
 
 
@@ -57,7 +57,7 @@ def configurations(
     Finite relations, those hidden in differential ones included, hold in every configuration to 1e-12 of their
     gradient times the size; a one-form holds on every chord at its midpoint, so along the motion to the third order of
     a step's sixteenth. A way ends before an inequality
-    is broken that held at the beginning. Raises `MotionError` where nothing moves, the scene is
+    is broken that held at the beginning. Raises `NoMotionError` where nothing moves, the scene is
     inconsistent, or its motions are undecided.
 
     >>> import dofkit
@@ -67,13 +67,13 @@ def configurations(
     [25.0, 25.0, 25.0, 25.0, 25.0]
     """
     if steps < 0 or not step > 0:
-        raise MotionError("steps is at least 0, and the length of a step is more than 0")
+        raise NoMotionError("steps is at least 0, and the length of a step is more than 0")
     system = scene if isinstance(scene, System) else lower(scene)
     try:
         with limited(DEFAULT_SECONDS), ctx.workprec(PRECISION):
             return _Sampled(system, dict(values or {}), along).configurations(steps, step, both)
     except OutOfTimeError as error:
-        raise MotionError(str(error)) from None
+        raise NoMotionError(str(error)) from None
 
 
 class _Sampled:
@@ -86,7 +86,7 @@ class _Sampled:
         touched = [*(n for b in outcome.blocks for n in b.coordinates), *outcome.untouched]
         coordinates = [*system.coordinates, *(Coordinate(n) for n in dict.fromkeys(touched) if n not in names)]
         if along is not None and along not in names:
-            raise MotionError(f"'{along}' is no coordinate of the scene")
+            raise NoMotionError(f"'{along}' is no coordinate of the scene")
         self.system, self.setting, self.along, self.names = system, setting, along, list(names)
         self.given = _given(system, given)
         self.relations = _relations(system, outcome, setting, coordinates, _limits(reduced, outcome))
@@ -107,7 +107,9 @@ class _Sampled:
             placed = {s: number(e, parameters) for s, e in self.system.reference.items()}
             found = self.follower.onto(self.relations.pose({**placed, **self.given}))
             if found is None:
-                raise MotionError("near the reference configuration the relations hold only roughly, to no last digit")
+                raise NoMotionError(
+                    "near the reference configuration the relations hold only roughly, to no last digit"
+                )
             return found
         near = {s: number(e) for s, e in self.setting.pose.items() if not e.symbols} | self.given
         for seed in range(STARTS):
@@ -118,20 +120,20 @@ class _Sampled:
             found = self.follower.onto(self.relations.pose(symbols))
             if found is not None and len(self.follower.null_space(found)) == self.follower.freedom:
                 return found
-        raise MotionError("no regular configuration was found that satisfies the constraints")
+        raise NoMotionError("no regular configuration was found that satisfies the constraints")
 
     def configurations(self, steps: int, step: float, both: bool) -> list[dict[str, float]]:
         """Backward, the first, forward."""
         target = None if self.along is None else self.relations.axis(self.along, self.start)
         ahead, back = self.follower.begin(self.start, target, step)
         if target is None and ahead is back is None:
-            raise MotionError("no motion was found that leaves the first configuration")
+            raise NoMotionError("no motion was found that leaves the first configuration")
         if target is not None and not any(w and abs(float(w.direction @ target)) > STILL for w in (ahead, back)):
-            raise MotionError(f"'{self.along}' cannot move at the first configuration")
+            raise NoMotionError(f"'{self.along}' cannot move at the first configuration")
         forward, closed = self._way(ahead, steps, step)
         backward = self._way(back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:
-            raise MotionError("no motion was followed that leaves the first configuration")
+            raise NoMotionError("no motion was followed that leaves the first configuration")
         middle = self._told(self.start, {})
         return [*reversed(self._all_told(backward, middle)), middle, *self._all_told(forward, middle)]
 
@@ -176,40 +178,40 @@ def _given(system: System, given: Mapping[str, float]) -> dict[Expr, float]:
     known = places | set(system.parameters)
     wrong = sorted(set(given) - known)
     if wrong:
-        raise MotionError(f"'{wrong[0]}' is neither a coordinate nor a parameter without a value")
+        raise NoMotionError(f"'{wrong[0]}' is neither a coordinate nor a parameter without a value")
     return {(ex.coordinate if n in places else ex.parameter)(n): float(v) for n, v in given.items()}
 
 
 def _limits(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
     """What is to stay at 0 or above: inequalities between places, and where the relations say what they say."""
     told = [q.expr for r in reduced for q in r.inequalities]
-    pieces = [p for row in outcome.rows if isinstance(p := row.piece, Condition)]
+    pieces = [p for row in outcome.rows if isinstance(p := row.piece, DomainCondition)]
     told += [p.expr for p in pieces if p.sense != "!="]
     return [e for e in told if all(s.args[0] in ("coordinate", "time", "parameter") for s in e.symbols)]
 
 
 def _relations(
     system: System, outcome: Outcome, setting: Setting, coordinates: Sequence[Coordinate], limits: Sequence[Expr]
-) -> Relations:
+) -> PoseRelations:
     """What is to be held; raises where that is not possible."""
     if system.functions:
-        raise MotionError(f"'{next(iter(system.functions))}' is a function without a formula")
+        raise NoMotionError(f"'{next(iter(system.functions))}' is a function without a formula")
     if outcome.consistent is False:
-        raise MotionError("nothing satisfies the constraints, or nothing through an interval of time")
+        raise NoMotionError("nothing satisfies the constraints, or nothing through an interval of time")
     if outcome.consistent is None or outcome.velocity_dof is None:
         why = [r for a in outcome.answers for r in a.reasons]
-        raise MotionError("; ".join(["whether and how it moves is undecided", *why]))
+        raise NoMotionError("; ".join(["whether and how it moves is undecided", *why]))
     pieces = [row.piece for row in outcome.rows]
     if any(isinstance(p, Nonlinear) for p in pieces):
-        raise MotionError("motions under relations that are nonlinear in the velocities are not followed")
+        raise NoMotionError("motions under relations that are nonlinear in the velocities are not followed")
     finite = [*(p.expr for p in pieces if isinstance(p, Finite)), *(g for a in outcome.answers for g in a.hidden)]
     forms = [p for p in pieces if isinstance(p, Pfaffian)]
-    return Relations(coordinates, system.rotations, finite, forms, setting.positive, system.size, limits)
+    return PoseRelations(coordinates, system.rotations, finite, forms, setting.positive, system.size, limits)
 
 
 def _freedom(outcome: Outcome, timed: bool) -> int:
     """The dimension of the admissible directions, time among them where it occurs."""
     found = (outcome.velocity_dof or 0) + timed
     if not found:
-        raise MotionError("nothing moves: the scene has no freedom of velocity")
+        raise NoMotionError("nothing moves: the scene has no freedom of velocity")
     return found

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dofkit.configuration.local.neighbourhood import damped
-from dofkit.motion.sampled.poses import FAULTS, Array, Pose, Relations
+from dofkit.motion.sampled.poses import FAULTS, Array, Pose, PoseRelations
 
 #: Relative residual of what is held, rounds of Newton's method, and those with much damping.
 HELD, ROUNDS, EASY = 1e-12, 60, 8
@@ -43,7 +43,7 @@ Ways = tuple[Reached | None, Reached | None]
 class Follower:
     """Motions on the relations; ``freedom``: the dimension of the admissible directions at a regular pose."""
 
-    def __init__(self, relations: Relations, freedom: int) -> None:
+    def __init__(self, relations: PoseRelations, freedom: int) -> None:
         self.relations, self.freedom = relations, freedom
         self.clock = relations.time if relations.timed else None
 

@@ -42,7 +42,7 @@ class Pose:
     turns: Array
 
 
-class Relations:
+class PoseRelations:
     """Finite relations and one-forms over the columns: plain coordinates, three for each turn, then time."""
 
     def __init__(

@@ -24,7 +24,7 @@ Sense = Literal[">=", ">", "!="]
 
 
 @dataclass(frozen=True)
-class Condition:
+class DomainCondition:
     """``expr`` >= 0, > 0 or != 0: no relation, but a part of the space outside of which the relation says nothing."""
 
     expr: Expr
@@ -36,16 +36,16 @@ class Condition:
         return self.sense == ">"
 
 
-def conditions_of(e: Expr, positive: frozenset[Expr]) -> tuple[Condition, ...]:
+def conditions_of(e: Expr, positive: frozenset[Expr]) -> tuple[DomainCondition, ...]:
     """Where ``e`` has a real value, less what always holds; a denominator counts in lowest terms."""
     found = list(dict.fromkeys(_inside(e, outermost=True)))
     below = _denominator(e, positive)
     if below is not None:
-        found.append(Condition(below, "!="))
+        found.append(DomainCondition(below, "!="))
     return tuple(c for c in dict.fromkeys(found) if not _always(c, positive))
 
 
-def _inside(e: Expr, outermost: bool) -> Iterator[Condition]:
+def _inside(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
     """The conditions of all nodes; quotients of sums and products on the outside are left to `_denominator`."""
     rational = e.op in ("add", "mul") or (
         e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1
@@ -56,31 +56,31 @@ def _inside(e: Expr, outermost: bool) -> Iterator[Condition]:
         yield from _inside(part, outermost and rational)
 
 
-def _own(e: Expr, outermost: bool) -> Iterator[Condition]:
+def _own(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
     if e.op == "pow":
         base, exponent = e.args
         if exponent.op != "num":
-            yield Condition(base, ">")
+            yield DomainCondition(base, ">")
         elif exponent.args[0].denominator % 2 == 0:
-            yield Condition(base, ">=" if exponent.args[0] > 0 else ">")
+            yield DomainCondition(base, ">=" if exponent.args[0] > 0 else ">")
         elif exponent.args[0] < 0:
-            yield Condition(base, "!=")
+            yield DomainCondition(base, "!=")
     if e.op == "fn":
         yield from _of_function(e.args[0], e.args[1:], outermost)
 
 
-def _of_function(name: str, arguments: tuple[Expr, ...], outermost: bool) -> Iterator[Condition]:
+def _of_function(name: str, arguments: tuple[Expr, ...], outermost: bool) -> Iterator[DomainCondition]:
     u = arguments[0]
     if name == "log":
-        yield Condition(u, ">")
+        yield DomainCondition(u, ">")
     elif name in ("asin", "acos"):
-        yield Condition(ex.ONE - u * u, ">=")
+        yield DomainCondition(ex.ONE - u * u, ">=")
     elif name in ("tan", "sec") and not outermost:
-        yield Condition(ex.fn("cos", u), "!=")
+        yield DomainCondition(ex.fn("cos", u), "!=")
     elif name in ("cot", "csc") and not outermost:
-        yield Condition(ex.fn("sin", u), "!=")
+        yield DomainCondition(ex.fn("sin", u), "!=")
     elif name == "atan2":
-        yield Condition(u * u + arguments[1] * arguments[1], "!=")
+        yield DomainCondition(u * u + arguments[1] * arguments[1], "!=")
 
 
 def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
@@ -96,14 +96,14 @@ def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
         return None
 
 
-def _always(c: Condition, positive: frozenset[Expr]) -> bool:
+def _always(c: DomainCondition, positive: frozenset[Expr]) -> bool:
     """Is a condition proved to hold wherever its expression has a value?"""
     if c.sense == "!=":
         return never_vanishes(c.expr, positive)
     return never_holds(-c.expr, c.sense == ">=", positive)
 
 
-def holds_at(c: Condition, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool | None:
+def holds_at(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool | None:
     """Does a condition hold at a configuration? None where its sign there is not known."""
     try:
         sign = _sign(ex.substitute(c.expr, known), positive)
@@ -114,7 +114,7 @@ def holds_at(c: Condition, known: Mapping[Expr, Expr], positive: frozenset[Expr]
     return sign != 0 if c.sense == "!=" else sign > 0 or (sign == 0 and c.sense == ">=")
 
 
-def constantly(c: Condition, positive: frozenset[Expr]) -> bool | None:
+def constantly(c: DomainCondition, positive: frozenset[Expr]) -> bool | None:
     """Whether a condition holds everywhere (True) or nowhere (False), as far as that is known."""
     if any(s.args[0] != "parameter" for s in c.expr.symbols):
         return True if _always(c, positive) else None

@@ -19,7 +19,7 @@ from flint import ctx, fmpq_mat, fmpz_poly
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
-from dofkit.exact.boxes.contraction import Box, Relations, contract
+from dofkit.exact.boxes.contraction import Box, BoxProgram, contract
 from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, constant, middle
 from dofkit.exact.ring.canonical import Canon, TooLargeError
 from dofkit.exact.ring.radicals import known_signs
@@ -71,7 +71,7 @@ def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions
 def _excluded(wanted: Sequence[Wanted], ranges: Mapping[Expr, Interval], steps: int = MAX_STEPS) -> bool | None:
     """Branch and prune: is every box of the whole excluded within the bounds? False: one shrinks to a point."""
     try:
-        relations = Relations(wanted)
+        relations = BoxProgram(wanted)
         boxes: list[Box] = [contract(relations, [ranges.get(v, WHOLE) for v in relations.variables])]
     except EmptyError:
         return True
@@ -108,7 +108,7 @@ Poly = Any
 
 
 @dataclass(frozen=True)
-class System:
+class PolynomialSystem:
     """Polynomials that vanish wherever the relations hold; ``ranges`` of the generators, ``free`` unbounded ones."""
 
     polynomials: tuple[Poly, ...]
@@ -142,7 +142,7 @@ def _is_exp(e: Expr) -> bool:
     return e.op == "fn" and e.args[0] in ("exp", "cosh")
 
 
-def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> System | None:
+def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialSystem | None:
     """Polynomials that vanish wherever the relations hold; None where there are none to be had.
 
     Raises EmptyError where one of them has no real root.
@@ -153,7 +153,7 @@ def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> System | No
         return None
 
 
-def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> System:
+def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialSystem:
     """Numerators in the canonical ring, the generators' own relations, linear combinations and resultants."""
     ring = Ring(relations, positive)
     nodes = [ring.node(e) for e in relations]
@@ -171,7 +171,7 @@ def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> System
         raise EmptyError
     if any(_without_real_roots(p) for p in everything):
         raise EmptyError
-    return System(tuple(everything), symbols, ranges)
+    return PolynomialSystem(tuple(everything), symbols, ranges)
 
 
 def _known(canon: Canon, p: Poly) -> bool:
@@ -280,7 +280,7 @@ def _without_real_roots(p: Poly) -> bool:
     return all(not root.imag.contains(0) for root, _ in roots)
 
 
-def _algebraically(system: System, search: bool) -> bool:
+def _algebraically(system: PolynomialSystem, search: bool) -> bool:
     """No real solution of the polynomials: every box of space or of its charts goes."""
     plain = [(_expression(p, system.symbols), ZERO) for p in system.polynomials]
     excluded = _excluded(plain, system.ranges) if search else False
@@ -302,7 +302,7 @@ def _term(coefficient: Any, exponents: Sequence[int], symbols: Sequence[Expr]) -
     return ex.mul(ex.num(Fraction(int(coefficient.p), int(coefficient.q))), *powers)
 
 
-def _in_chart(p: Poly, system: System, free: Sequence[int], k: int | None) -> Expr:
+def _in_chart(p: Poly, system: PolynomialSystem, free: Sequence[int], k: int | None) -> Expr:
     """p times w^degree with x_k = 1/w and x_j = u_j/w for the other unbounded ones; ``w`` stands in x_k's place."""
     if k is None:
         return _expression(p, system.symbols)
@@ -316,7 +316,7 @@ def _in_chart(p: Poly, system: System, free: Sequence[int], k: int | None) -> Ex
     return ex.add(*terms)
 
 
-def _chart_ranges(system: System, free: Sequence[int], k: int | None) -> dict[Expr, Interval]:
+def _chart_ranges(system: PolynomialSystem, free: Sequence[int], k: int | None) -> dict[Expr, Interval]:
     """Every unbounded generator within -1 and 1; where it is never negative, so it is beside the largest one."""
     found = dict(system.ranges)
     for i in free:

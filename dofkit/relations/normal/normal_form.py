@@ -19,7 +19,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.domain import Condition, conditions_of
+from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.quadratics import split_power, split_quadratic
 from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs, holds_on_a_region, squared
@@ -85,7 +85,7 @@ SIGNS_NOTE = "what stands in abs() may have either sign"
 INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 QUADRATIC_NOTE = "over the reals the relation between velocities splits into linear ones"
 
-Piece = Finite | Pfaffian | Nonlinear | Inequality | Condition
+Piece = Finite | Pfaffian | Nonlinear | Inequality | DomainCondition
 #: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
 Branches = tuple[tuple[Piece, ...], ...]
 
@@ -107,7 +107,7 @@ class Normal:
     @property
     def pieces(self) -> tuple[Piece, ...]:
         """Every piece of every branch that is a relation."""
-        return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, Condition))
+        return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, DomainCondition))
 
 
 def with_constants(piece: Piece, values: Mapping[str, Expr]) -> Piece:
@@ -189,7 +189,7 @@ def _moving(e: Expr) -> frozenset[Expr]:
 
 
 def _conditioned(
-    e: Expr, branches: Sequence[Conjunction], notes: Sequence[str], positive: frozenset[Expr], *more: Condition
+    e: Expr, branches: Sequence[Conjunction], notes: Sequence[str], positive: frozenset[Expr], *more: DomainCondition
 ) -> Normal:
     """The branches of a relation that was rewritten, where it was one as written: ``e`` has a value there."""
     conditions = (*conditions_of(e, positive), *more)
@@ -203,7 +203,7 @@ def _conditioned(
 def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
     """A relation that holds on a whole region for some signs: every choice of signs is a branch of its own."""
     always = conditions_of(e, positive)
-    regions, others = list[tuple[Condition, ...]](), list[tuple[Conjunction, tuple[Condition, ...]]]()
+    regions, others = list[tuple[DomainCondition, ...]](), list[tuple[Conjunction, tuple[DomainCondition, ...]]]()
     for signed, conditions in by_signs(e, arguments_of(e), positive):
         if is_zero(signed, positive):
             regions.append(conditions)
@@ -268,7 +268,7 @@ def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]
     return Normal(tuple(branches), tuple(dict.fromkeys(notes)))
 
 
-def _still(conditions: Sequence[Condition], branch: Sequence[Piece]) -> list[Condition]:
+def _still(conditions: Sequence[DomainCondition], branch: Sequence[Piece]) -> list[DomainCondition]:
     """What the signs ask of positions, once velocities that the forms of the branch give are put in."""
     found = [c.expr for c in conditions]
     for form in (p for p in branch if isinstance(p, Pfaffian)):
@@ -276,7 +276,7 @@ def _still(conditions: Sequence[Condition], branch: Sequence[Piece]) -> list[Con
         if name is not None:
             others = ex.add(*(a * ex.velocity(n) for n, a in form.coefficients.items() if n != name), form.dt)
             found = [ex.substitute(c, {ex.velocity(name): -others / form.coefficients[name]}) for c in found]
-    return [Condition(c, ">=") for c in found if not velocities_of(c) and _moving(c)]
+    return [DomainCondition(c, ">=") for c in found if not velocities_of(c) and _moving(c)]
 
 
 def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:

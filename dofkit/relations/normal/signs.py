@@ -16,7 +16,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.domain import Condition
+from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.zero_set import never_holds
 
 #: Arguments whose signs are tried.
@@ -41,16 +41,16 @@ def holds_on_a_region(e: Expr, positive: frozenset[Expr]) -> bool:
 
 def by_signs(
     e: Expr, arguments: Sequence[Expr], positive: frozenset[Expr]
-) -> Iterator[tuple[Expr, tuple[Condition, ...]]]:
+) -> Iterator[tuple[Expr, tuple[DomainCondition, ...]]]:
     """``e`` for every choice of the signs of some arguments that can be, and the conditions that say the signs."""
     for signs in cartesian((1, -1), repeat=len(arguments)):
         mapping = dict(zip(arguments, signs, strict=True))
         plain = {u: _signed(u, mapping) * s for u, s in mapping.items()}
         if not any(never_holds(u, True, positive) for u in plain.values()):
-            yield _signed(e, mapping), tuple(Condition(u, ">=") for u in plain.values())
+            yield _signed(e, mapping), tuple(DomainCondition(u, ">=") for u in plain.values())
 
 
-def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, Condition] | None:
+def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] | None:
     """a sqrt(u) + b = 0 as a^2 u - b^2 = 0 where -a b >= 0; None where there is not one square root, linearly."""
     try:
         ring = Ring([e], positive)
@@ -69,7 +69,7 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, Condition] | None
         norm = canon.reduce(a * a * u - b * b * below)
     except (TooLargeError, ZeroDivisionError, DomainError):
         return None
-    return canon.to_expr(norm), Condition(canon.to_expr(canon.reduce(-a * b)), ">=")
+    return canon.to_expr(norm), DomainCondition(canon.to_expr(canon.reduce(-a * b)), ">=")
 
 
 def _outside(ring: Ring, index: int) -> bool:

@@ -19,7 +19,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.domain import Condition, constantly
+from dofkit.relations.normal.domain import DomainCondition, constantly
 
 #: The combination of velocities, while it is solved for; no scene declares such a name.
 RATE = ex.sym("parameter", "the rate")
@@ -34,7 +34,7 @@ class Root:
     """The value of the unknown on one branch, and where that branch is."""
 
     value: Expr
-    conditions: tuple[Condition, ...] = ()
+    conditions: tuple[DomainCondition, ...] = ()
 
 
 def rates(e: Expr) -> list[Expr]:
@@ -47,7 +47,7 @@ def in_one_rate(e: Expr, positive: frozenset[Expr]) -> bool:
     return _in_one_rate(e, positive) is not None
 
 
-def solved(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, tuple[Condition, ...]]] | None:
+def solved(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, tuple[DomainCondition, ...]]] | None:
     """The branches of ``e = 0``, each linear in the velocities, with its conditions; None where they were not found."""
     found = _in_one_rate(e, positive)
     if found is None:
@@ -260,8 +260,8 @@ def _power_term(term: Expr) -> tuple[int, Expr] | None:
     return n, ex.mul(*rest) if rest else ex.ONE
 
 
-def _positive_or_zero(e: Expr) -> tuple[Condition, ...]:
-    return (Condition(e, ">="),)
+def _positive_or_zero(e: Expr) -> tuple[DomainCondition, ...]:
+    return (DomainCondition(e, ">="),)
 
 
 def _radicals(value: Expr, n: int) -> list[Root]:
@@ -300,7 +300,7 @@ def _undone_power(node: Expr, value: Expr, unknown: Expr, depth: int) -> list[Ro
     if exponent.op != "num":
         if unknown in base.symbols:
             return None
-        logs = [Root(ex.fn("log", value) / ex.fn("log", base), (Condition(value, ">"),))]
+        logs = [Root(ex.fn("log", value) / ex.fn("log", base), (DomainCondition(value, ">"),))]
         return _all_inside(logs, exponent, unknown, depth)
     power: Fraction = exponent.args[0]
     if power.denominator % 2 == 0:
@@ -321,7 +321,7 @@ def _inverse(name: str, value: Expr) -> list[Root] | None:
     """u with name(u) = value, for functions with finitely many such u."""
     square = value * value
     if name == "exp":
-        return [Root(_log(value), (Condition(value, ">"),))]
+        return [Root(_log(value), (DomainCondition(value, ">"),))]
     if name == "log":
         return [Root(ex.fn("exp", value))]
     if name == "abs":
@@ -335,12 +335,12 @@ def _inverse(name: str, value: Expr) -> list[Root] | None:
             return [Root(ex.ZERO)]
         return [Root(s * ex.fn("log", value + ex.sqrt(square - 1)), _positive_or_zero(value - 1)) for s in (1, -1)]
     if name == "tanh":
-        return [Root(ex.fn("log", (1 + value) / (1 - value)) / 2, (Condition(1 - square, ">"),))]
+        return [Root(ex.fn("log", (1 + value) / (1 - value)) / 2, (DomainCondition(1 - square, ">"),))]
     half = ex.PI / 2
     if name == "atan":
-        return [Root(ex.fn("tan", value), (Condition(half * half - square, ">"),))]
+        return [Root(ex.fn("tan", value), (DomainCondition(half * half - square, ">"),))]
     if name == "asin":
         return [Root(ex.fn("sin", value), _positive_or_zero(half * half - square))]
     if name == "acos":
-        return [Root(ex.fn("cos", value), (Condition(value, ">="), Condition(ex.PI - value, ">=")))]
+        return [Root(ex.fn("cos", value), (DomainCondition(value, ">="), DomainCondition(ex.PI - value, ">=")))]
     return None

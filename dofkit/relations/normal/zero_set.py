@@ -18,7 +18,7 @@ from dofkit.exact.points.field import NoPointError
 from dofkit.exact.ring.canonical import Canon, TooLargeError
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import Solver
+from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import told_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -222,7 +222,7 @@ class _Zeros:
         zero, pole = canon.to_expr(factor), canon.to_expr(bottom)
         ring = Ring([zero, pole], self.positive)
         nodes = ring.node(zero), ring.node(pole)
-        point = Solver(ring, nodes[:1]).draw(1)
+        point = TriangularSolver(ring, nodes[:1]).draw(1)
         try:
             return point is not None and bool(values(ring, point)[nodes[1]] == 0)
         except (NoPointError, ZeroDivisionError):

@@ -11,13 +11,13 @@ from pydantic import Field
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.vectors import Vec, minus, square
-from dofkit.scene.fields import Model
+from dofkit.scene.fields import WrittenModel
 from dofkit.scene.frames import Placed
 from dofkit.scene.world import World
 from dofkit.system import Relation
 
 
-class ConstraintBase(Model):
+class ConstraintBase(WrittenModel):
     """A constraint: its fields, and the scalar relations that it yields."""
 
     name: str | None = Field(None, description="its name; by default c1, c2, ... by position")

@@ -66,13 +66,13 @@ class Joint(ConstraintBase):
         return told if drive is None else f"{told}, driven by {drive}"
 
 
-class Placed(Joint):
+class LocatedJoint(Joint):
     """A joint with a place."""
 
     at: Vector | None = Field(None, description="the joint's place in the reference configuration")
 
 
-class Axial(Placed):
+class Axial(LocatedJoint):
     """A joint with a place and an axis."""
 
     axis: Vector | None = Field(None, description="the joint's axis in the reference configuration")

@@ -13,7 +13,7 @@ from dofkit.expressions.vectors import Vec, cross, difference, dot, length, plus
 from dofkit.scene.constraints.joints import (
     Axial,
     Driven,
-    Placed,
+    LocatedJoint,
     aligned,
     angle_of,
     held,
@@ -77,7 +77,7 @@ class Screw(Driven):
         return f"{super().shown}, pitch {as_written(self.pitch)}"
 
 
-class Universal(Placed):
+class Universal(LocatedJoint):
     """X1 = X2, and the first axis, carried by the first body, stays across the second: 4 relations."""
 
     type: Literal["universal"] = Field(description="a Cardan joint")
@@ -119,7 +119,7 @@ class Universal(Placed):
         return told if self.axes is None else f"{told} along {' and '.join(show_vector(axis) for axis in self.axes)}"
 
 
-class Spherical(Placed):
+class Spherical(LocatedJoint):
     """X1 = X2: 3 relations."""
 
     type: Literal["spherical"] = Field(description="a ball in a socket")

@@ -29,7 +29,7 @@ BADGES: dict[Status, Badge] = {
 
 
 @dataclass(frozen=True)
-class Row:
+class AnswerRow:
     """One answer beside what was asked."""
 
     item: Item
@@ -46,7 +46,7 @@ class Section:
     """The answers to one problem."""
 
     title: str
-    rows: list[Row]
+    rows: list[AnswerRow]
 
 
 @dataclass(frozen=True)
@@ -80,11 +80,13 @@ def student_page(result: Result, prepared: Prepared) -> StudentPage:
     found = {(item.problem, item.question): item for item in result.items}
     sections = []
     for problem in prepared.assignment.problems:
-        rows = [Row(found.pop((problem.id, q.id)), asked(q)) for q in problem.questions if (problem.id, q.id) in found]
+        rows = [
+            AnswerRow(found.pop((problem.id, q.id)), asked(q)) for q in problem.questions if (problem.id, q.id) in found
+        ]
         if rows:
             sections.append(Section(problem_title(problem), rows))
     if found:
-        sections.append(Section("Answers to questions that were not asked", [Row(i, "") for i in found.values()]))
+        sections.append(Section("Answers to questions that were not asked", [AnswerRow(i, "") for i in found.values()]))
     return StudentPage(prepared.assignment.title, result, sections)
 
 
