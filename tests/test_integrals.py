@@ -312,7 +312,8 @@ def test_easy_forms_are_quick() -> None:
 
 def test_an_integral_does_without_sympy() -> None:
     code = (
-        "import sys; from dofkit.expressions import tree as ex; from dofkit.integrability.integrals.search import integrate;"
+        "import sys; from dofkit.expressions import tree as ex;"
+        "from dofkit.integrability.integrals.search import integrate;"
         "from dofkit.relations.normal.normal_form import Pfaffian; x, y = map(ex.coordinate, 'xy');"
         "assert integrate(Pfaffian({'x': y, 'y': x}, ex.ZERO), frozenset()).integral == 'x*y = C';"
         "assert 'sympy' not in sys.modules"

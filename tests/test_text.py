@@ -275,7 +275,8 @@ def test_a_python_keyword_may_be_declared() -> None:
 
 def test_nothing_depends_on_the_hash_seed() -> None:
     code = (
-        "from dofkit.expressions.text import *; n = Names(frozenset('abcdefghijk'), {}, {'u': 3}, allow_accelerations=True);"
+        "from dofkit.expressions.text import *;"
+        "n = Names(frozenset('abcdefghijk'), {}, {'u': 3}, allow_accelerations=True);"
         "print(to_text(parse_expression('diff(u(a*b, c*k, j) , t, 2)', n)))"
     )
     runs = {

@@ -26,7 +26,8 @@ class TrialPart:
 
 PARTS = (
     TrialPart("rolling discs", ("x", "y", "th", "ph"),
-         ("dx{k} = R cos(th{k}) dph{k}", "dy{k} = R sin(th{k}) dph{k}"), 4, (False, False), (), "a disc reaches every place and both angles", ("non-holonomic",), 64),
+         ("dx{k} = R cos(th{k}) dph{k}", "dy{k} = R sin(th{k}) dph{k}"), 4,
+         (False, False), (), "a disc reaches every place and both angles", ("non-holonomic",), 64),
     TrialPart("discs on straight lines", ("x", "y", "th", "ph"),
          ("th{k} = 1", "dx{k} = R cos(th{k}) dph{k}", "dy{k} = R sin(th{k}) dph{k}"), 1, (True,) * 3, (),
          "with the heading held x and y follow the angle", ("together",), 4),

@@ -1,0 +1,215 @@
+"""The house keeps its shape: the top of the package, sizes, names, imports inside functions, and who fails how.
+
+Each rule may have exceptions, with a reason; there are at most ten in all, and the list may only shrink.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import dofkit
+from dofkit.scene.constraints import TYPES
+
+PACKAGE = Path(dofkit.__file__).parent
+SOURCES = {str(path.relative_to(PACKAGE)): path for path in sorted(PACKAGE.rglob("*.py"))}
+TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in SOURCES.items()}
+
+#: The chapters of the book: fourteen rooms and two contracts.
+TOP = {
+    "base", "expressions", "exact", "scene", "relations", "mobility", "configuration", "integrability",
+    "classification", "motion", "methods", "benchmark", "homework", "interface",
+    "system.py", "report.py", "__init__.py", "__main__.py", "py.typed", "THEOREMS.md",
+}  # fmt: skip
+
+LONGEST_FUNCTION, MOST_PARAMETERS, LONGEST_CLASS, LONGEST_FILE, MOST_METHODS = 40, 6, 200, 350, 20
+#: Heavy, optional, or what nothing but this needs: imported where they are used.
+LATE_IMPORTS = frozenset({"sympy", "rich", "matplotlib", "numba", "distributed", "jinja2", "flint"})
+#: Where one bad file or answer must not stop the others, whatever it does.
+CATCH_ALL = frozenset(
+    {"base/workers/child.py", "homework/grading.py", "homework/echo.py", "interface/one_file.py",
+     "benchmark/trial_job.py"}
+)  # fmt: skip
+
+
+class Exemption(NamedTuple):
+    """What is let through: ``place`` is ``FILE`` or ``FILE:NAME``."""
+
+    rule: str
+    place: str
+    reason: str
+
+
+EXEMPTIONS: tuple[Exemption, ...] = ()
+MOST_EXEMPTIONS = 10
+
+
+def defined(kinds: tuple[type[ast.AST], ...]) -> Iterator[tuple[str, ast.AST]]:
+    """(FILE:NAME, definition) of every definition of some kinds."""
+    for name, tree in TREES.items():
+        for node in ast.walk(tree):
+            if isinstance(node, kinds):
+                yield f"{name}:{getattr(node, 'name', '')}", node
+
+
+def without_docstring(node: ast.FunctionDef) -> int:
+    """The lines of a function, without decorators and docstring."""
+    first = node.body[0]
+    told = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str)
+    assert node.end_lineno is not None
+    return node.end_lineno - node.lineno + 1 - ((first.end_lineno or 0) - first.lineno + 1 if told else 0)
+
+
+def long_functions() -> Iterator[str]:
+    for place, node in defined((ast.FunctionDef,)):
+        assert isinstance(node, ast.FunctionDef)
+        if without_docstring(node) > LONGEST_FUNCTION:
+            yield place
+
+
+def many_parameters() -> Iterator[str]:
+    for place, node in defined((ast.FunctionDef,)):
+        assert isinstance(node, ast.FunctionDef)
+        given = [a.arg for a in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)]
+        command = any("command" in ast.unparse(d) for d in node.decorator_list)
+        if len([a for a in given if a not in ("self", "cls")]) > MOST_PARAMETERS and not command:
+            yield place
+
+
+def long_classes() -> Iterator[str]:
+    for place, node in defined((ast.ClassDef,)):
+        assert isinstance(node, ast.ClassDef)
+        assert node.end_lineno is not None
+        if node.end_lineno - node.lineno + 1 > LONGEST_CLASS:
+            yield place
+
+
+def many_methods() -> Iterator[str]:
+    for place, node in defined((ast.ClassDef,)):
+        assert isinstance(node, ast.ClassDef)
+        if sum(isinstance(part, ast.FunctionDef) for part in node.body) > MOST_METHODS:
+            yield place
+
+
+def long_files() -> Iterator[str]:
+    for name, path in SOURCES.items():
+        if len(path.read_text(encoding="utf-8").splitlines()) > LONGEST_FILE:
+            yield name
+
+
+def late_imports() -> Iterator[str]:
+    """Imports inside functions."""
+    for place, node in defined((ast.FunctionDef,)):
+        if place.startswith("interface/cli.py:"):
+            continue
+        for part in ast.walk(node):
+            if isinstance(part, ast.Import | ast.ImportFrom):
+                modules = [part.module or ""] if isinstance(part, ast.ImportFrom) else [a.name for a in part.names]
+                if any(module.split(".")[0] not in LATE_IMPORTS for module in modules):
+                    yield place
+
+
+def repeated_classes() -> Iterator[str]:
+    homes: defaultdict[str, list[str]] = defaultdict(list)
+    for place, _ in defined((ast.ClassDef,)):
+        file, name = place.split(":")
+        homes[name].append(file)
+    for name, files in homes.items():
+        if len(files) > 1:
+            yield from (f"{file}:{name}" for file in files)
+
+
+def undocumented() -> Iterator[str]:
+    """Public functions, methods apart, and classes without a docstring."""
+    for name, tree in TREES.items():
+        if not ast.get_docstring(tree):
+            yield name
+        for node in tree.body:
+            if (
+                isinstance(node, ast.FunctionDef | ast.ClassDef)
+                and not node.name.startswith("_")
+                and not ast.get_docstring(node)
+            ):
+                yield f"{name}:{node.name}"
+
+
+#: Names of types that are also ordinary words of the code, or of other tables.
+_WORDS = frozenset({"equation", "on", "fixed", "string", "link", "planar", "slot", "rigid"})
+
+
+def types_as_text() -> Iterator[str]:
+    """A constraint type's name as text, where the type is not defined."""
+    for name, tree in TREES.items():
+        if name.startswith(("scene/constraints/", "benchmark/")):
+            continue
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Constant) and node.value in TYPES and node.value not in _WORDS:
+                yield f"{name}:{node.value}"
+            if isinstance(node, ast.Compare) and ast.unparse(node.left).endswith(".type"):
+                yield f"{name}:{ast.unparse(node)}"
+
+
+def precision_left_set() -> Iterator[str]:
+    for name, tree in TREES.items():
+        for node in ast.walk(tree):
+            targets = node.targets if isinstance(node, ast.Assign) else []
+            if any(ast.unparse(target) == "ctx.prec" for target in targets):
+                yield name
+
+
+def catch_all() -> Iterator[str]:
+    for name, tree in TREES.items():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ExceptHandler) and name not in CATCH_ALL:
+                caught = ast.unparse(node.type) if node.type else "BaseException"
+                if caught in ("Exception", "BaseException"):
+                    yield name
+
+
+def unknown_jobs() -> Iterator[str]:
+    """Texts of the form ``dofkit.MODULE:FUNCTION`` that name no function."""
+    for name, tree in TREES.items():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.startswith("dofkit."):
+                module, colon, function = node.value.partition(":")
+                file = module.removeprefix("dofkit.").replace(".", "/") + ".py"
+                if colon and not any(place == f"{file}:{function}" for place, _ in defined((ast.FunctionDef,))):
+                    yield f"{name}:{node.value}"
+
+
+RULES = {
+    "long function": long_functions,
+    "many parameters": many_parameters,
+    "long class": long_classes,
+    "many methods": many_methods,
+    "long file": long_files,
+    "late import": late_imports,
+    "repeated class name": repeated_classes,
+    "undocumented": undocumented,
+    "type as text": types_as_text,
+    "precision left set": precision_left_set,
+    "catch all": catch_all,
+    "unknown job": unknown_jobs,
+}
+
+
+def test_the_top_is_a_table_of_contents() -> None:
+    assert {entry.name for entry in PACKAGE.iterdir()} - {"__pycache__", "_catalog"} == TOP
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_rule(rule: str) -> None:
+    let_through = {e.place for e in EXEMPTIONS if e.rule == rule}
+    broken = set(RULES[rule]())
+    assert not broken - let_through, "\n".join(["", *sorted(broken - let_through)])
+    assert not let_through - broken, f"no longer needed: {sorted(let_through - broken)}"
+
+
+def test_exceptions_are_few_and_have_reasons() -> None:
+    assert len(EXEMPTIONS) <= MOST_EXEMPTIONS
+    assert all(e.reason and e.rule in RULES for e in EXEMPTIONS)
