@@ -9,10 +9,13 @@ import pytest
 import dofkit
 from dofkit.benchmark.trials.frameworks import Framework
 from dofkit.benchmark.trials.random_systems import RandomBodies, coarse, dependent, graph, loop, tree
-from dofkit.methods.table import BY_ENGINES, MethodName
+from dofkit.methods.names import MethodName
+from dofkit.methods.table import METHODS
 from dofkit.report import Report
 
 DIMENSIONS = (1, 2, 3)
+#: dofkit's own engines, together and alone.
+BY_ENGINES = tuple(name for name, method in METHODS.items() if method.engines)
 GRAPHS, CLASSIFIED, BODIES = 700, 14, 12
 
 

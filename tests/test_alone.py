@@ -12,14 +12,15 @@ import dofkit
 import dofkit.methods.dispatch
 from dofkit.base.verdicts import VERDICTS
 from dofkit.benchmark.failures import TRAITS, WHY, explained
-from dofkit.methods.dispatch import Knobs, answered, answering
-from dofkit.methods.table import BY_ENGINES, METHODS, QUESTIONS, MethodName, Question
+from dofkit.methods.dispatch import Knobs, answered
+from dofkit.methods.names import QUESTIONS, MethodName, Question
+from dofkit.methods.table import METHODS
 from dofkit.report import Report
 
 HOME = Path(dofkit.methods.__file__).parent
 #: Modules of the package that are no method.
-SHARED = {"__init__", "ask", "dispatch", "in_worker", "jobs", "table"}
-RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if m not in BY_ENGINES)
+SHARED = {"__init__", "ask", "classify", "dispatch", "engine", "in_worker", "names", "stages", "table", "unread"}
+RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if not METHODS[m].engines)
 #: Rivals that are quick enough for every scene.
 QUICK: tuple[MethodName, ...] = tuple(m for m in RIVALS if m != "symbolic")
 #: The scenes that half of the rivals look at, and those of which each question is asked.
@@ -133,16 +134,18 @@ def test_which_answers_each_method_takes_for_the_same(
 
 
 def test_every_row_has_a_module_and_every_module_a_row() -> None:
-    assert {p.stem for p in HOME.glob("*.py")} - SHARED == set(METHODS) == set(get_args(MethodName))
+    assert {p.stem for p in HOME.glob("*.py")} - SHARED == set(RIVALS)
+    assert set(METHODS) == set(get_args(MethodName))
     assert set(QUESTIONS) == set(get_args(Question))
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_method_answers_what_its_row_says(method: MethodName) -> None:
     for question in QUESTIONS:
-        work = answering(method, question)
+        work = METHODS[method].answering(question)
         assert (work is not None) == (question in METHODS[method].uses)
-        assert work is None or work.__module__ == f"dofkit.methods.{method}"
+        home = "engine" if METHODS[method].engines else method
+        assert work is None or (work.__name__, work.__module__) == (question, f"dofkit.methods.{home}")
     assert all(use.sound and use.costs for use in METHODS[method].uses.values())
 
 

@@ -15,23 +15,22 @@ import pytest
 import dofkit
 from dofkit.base import deadline
 from dofkit.base.deadline import OutOfTimeError, affordable, check, expired, left, limited, part, unless_late
+from dofkit.methods import stages
 from dofkit.report import Report
-
-CLASSIFY = sys.modules[dofkit.classify.__module__]
 
 
 @pytest.fixture(autouse=True)
 def _processor_time(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = SimpleNamespace(monotonic=time.process_time)
     monkeypatch.setattr(deadline, "time", clock)
-    monkeypatch.setattr(CLASSIFY, "time", clock)
+    monkeypatch.setattr(stages, "time", clock)
 
 
 def within(budget: float, **made: Any) -> tuple[Report, float]:
     """The report, and the seconds it took."""
     scene = dofkit.load({"name": "late", **made})
     start = time.process_time()
-    *_, report = CLASSIFY.stages(scene, budget)
+    *_, report = stages.stages(scene, budget)
     return report, time.process_time() - start
 
 
@@ -143,7 +142,7 @@ def test_redundancy_that_there_was_no_time_for_is_not_denied(monkeypatch: pytest
 
     made = {"coordinates": ["x", "y", "z"], "constraints": ["x = y", "y = z", "x = z"]}
     assert within(60, **made)[0].redundant == ["c3"]
-    monkeypatch.setattr(sys.modules["dofkit.classification.dependence.redundancy"], "analyse", late)
+    monkeypatch.setattr(sys.modules["dofkit.classification.dependence.by_rank"], "analyse", late)
     report, _ = within(60, **made)
     assert (report.dof, report.redundant_equations, report.redundant) == (1, 1, [])
     assert report.verdict == "undecided"

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 import dofkit
 from dofkit.base.errors import TextError
-from dofkit.classification.dependence.circuits import FormRows as Equations
+from dofkit.classification.dependence.circuits import OwnedRows as Equations
 from dofkit.classification.dependence.circuits import analyse
 from dofkit.exact.matrices.singular_values import independent_part
 from dofkit.exact.matrices.sparse import sparse

@@ -15,9 +15,12 @@ import dofkit
 from dofkit.base.verdicts import VERDICTS
 from dofkit.exact.engines import BOTH
 from dofkit.interface.cli import app
-from dofkit.methods.table import BY_ENGINES, METHODS, MethodName
+from dofkit.methods.names import MethodName
+from dofkit.methods.table import METHODS
 from dofkit.report import Report
 
+#: dofkit's own engines, together and alone.
+BY_ENGINES = tuple(name for name, method in METHODS.items() if method.engines)
 ALONE = tuple(name for name in BY_ENGINES if name != "auto")
 WHOLE = ("consistent", "dof", "velocity_dof", "instantaneous_dof", "singular", "holonomic", "scleronomic")
 WHOLE += ("redundant_equations", "growth_vector")

@@ -292,7 +292,8 @@ def test_work_that_hears_no_deadline_is_killed(monkeypatch: pytest.MonkeyPatch) 
     """8 coordinates, one finite equation as written: the lecture's count is 7."""
     monkeypatch.setattr("dofkit.methods.in_worker.CLASSIFIED", "worker_jobs:sketched")
     monkeypatch.setattr(
-        "dofkit.base.workers.pool._shared", cache(lambda _: Pool(1, modules=["worker_jobs", "dofkit.methods.jobs"]))
+        "dofkit.base.workers.pool._shared",
+        cache(lambda *_: Pool(1, modules=["worker_jobs", "dofkit.methods.in_worker"])),
     )
     assert dofkit.classify(dofkit.load(GOOD), budget=0).verdict == "undecided"
     scene = dofkit.load(HARD)

@@ -79,7 +79,7 @@ def plain(text: str) -> tuple[str, ...]:
     return tuple(sorted(sides))
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """The count with its assumption; closed forms are holonomic (Poincaré's lemma), and no others are known to be."""
     written = as_written(system)
     labels: dict[int, MethodLabel] = {}

@@ -275,7 +275,7 @@ def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Method
     return same(posed(scene, answer), Rationals(knobs.seed, COMPARED))
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """What the rational point proves; where the drawing is the point, functions have their own values there."""
     looked = _look(system, Knobs())
     if isinstance(looked, MethodReply):

@@ -104,7 +104,7 @@ def redundant(system: System, seed: int) -> list[int]:
     return analyse([OwnedRows(rows, owners, [True] * len(rows), p)]).redundant
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """The count in general position; it is the scene's own where all lengths were left out."""
     why = outside(system)
     if why is not None:

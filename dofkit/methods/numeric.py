@@ -136,7 +136,7 @@ def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Method
     return same(posed(scene, answer), Floats(knobs.tolerance, knobs.seed))
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """What singular values tell that are clearly parted: none is between rounding and what is clearly not 0."""
     looked, numbers = _look(system, Knobs())
     if looked is None:

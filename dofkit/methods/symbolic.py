@@ -175,7 +175,7 @@ def _alike(a: Sequence[Any], b: Sequence[Any]) -> bool:
     return any(all(sympy.simplify(x + sign * y) == 0 for x, y in zip(a, b, strict=True)) for sign in (-1, 1))
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """What SymPy says, as warnings only: none of it is sure."""
     symbols = Symbols(as_written(system))
     passes = passing(symbols)

@@ -9,7 +9,7 @@ from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.branches import solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.freedom.through_reference import all_of
-from dofkit.classification.passes import classify
+from dofkit.methods.classify import classify
 from dofkit.relations.normal.normal_form import Finite, Normal
 from dofkit.report import Report
 from dofkit.scene.added_equations import read_equations, with_equations

@@ -12,13 +12,16 @@ from typing import Any
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.undecided import sketch
+from dofkit.exact.points.field import NoPointError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.methods.dispatch import FAILURES, module_of
-from dofkit.methods.table import METHODS, MethodName
+from dofkit.methods.names import MethodName
+from dofkit.methods.table import Method
 from dofkit.report import ConstraintEntry, Report
 from dofkit.system import Constraint, System
 
+#: What a method may end with where a scene is not what it is for.
+FAILURES = (ArithmeticError, NoPointError, OutOfTimeError, NotImplementedError, ValueError)
 OPEN = " Whether it follows from the others is not told."
 NONLINEAR = "It is nonlinear in the velocities as written; over the reals it may say something simpler."
 FINITE = "It is a relation between positions (and time): holonomic by definition."
@@ -50,24 +53,23 @@ class MethodFindings:
     verdict: Verdict = "proved"
 
 
-def report_alone(system: System, method: MethodName) -> Report:
-    """The report of a method by itself."""
+def report_alone(system: System, method: MethodName, row: Method) -> Report:
+    """The report of a method by itself, which is a row of the table."""
     base = sketch(system, f"{method} alone does not tell")
     try:
-        found: MethodFindings = module_of(method).found(system)
+        found = row.findings(system)
     except OutOfTimeError:
         raise
     except FAILURES as error:
         found = MethodFindings({}, {}, [f"{method} alone came to nothing: {str(error) or type(error).__name__}."])
-    best = METHODS[method].best
     pairs = zip(system.constraints, base.constraints, strict=True)
-    entries = [_entry(c, e, found, found.labels.get(i), best) for i, (c, e) in enumerate(pairs)]
+    entries = [_entry(c, e, found, found.labels.get(i), row.best) for i, (c, e) in enumerate(pairs)]
     told = {
         "constraints": entries,
         "holonomic": _all([e.holonomic for e in entries]),
         "scleronomic": _all([e.scleronomic for e in entries]),
         "verdict": weakest(*(e.verdict for e in entries), found.verdict if "dof" in found.fields else "undecided"),
-        "method": f"{method} alone: {METHODS[method].cannot}",
+        "method": f"{method} alone: {row.cannot}",
         "modelled": "the equations as they are written",
         "warnings": [*system.warnings, *found.warnings],
     }
