@@ -23,7 +23,7 @@ NAMED = frozenset({"Symbol", "Dummy", "Function", "symbols", "ReferenceFrame", "
 #: Calls that look alike and are not: by file and the text of the call's function.
 ALLOWED = {
     ("__init__.py", "import_module"): "the package's own modules, by a fixed table",
-    ("methods/dispatch.py", "import_module"): "a method's own module, by the name of its row in the table",
+    ("methods/table.py", "import_module"): "a method's own module, by the name of its row in the table",
     ("base/workers/child.py", "import_module"): "the module of a job's function, which the parent process names",
 }
 

@@ -341,7 +341,7 @@ def test_where_no_process_can_start_the_time_is_watched(monkeypatch: pytest.Monk
     import dofkit.base.workers.pool as pools
 
     monkeypatch.setattr(sys, "executable", "/no/such/python")
-    monkeypatch.setattr(pools, "_shared", lambda process: Pool(1))
+    monkeypatch.setattr(pools, "_shared", lambda *_: Pool(1))
     report = dofkit.classify(dofkit.load(GOOD), budget=10)
     assert report.dof == 1
     assert "nothing would have been killed" in report.warnings[-1]

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dofkit.base.verdicts import weakest
 from dofkit.integrability.traits import exact
 from dofkit.methods.shared.as_written import Written, as_written, labelled
-from dofkit.methods.shared.reply import Knobs, MethodReply
-from dofkit.methods.shared.reporting import MethodFindings, MethodLabel, many
+from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodLabel, MethodReply
+from dofkit.methods.shared.reporting import many
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 

@@ -27,8 +27,7 @@ from dofkit.methods.shared.pointwise import (
     look,
     same,
 )
-from dofkit.methods.shared.reply import Knobs, MethodReply
-from dofkit.methods.shared.reporting import MethodFindings
+from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 

@@ -13,7 +13,8 @@ from dofkit.classification.passes import PASSES, PLAIN, examined
 from dofkit.classification.undecided import sketch
 from dofkit.methods.names import MethodName
 from dofkit.methods.shared.reporting import report_alone
-from dofkit.methods.table import METHODS, Method
+from dofkit.methods.shared.row import Method
+from dofkit.methods.table import METHODS
 from dofkit.methods.unread import blank
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block

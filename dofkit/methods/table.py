@@ -7,31 +7,14 @@ A method is a row here and a module of its name in `dofkit.methods`; those of do
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from functools import partial
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from dofkit.base.verdicts import Verdict
 from dofkit.exact.engines import BALLS, BOTH, FIELD, Engines
-from dofkit.methods.names import MethodName, Question
-
-if TYPE_CHECKING:
-    from dofkit.methods.shared.reply import MethodReply
-    from dofkit.methods.shared.reporting import MethodFindings
-    from dofkit.system import System
-
-
-@dataclass(frozen=True)
-class Use:
-    """How a method answers one question: what it is ``sound`` for, and what it ``costs``.
-
-    n: coordinates, m: scalar equations, k: differential ones, each by itself where parts share no coordinate.
-    """
-
-    sound: str
-    costs: str
+from dofkit.methods.names import MethodName
+from dofkit.methods.shared.row import Method, Use
 
 
 def _module(name: str) -> Any:
@@ -42,31 +25,6 @@ def _module(name: str) -> Any:
 def _engine(engines: Engines) -> Any:
     """dofkit's own engines, or one of them alone."""
     return _module("engine").EngineMethod(engines)
-
-
-@dataclass(frozen=True)
-class Method:
-    """One way to answer: in one line; by question; what it cannot answer; its best verdict; the engines it may ask.
-
-    ``source()`` has a function for each question of ``uses``, which takes (scene, knobs) and for ``equivalence`` the
-    answer; where there are no ``engines`` also ``findings(system)``, what it tells of a whole system.
-    """
-
-    summary: str
-    uses: Mapping[Question, Use]
-    cannot: str
-    best: Verdict
-    source: Callable[[], Any]
-    engines: Engines = frozenset()
-
-    def answering(self, question: Question) -> Callable[..., MethodReply] | None:
-        """The function that answers a question; None where the method has none."""
-        return getattr(self.source(), question) if question in self.uses else None
-
-    def findings(self, system: System) -> MethodFindings:
-        """What a method that is no engine tells of a whole system."""
-        found: MethodFindings = self.source().findings(system)
-        return found
 
 
 _BY_BLOCKS = "O(n^3) at random points, for each part that shares no coordinate with the others; trees in O(n)"

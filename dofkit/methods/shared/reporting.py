@@ -5,9 +5,7 @@ What a method would answer without being sound for it stands nowhere but in a wa
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
 
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import Verdict, weakest
@@ -16,7 +14,8 @@ from dofkit.exact.points.field import NoPointError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.methods.names import MethodName
-from dofkit.methods.table import Method
+from dofkit.methods.shared.reply import MethodFindings, MethodLabel
+from dofkit.methods.shared.row import Method
 from dofkit.report import ConstraintEntry, Report
 from dofkit.system import Constraint, System
 
@@ -26,31 +25,6 @@ OPEN = " Whether it follows from the others is not told."
 NONLINEAR = "It is nonlinear in the velocities as written; over the reals it may say something simpler."
 FINITE = "It is a relation between positions (and time): holonomic by definition."
 UNILATERAL = "It is an inequality: it allows both sides to move away from it, so it is not holonomic."
-
-
-@dataclass(frozen=True)
-class MethodLabel:
-    """What a method knows of one constraint's holonomy, and why; ``exact``: closed as written."""
-
-    holonomic: bool | None
-    reason: str
-    verdict: Verdict = "proved"
-    alone: bool | None = None
-    exact: bool | None = None
-
-
-@dataclass(frozen=True)
-class MethodFindings:
-    """What a method tells: fields of the report it is sound for, labels by constraint, and sentences.
-
-    ``independent``: all equations are independent, as surely as ``verdict`` says.
-    """
-
-    fields: Mapping[str, Any]
-    labels: Mapping[int, MethodLabel]
-    warnings: Sequence[str]
-    independent: bool = False
-    verdict: Verdict = "proved"
 
 
 def report_alone(system: System, method: MethodName, row: Method) -> Report:
