@@ -6,6 +6,8 @@ Each rule may have exceptions, with a reason; there are at most ten in all, and 
 from __future__ import annotations
 
 import ast
+import re
+import tomllib
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
@@ -200,6 +202,19 @@ RULES = {
 
 def test_the_top_is_a_table_of_contents() -> None:
     assert {entry.name for entry in PACKAGE.iterdir()} - {"__pycache__", "_catalog"} == TOP
+
+
+def test_the_floors_that_the_readme_draws_are_those_of_the_import_contract() -> None:
+    root = PACKAGE.parent
+    contracts = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"][
+        "contracts"
+    ]
+    layers = next(c["layers"] for c in contracts if c["type"] == "layers")
+    floors = re.findall(
+        r"^ *\d+   ((?:\w+(?:/|\.py) +)+)", (root / "README.md").read_text(encoding="utf-8"), re.MULTILINE
+    )
+    drawn = [[name.removesuffix("/").removesuffix(".py") for name in floor.split()] for floor in floors]
+    assert drawn == [[name.removeprefix("dofkit.") for name in layer.split(" | ")] for layer in layers]
 
 
 @pytest.mark.parametrize("rule", RULES)

@@ -1,4 +1,4 @@
-"""What each reduction of `dofkit.reductions` is worth: cost and size of the model with one after another left out.
+"""What each reduction of `dofkit.relations.reductions` is worth: cost and size of the model without one after another.
 
 The scenes grow by what one reduction leaves out; those of the catalog stand beside them.
 """
