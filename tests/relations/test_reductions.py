@@ -19,7 +19,7 @@ from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.relations.reductions import ALL, REDUCTIONS, ReductionName
 
 #: A quarter of the catalog's scenes: the whole of it takes a minute.
-CATALOG = sorted((Path(__file__).parent.parent / "catalog").glob("*/*.yaml"))[::4]
+CATALOG = sorted((Path(__file__).parents[2] / "catalog").glob("*/*.yaml"))[::4]
 #: What is computed with less, by hand: (field, with the reduction, without it) at a family's quick size n.
 LESS: Mapping[str, tuple[str, Callable[[int], int], Callable[[int], int]]] = {
     "untouched": ("coordinates", lambda n: 4, lambda n: 4 + n),

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 import sympy
-from motions import PLANE, energies, names_of, scene, vanishes, zero
+from shared.motions import PLANE, energies, names_of, scene, vanishes, zero
 
 import dofkit
 from dofkit.expressions.sympy_bridge import Bridge

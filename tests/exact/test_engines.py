@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 
 import dofkit
 from dofkit.base.errors import TextError
-from dofkit.classification.dependence.circuits import FormRows as Equations
-from dofkit.classification.dependence.circuits import analyse
+from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.singular_values import independent_part
 from dofkit.exact.matrices.sparse import sparse
 from dofkit.exact.points.balls import BallPoint, RealSearch
@@ -445,7 +444,7 @@ def test_growth_of_the_disc_the_car_and_engel() -> None:
 
 def test_the_last_written_is_redundant() -> None:
     rows = [[1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [2, 0, 0]]
-    found = analyse([Equations(sparse(rows), [0, 1, 2, 3, 4], [True] * 5, 101)])
+    found = analyse([OwnedRows(sparse(rows), [0, 1, 2, 3, 4], [True] * 5, 101)])
     assert found.redundant == [2, 4]
     assert found.groups == [(2, [0, 1, 2, 4])]
     assert found.circuits == {2: [0, 1], 4: [0]}
@@ -453,20 +452,20 @@ def test_the_last_written_is_redundant() -> None:
 
 
 def test_a_differential_form_goes_before_a_finite_relation() -> None:
-    found = analyse([Equations(sparse([[1, 2], [2, 4]]), [0, 1], [False, True], 101)])
+    found = analyse([OwnedRows(sparse([[1, 2], [2, 4]]), [0, 1], [False, True], 101)])
     assert (found.redundant, found.circuits) == ([0], {0: [1]})
 
 
 def test_constraints_of_several_equations() -> None:
     rows = [[1, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 1]]
-    found = analyse([Equations(sparse(rows), [0, 0, 1, 1], [True] * 4, 101)])
+    found = analyse([OwnedRows(sparse(rows), [0, 0, 1, 1], [True] * 4, 101)])
     assert found.redundant == []
     assert found.groups == [(1, [0, 1])]
     assert found.independent == {0: 2, 1: 1}
 
 
 def test_nothing_is_redundant_where_all_is_independent() -> None:
-    found = analyse([Equations(sparse([[1, 0], [0, 1]]), [0, 1], [True, True], 101)])
+    found = analyse([OwnedRows(sparse([[1, 0], [0, 1]]), [0, 1], [True, True], 101)])
     assert (found.redundant, found.groups) == ([], [])
 
 

@@ -13,7 +13,7 @@ import pytest
 
 import dofkit
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
 INSTALLS = [text.strip() for kind, text in BLOCKS if kind == "sh" and "-m venv" in text]

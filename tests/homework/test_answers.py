@@ -4,25 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import pytest
-from ruamel.yaml import YAML
+from shared.homework_cases import FILES, document
 
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.grading import Grader
 from dofkit.homework.key.misconceptions import ERRORS
 from dofkit.homework.questions import KINDS
-
-HERE = Path(__file__).parent / "homework"
-FILES = sorted(path.stem for path in HERE.glob("*.yaml"))
-
-
-@cache
-def document(name: str) -> Any:
-    return YAML(typ="safe").load((HERE / f"{name}.yaml").read_text(encoding="utf-8"))
 
 
 @cache

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from known_scenes import SCENES, dealt, report_of, scene_of, stem
+from shared.known_scenes import SCENES, dealt, report_of, scene_of, stem
 
 import dofkit
 from dofkit.base.verdicts import weakest

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from known_scenes import CATALOG, ROOT, SCENES, report_of, scene_of, stem
+from shared.known_scenes import CATALOG, ROOT, SCENES, report_of, scene_of, stem
 
 import dofkit
 import dofkit.base.documents

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from known_scenes import SCENES, scene_of, stem
+from shared.known_scenes import SCENES, scene_of, stem
 
 from dofkit.scene.lowering import lower
 

@@ -18,7 +18,7 @@ from dofkit.base.errors import Fault, SceneError
 from dofkit.scene.reading import MOST_FAULTS, SceneFile, find, load, loads
 from dofkit.scene.scene import Scene
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 GOOD = sorted([*HERE.parent.glob("catalog/*/*.yaml"), *HERE.glob("scenes/[!b]*/*.yaml")])
 
 

@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 import sympy
-from known_scenes import SCENES, report_of, scene_of, stem
-from symbolic import Answer, NotHereError, answer, closed, linear_in, parts_of, relations_of, solved
+from shared.known_scenes import SCENES, report_of, scene_of, stem
+from shared.symbolic import Answer, NotHereError, answer, closed, linear_in, parts_of, relations_of, solved
 
 import dofkit
 

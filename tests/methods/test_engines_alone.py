@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
-from known_scenes import SCENES, report_of, scene_of, stem
+from shared.known_scenes import SCENES, report_of, scene_of, stem
 from typer.testing import CliRunner
 
 import dofkit

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from trials import differences
+from shared.trials import differences
 
 import dofkit
 from dofkit.benchmark.trials.sweeps import DIGITS, JOINTED, NEAR, SWEEPS, Case, Near

@@ -12,7 +12,7 @@ from dofkit.benchmark.statistics import against
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.methods.table import METHODS
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 CHARTS = ROOT / "tests" / "charts"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 LEAST = 2000

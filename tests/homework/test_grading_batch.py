@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from grading_jobs import orders
-from test_homework import FILES, document
+from shared.grading_jobs import orders
+from shared.homework_cases import FILES, document
 
 import dofkit
 from dofkit.homework.answers.sources import Handed, handed

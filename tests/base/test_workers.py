@@ -18,12 +18,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import worker_jobs
+from shared import worker_jobs
 
 import dofkit
 from dofkit.base.workers import Job, Pool, Worker
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 SMALL = 1 << 29
 HARD = {
     "coordinates": ["x", "y", "z", "u", "v"],
@@ -40,7 +40,7 @@ posix = pytest.mark.skipif(os.name == "nt", reason="signals and limits")
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[Worker]:
-    made = Worker(SMALL, modules=["worker_jobs"])
+    made = Worker(SMALL, modules=["shared.worker_jobs"])
     yield made
     made.kill()
 
@@ -89,7 +89,7 @@ def written(path: Path) -> int:
 def test_a_job_is_answered_by_the_same_warm_process(worker: Worker) -> None:
     payload = {"a": [1, 2.5, None, "θ\ud800"], "b": (3,)}
     assert worker.run(Job(worker_jobs.same, payload, 10)).value == {"a": [1, 2.5, None, "θ\ud800"], "b": [3]}
-    first, second = (worker.run(Job("worker_jobs:process", None, 10)).value for _ in range(2))
+    first, second = (worker.run(Job("shared.worker_jobs:process", None, 10)).value for _ in range(2))
     assert first == second != os.getpid()
 
 
@@ -115,7 +115,7 @@ def test_the_clock_runs_from_one_thing_told_to_the_next(worker: Worker) -> None:
         (worker_jobs.fail, "no", "failed", "KeyError: 'no'"),
         (worker_jobs.unwritable, None, "failed", "TypeError"),
         (worker_jobs.leave, 3, "died", "the worker process ended with exit status 3"),
-        ("worker_jobs:nothing", None, "failed", "no attribute 'nothing'"),
+        ("shared.worker_jobs:nothing", None, "failed", "no attribute 'nothing'"),
         ("no_such_module:nothing", None, "failed", "ModuleNotFoundError"),
     ],
 )
@@ -172,7 +172,7 @@ def test_a_function_that_no_other_process_can_import_is_refused() -> None:
 
 
 def test_a_worker_that_holds_much_memory_is_replaced_after_the_job() -> None:
-    worker = Worker(SMALL, modules=["worker_jobs"])
+    worker = Worker(SMALL, modules=["shared.worker_jobs"])
     first, second = (worker.run(Job(worker_jobs.keep, SMALL // 3, 30)).value for _ in range(2))
     assert (first != second) == Path("/proc/self/statm").exists()
     worker.kill()
@@ -223,7 +223,8 @@ def test_whoever_stops_early_leaves_nothing_running(tmp_path: Path) -> None:
 # -- what is left behind -----------------------------------------------------------------------------
 
 LEFT = """
-import os, sys, worker_jobs
+import os, sys
+from shared import worker_jobs
 from dofkit.base.workers import Job, Pool, Worker
 pool = Pool(2)
 worker = Worker()
@@ -248,7 +249,8 @@ def test_no_process_is_left_behind(ending: str) -> None:
 def test_a_worker_dies_with_its_parent_in_the_middle_of_a_job(job: str, within: float, tmp_path: Path) -> None:
     """In Python it hears that the pipe is closed; inside a library its own alarm ends it."""
     path = tmp_path / "pid"
-    code = f"import worker_jobs as w\nfrom dofkit.base.workers import *\nWorker().run(Job(w.{job}, {str(path)!r}, 1))"
+    imports = f"from dofkit.base.workers import *\nfrom shared.worker_jobs import {job}\n"
+    code = f"{imports}Worker().run(Job({job}, {str(path)!r}, 1))"
     paths = os.pathsep.join([str(HERE), str(HERE.parent)])
     with subprocess.Popen([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": paths}) as parent:
         pid = written(path)
@@ -290,9 +292,10 @@ def test_without_time_everything_is_undecided_but_named() -> None:
 
 def test_work_that_hears_no_deadline_is_killed(monkeypatch: pytest.MonkeyPatch) -> None:
     """8 coordinates, one finite equation as written: the lecture's count is 7."""
-    monkeypatch.setattr("dofkit.methods.in_worker.CLASSIFIED", "worker_jobs:sketched")
+    monkeypatch.setattr("dofkit.methods.in_worker.CLASSIFIED", "shared.worker_jobs:sketched")
     monkeypatch.setattr(
-        "dofkit.base.workers.pool._shared", cache(lambda _: Pool(1, modules=["worker_jobs", "dofkit.methods.jobs"]))
+        "dofkit.base.workers.pool._shared",
+        cache(lambda _: Pool(1, modules=["shared.worker_jobs", "dofkit.methods.jobs"])),
     )
     assert dofkit.classify(dofkit.load(GOOD), budget=0).verdict == "undecided"
     scene = dofkit.load(HARD)
@@ -387,7 +390,8 @@ def test_a_file_in_the_working_folder_is_not_run(tmp_path: Path) -> None:
 
 
 STUCK = """
-import sys, worker_jobs, dofkit.interface.classify_file as telling, dofkit.interface.cli
+import sys, dofkit.interface.classify_file as telling, dofkit.interface.cli
+from shared import worker_jobs
 real = telling.stages
 def stages(scene, *others):
     told = real(scene, *others)
@@ -417,7 +421,8 @@ def test_a_scene_without_end_does_not_stop_the_others(tmp_path: Path) -> None:
 
 
 CRASHING = """
-import sys, worker_jobs, dofkit.interface.classify_file as telling, dofkit.interface.cli
+import sys, dofkit.interface.classify_file as telling, dofkit.interface.cli
+from shared import worker_jobs
 real = telling.SceneFile.read
 def read(data, name):
     if name in ("crash", "hog", "sleep"):

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
-from known_scenes import SCENES, dealt, report_of, scene_of
+from shared.known_scenes import SCENES, dealt, report_of, scene_of
 
 import dofkit
 import dofkit.methods.dispatch

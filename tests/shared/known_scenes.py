@@ -14,7 +14,7 @@ import dofkit
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 CATALOG = sorted((ROOT / "catalog").glob("*/*.yaml"))
 #: Those of the tests, the bad ones left out.
 OURS = [path for path in sorted((ROOT / "tests/scenes").glob("*/*.yaml")) if path.parent.name != "bad"]

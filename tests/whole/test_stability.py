@@ -8,8 +8,8 @@ from functools import cache
 from zlib import crc32
 
 import pytest
-from families import FAMILIES
-from trials import differences
+from shared.families import FAMILIES
+from shared.trials import differences
 
 import dofkit
 from dofkit.benchmark.trials.making import KnownTruth

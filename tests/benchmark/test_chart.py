@@ -11,8 +11,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import chart_methods
 import pytest
+from shared import chart_methods
 from typer.testing import CliRunner
 
 from dofkit.base.workers import Pool
@@ -53,8 +53,11 @@ def said(method: str, question: str, traits: tuple[str, ...], outcome: str, reas
 
 def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
     """The trials of the family by these methods, in two workers."""
-    with Pool(2, modules=("dofkit.benchmark.trial_job", "chart_methods")) as pool, Threads(2, pool.close) as threads:
-        bench = runner.Bench(threads, pool.run, limit, said, "chart_methods:answered")
+    with (
+        Pool(2, modules=("dofkit.benchmark.trial_job", "shared.chart_methods")) as pool,
+        Threads(2, pool.close) as threads,
+    ):
+        bench = runner.Bench(threads, pool.run, limit, said, "shared.chart_methods:answered")
         return list(runner.run(tasks.crossed(chart_methods.family(False), methods), bench))
 
 
@@ -338,9 +341,9 @@ def tiny(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two families of our own, answered by methods of our own."""
     families = {"boxes": chart_methods.family, "crates": chart_methods.family}
     monkeypatch.setattr(command, "FAMILIES", families)
-    monkeypatch.setattr(runner, "MODULES", ("chart_methods",))
-    monkeypatch.setattr(runner.Bench, "answering", "chart_methods:answered")
-    monkeypatch.setattr(runner.Bench.__init__, "__defaults__", ("chart_methods:answered",))
+    monkeypatch.setattr(runner, "MODULES", ("shared.chart_methods",))
+    monkeypatch.setattr(runner.Bench, "answering", "shared.chart_methods:answered")
+    monkeypatch.setattr(runner.Bench.__init__, "__defaults__", ("shared.chart_methods:answered",))
     monkeypatch.setattr(command, "find_spec", lambda name: None)
 
 

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 import pytest
-from motions import PLANE, energies, names_of, regular, scene, zero
+from shared.motions import PLANE, energies, names_of, regular, scene, zero
 
 import dofkit
 from dofkit.expressions.enclosures import approximate

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from known_scenes import OURS, scene_of, stem
 from rich.console import Console
+from shared.known_scenes import OURS, scene_of, stem
 
 import dofkit
 from dofkit.configuration.drawing import at_reference as local
@@ -21,7 +21,7 @@ from dofkit.scene.constraints import TYPES
 from dofkit.scene.lowering import lower
 from dofkit.system import System
 
-SCENES = Path(__file__).parent / "scenes"
+SCENES = Path(__file__).parents[1] / "scenes"
 
 
 @cache

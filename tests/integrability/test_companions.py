@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from known_scenes import SCENES, report_of, scene_of, stem
+from shared.known_scenes import SCENES, report_of, scene_of, stem
 
 import dofkit
 from dofkit.expressions import tree as ex
