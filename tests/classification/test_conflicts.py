@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import random
-import time
 from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
 import pytest
+from shared.work import counted
 
 import dofkit
 from dofkit.configuration.distance_geometry import unmet
@@ -59,10 +59,10 @@ def test_unrelated_constraints_are_left_alone() -> None:
     """Forty pairs that have nothing to do with the two circles between them."""
     others = [f"p{i}^2 + q{i}^2 = {i + 1}" for i in range(40)]
     names = ["x", "y", *(f"{c}{i}" for i in range(40) for c in "pq")]
-    start = time.process_time()
-    report = classified(names, [*others[:20], "x^2 + y^2 = 1", *others[20:], "(x - 5)^2 + y^2 = 1"])
+    texts = [*others[:20], "x^2 + y^2 = 1", *others[20:], "(x - 5)^2 + y^2 = 1"]
+    report, calls = counted(lambda: classified(names, texts))
     assert report.conflicting == ["c21", "c42"]
-    assert time.process_time() - start < 20
+    assert calls < 3_000_000
 
 
 def test_a_long_chain_is_cut_down_to_its_conflict() -> None:

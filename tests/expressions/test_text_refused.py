@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pickle
-import time
 from typing import Any
 
 import pytest
+from shared.work import counted
 
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, UnknownNameError, parse_expression, parse_relations, valid_name
@@ -211,17 +211,14 @@ def refusal(text: str, names: Names = NAMES) -> TextError:
 
 
 @pytest.mark.parametrize("text", CODE + EXHAUSTING, ids=lambda text: ascii(text)[:40])
-def test_hostile_text_is_refused_within_ten_milliseconds(text: str) -> None:
+def test_hostile_text_is_refused_with_little_work(text: str) -> None:
+    """60 000 calls of functions are some 10 ms."""
     NAMES.lookup.meaning("x")
-    times = []
-    for _ in range(3):  # the least of three: the machine may be busy with something else
-        start = time.perf_counter()
-        error = refusal(text)
-        times.append(time.perf_counter() - start)
-        assert error.column is not None
-        assert 1 <= error.column <= len(text) + 1
-        assert len(error.message) < 400
-    assert min(times) < 0.010
+    error, calls = counted(lambda: refusal(text))
+    assert error.column is not None
+    assert 1 <= error.column <= len(text) + 1
+    assert len(error.message) < 400
+    assert calls < 60_000
 
 
 @pytest.mark.parametrize("text", DOUBTFUL | MISTAKEN, ids=ascii)
@@ -275,12 +272,12 @@ def test_an_unknown_name_can_be_asked_for_and_travels() -> None:
     assert (type(copy), copy.name, copy.column) == (UnknownNameError, "C", 5)
 
 
-def test_the_nearest_of_many_names_is_found_quickly() -> None:
+def test_the_nearest_of_many_names_is_found_with_little_work() -> None:
     names = Names(frozenset(f"q_{i}" for i in range(5000)))
     refusal("p_1", names)
-    start = time.perf_counter()
-    assert refusal("p_7", names).hint == "did you mean `q_7`?"
-    assert time.perf_counter() - start < 0.05
+    error, calls = counted(lambda: refusal("p_7", names))
+    assert error.hint == "did you mean `q_7`?"
+    assert calls < 10 * 5000
 
 
 @pytest.mark.parametrize("name", ["x", "theta", "θ", "θ_1", "x_A", "E", "e", "lambda", "is", "S", "N", "q1", "x" * 64])

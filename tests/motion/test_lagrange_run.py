@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import pytest
 import sympy
 from shared.motions import PLANE, energies, names_of, scene, vanishes, zero
+from shared.work import calls_of
 
 import dofkit
 from dofkit.expressions.sympy_bridge import Bridge
@@ -308,13 +309,19 @@ def chain_in_all(n: int) -> Scene:
     return scene(*ties, coordinates=" ".join(names), **energies(kinetic, potential))
 
 
+@pytest.mark.sweep
+@pytest.mark.parametrize("made", [chain_in_angles, chain_in_all])
+def test_a_longer_chain_is_not_much_more_work(made: Callable[[int], Scene]) -> None:
+    """About n^3 terms: from three to five pendulums the factor is 4.6."""
+    three, five = (calls_of(partial(dofkit.lagrange, made(n))) for n in (3, 5))
+    assert five < 15 * three
+
+
 @pytest.mark.parametrize("made", [chain_in_angles, chain_in_all])
 def test_a_chain_of_five_pendulums(made: Callable[[int], Scene]) -> None:
     n = 5
     chain = made(n)
-    start = time.process_time()
     report = dofkit.lagrange(chain)
-    assert time.process_time() - start < 10
     assert report.coordinates == [f"q{i}" for i in range(1, n + 1)]
     assert max(map(len, report.equations)) < 400
     names = names_of(chain, report)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import re
+import signal
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -33,11 +34,22 @@ def count(upto: int) -> Iterator[int]:
     time.sleep(60)
 
 
-def patient(steps: int) -> Iterator[int]:
-    """Tell something every fifth of a second."""
-    for step in range(steps):
-        time.sleep(0.2)
-        yield step
+def alarms(steps: int) -> Iterator[list[float]]:
+    """The seconds that are left until this process ends by itself, at each step, after what was told before."""
+    found: list[float] = []
+    for _ in range(steps):
+        found.append(signal.getitimer(signal.ITIMER_REAL)[0])
+        yield found
+
+
+def until(path: str) -> str:
+    """Wait until something stands in a file, and tell it."""
+    late = time.monotonic() + 300
+    while time.monotonic() < late:
+        if Path(path).exists() and (found := Path(path).read_text()):
+            return found
+        time.sleep(0.01)
+    raise TimeoutError(path)
 
 
 def stuck(path: str = "") -> None:
