@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
-from trials import Outcome, outcome
+from shared.trials import Outcome, outcome
 
 import dofkit
 from dofkit.benchmark.trials.frameworks import Framework
