@@ -11,7 +11,6 @@ from importlib import import_module
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError
-from dofkit.exact.points.field import NoPointError
 from dofkit.methods.shared.reply import Knobs, MethodReply, cannot
 from dofkit.methods.table import METHODS, MethodName, Question
 from dofkit.scene.reading import load
@@ -20,7 +19,7 @@ from dofkit.scene.scene import Scene
 __all__ = ["Knobs", "MethodReply", "answered", "answering", "module_of"]
 
 #: What a method may end with where a scene is not what it is for.
-FAILURES = (ArithmeticError, NoPointError, OutOfTimeError, NotImplementedError, ValueError)
+FAILURES = (ArithmeticError, OutOfTimeError, NotImplementedError, ValueError)
 
 
 def module_of(method: MethodName) -> Any:

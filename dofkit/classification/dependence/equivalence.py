@@ -22,8 +22,8 @@ from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.configuration.variety import field_jacobian, find
 from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.exact.points.field import NoPointError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, split
@@ -280,7 +280,7 @@ class Equivalence:
         try:
             point = found.samples[0]
             jacobians = [field_jacobian(chart, point, [chart.ring.node(e) for e in s]) for s in sets]
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             return None
         return [rank_of_rows(j, point.p) for j in jacobians]
 

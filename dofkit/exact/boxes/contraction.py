@@ -15,6 +15,7 @@ import numpy as np
 
 from dofkit.exact.boxes import intervals as iv
 from dofkit.exact.boxes.intervals import EmptyError, Interval
+from dofkit.exact.errors import raising_no_value
 from dofkit.expressions.tree import Expr
 
 #: Sweeps over one box, and the part of some width that a sweep has to cut away for another to follow.
@@ -42,6 +43,7 @@ class BoxProgram:
     Symbols are variables; so is every value of an unknown function, which may be anything.
     """
 
+    @raising_no_value
     def __init__(self, wanted: Sequence[tuple[Expr, Interval]]) -> None:
         self.nodes: list[Node] = []
         self.variables: list[Expr] = []
@@ -271,6 +273,7 @@ def _function_slope(name: str, x: Interval, value: Interval) -> Interval:
     return ((1.0, 1.0) if x[0] > 0 else (-1.0, -1.0) if x[1] < 0 else (-1.0, 1.0)) if name == "abs" else iv.WHOLE
 
 
+@raising_no_value
 def contract(relations: BoxProgram, box: Box) -> Box:
     """The box less what no solution is in. Raises EmptyError where nothing is left: proved."""
     for _ in range(SWEEPS):

@@ -16,12 +16,12 @@ from fractions import Fraction
 from typing import Any
 
 from flint import fmpq_mat, nmod, nmod_poly
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.errors import NoPointError, NoValueError, raising_no_value
+from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.rational import Rational
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import reachable
 from dofkit.exact.ring.ring import ADD, MUL, NUM, POW, VAR, Ring
 from dofkit.exact.zero.independence import independent_generators
@@ -213,15 +213,15 @@ class TriangularSolver:
             return 0
         try:
             return max(0, int(self._univariate(node, unit, self.probe).degree()))
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             return 0
 
+    @raising_no_value
     def _univariate(self, node: int, unit: Unit, point: FieldPoint) -> Any:
         """The numerator of a relation as a polynomial in one unknown."""
         check()
         x = nmod_poly([0, 1], point.p)
         one = nmod_poly([1], point.p)
-        values: dict[int, Any] = {}
         if unit[0] == "angle":
             below = 5 * (one + x * x)
             cos, sin = (Rational(top, below) for top in _circle(x, one))
@@ -229,12 +229,18 @@ class TriangularSolver:
             pair = {var.index: cos if var.kind == "cos" else sin, var.partner: sin if var.kind == "cos" else cos}
         else:
             pair = {unit[1]: Rational(x, one)}
-        for i in reversed(reachable(self.ring, [node], through_generators=False)):
-            values[i] = self._step(i, values, pair, point)
-        result = values[node]
+        result = self._run(node, pair, point)
         if not isinstance(result, Rational):
             return nmod_poly([result], point.p)
         return result.numerator()
+
+    @raising_no_value
+    def _run(self, node: int, pair: dict[int, Rational], point: FieldPoint) -> Any:
+        """The value of a relation where some generators are functions of one unknown."""
+        values: dict[int, Any] = {}
+        for i in reversed(reachable(self.ring, [node], through_generators=False)):
+            values[i] = self._step(i, values, pair, point)
+        return values[node]
 
     def _step(self, i: int, values: dict[int, Any], pair: dict[int, Rational], point: FieldPoint) -> Any:
         op, payload = self.ring.code[i]
@@ -271,10 +277,7 @@ class TriangularSolver:
         return point.generator(var, args)
 
     def _constant_value(self, node: int, point: FieldPoint) -> Any:
-        values: dict[int, Any] = {}
-        for i in reversed(reachable(self.ring, [node], through_generators=False)):
-            values[i] = self._step(i, values, {}, point)
-        return values[node]
+        return self._run(node, {}, point)
 
     def _settle(self, remaining: list[int]) -> list[int]:
         """Drop relations between no unknowns that hold; notice those that do not."""
@@ -346,7 +349,7 @@ class TriangularSolver:
         try:
             canon = Canon(self.ring)
             tables = [canon.quotient(node)[0].to_dict() for node in remaining]
-        except (TooLargeError, ZeroDivisionError, DomainError):
+        except NoValueError:
             return None
         monomials = sorted({m for table in tables for m in table}, key=lambda m: (-sum(m), m))
         if not monomials or len(monomials) * len(tables) > COMBINED_ENTRIES:
@@ -371,7 +374,7 @@ class TriangularSolver:
             return False
         try:
             zero = self._constant_value(node, point) == 0
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             return False
         self.plan.dropped += zero
         return bool(zero)
@@ -392,13 +395,10 @@ class TriangularSolver:
         if self.probe is None:
             return False
         x, one = nmod_poly([0, 1], self.probe.p), nmod_poly([1], self.probe.p)
-        values: dict[int, Any] = {}
         try:
-            for i in reversed(reachable(self.ring, [node], through_generators=False)):
-                values[i] = self._step(i, values, {unit[1]: Rational(x, one)}, self.probe)
-        except (ZeroDivisionError, NoPointError):
+            result = self._run(node, {unit[1]: Rational(x, one)}, self.probe)
+        except NoValueError:
             return False
-        result = values[node]
         return isinstance(result, Rational) and result.bottom.degree() == 0 and result.top.degree() == 1
 
     # -- drawing ----------------------------------------------------------------------------------
@@ -411,7 +411,7 @@ class TriangularSolver:
             try:
                 point = field_point([self.ring], seed * DRAWS + attempt)
                 self._complete(point)
-            except (NoPointError, ZeroDivisionError):
+            except NoValueError:
                 continue
             return point
         return None
@@ -424,11 +424,12 @@ class TriangularSolver:
             point = base.copy()
             try:
                 self._complete(point)
-            except (NoPointError, ZeroDivisionError):
+            except NoValueError:
                 continue
             return point
         return None
 
+    @raising_no_value
     def _complete(self, point: FieldPoint) -> None:
         self._preset_roots(point)
         for node, unit in self.plan.steps:
