@@ -40,14 +40,11 @@ def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
     """The local dimension near a singular point that a real search ran into; None where it cannot be told."""
     if len(chart.nodes) > MAX_ROWS:
         return None
-    old = ctx.prec
-    ctx.prec = BITS
-    try:
-        return _look(chart, real)
-    except NoValueError:
-        return None
-    finally:
-        ctx.prec = old
+    with ctx.workprec(BITS):
+        try:
+            return _look(chart, real)
+        except NoValueError:
+            return None
 
 
 @raising_no_value

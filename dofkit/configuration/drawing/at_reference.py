@@ -220,7 +220,11 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
 
 def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
     """The reference configuration with balls; symbols without a value get random ones."""
-    ctx.prec = precision()
+    with ctx.workprec(precision()):
+        return _ball_point(chart, known, rng)
+
+
+def _ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
     symbols: dict[Expr, Any] = {}
     for var in chart.ring.vars:
         if var.kind != "symbol":

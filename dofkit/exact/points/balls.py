@@ -293,7 +293,10 @@ class RealSearch:
         """
         if any(symbols[p] <= 0 for p in self.positive if p in symbols):
             return None
-        ctx.prec = max(ctx.prec, precision())
+        with ctx.workprec(max(ctx.prec, precision())):
+            return self._precise(symbols, j, seed)
+
+    def _precise(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
         _, _, rows, columns = independent_part(j)
         found = self._refined(symbols, rows, columns, seed)
         if (found is not None and found.certified and found.consistent) or len(rows) == len(self.nodes):
