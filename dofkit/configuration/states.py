@@ -19,7 +19,8 @@ from dofkit.exact.points.balls import BallPoint, RealPoint, RealSearch, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring, Scalar
-from dofkit.exact.solving.triangular import TriangularSolver, Unit, unit_of
+from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.solving.unknowns import Unit, unit_of
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
