@@ -6,12 +6,10 @@ from collections.abc import Callable
 from functools import cached_property, partial
 from typing import TypeVar
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.deadline import part, unless_late
 from dofkit.classification.study import Study
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon
-from dofkit.exact.points.field import NoPointError
 from dofkit.mobility.general_position import General, has_geometry, in_general_position
 from dofkit.mobility.kutzbach import mobility
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
@@ -116,8 +114,8 @@ class CountsBeside:
 def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
     """What was found; None where there was no time, or the drawing has no value (a root of what is negative)."""
     try:
-        return unless_late(work, None)
-    except (ArithmeticError, ValueError, NoPointError, DomainError):
+        return unless_late(raising_no_value(work), None)
+    except (ArithmeticError, ValueError):
         return None
 
 

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point, prime_for
+from dofkit.exact.points.field import FieldPoint, field_point, prime_for
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -108,7 +109,7 @@ def _drawn_at_random(
             point.set(ring.vars[index], point.number(ex.ONE.args[0]) * value)
     try:
         return placement, _slopes(system, ring, nodes, point)
-    except (NoPointError, ZeroDivisionError):
+    except NoValueError:
         return None
 
 
@@ -125,6 +126,7 @@ def _values(system: System, placement: Placement) -> Mapping[Expr, int]:
     return found
 
 
+@raising_no_value
 def _slopes(system: System, ring: Ring, nodes: Sequence[int], point: FieldPoint) -> list[SparseRow]:
     """The rows by the coordinates; the rate of a body's Gibbs vector at 0 is half of its angular velocity."""
     at = values(ring, point)

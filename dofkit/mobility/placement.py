@@ -9,7 +9,8 @@ from typing import Any
 
 import networkx as nx
 
-from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.enclosures import approximate
@@ -52,7 +53,7 @@ def drawn(system: System, positive: frozenset[Expr]) -> Placement | None:
         try:
             at = values(ring, point)
             known = {e: int(at[node]) for e, node in nodes.items()}
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         return _placed(system, _Drawn(point.p, known))
     return None

@@ -8,7 +8,8 @@ from typing import Any
 from flint import nmod_mat
 
 import dofkit
-from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.text import Names, parse_expression, parse_relations
@@ -46,7 +47,7 @@ def vanishes(e: Expr) -> bool:
         try:
             if values(ring, point)[node] != 0:
                 return False
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         tried += 1
         if tried == POINTS:
@@ -90,7 +91,7 @@ def regular(report: MotionReport, names: Names) -> bool:
         point = field_point([ring], 7 + seed)
         try:
             found = values(ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         matrix = nmod_mat([[int(found[i]) for i in row] for row in nodes], point.p)
         return not rows or int(matrix.rank()) == len(rows)

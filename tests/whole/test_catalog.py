@@ -16,7 +16,8 @@ import dofkit
 import dofkit.base.documents
 import dofkit.scene.lowering
 from dofkit.base.errors import SceneError
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.text import Names, parse_expression
@@ -147,7 +148,7 @@ def points_of(ring: Ring) -> Any:
         point = field_point([ring], seed)
         try:
             values(ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         yield point
 

@@ -16,7 +16,7 @@ from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.through_reference import all_of, conditional, through_reference
 from dofkit.configuration.states import States, value_at, vanishes
 from dofkit.exact.points.balls import BallPoint
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.field import FieldPoint
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, reduced
@@ -82,7 +82,7 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
         states = States(sorted({*names, *moving}), way.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
         held = _held(states, branches, written, given, asked, smaller)
-    except (OutOfTimeError, ArithmeticError, NoPointError):
+    except (OutOfTimeError, ArithmeticError):
         return None
     return held if held or known else None
 

@@ -8,8 +8,8 @@ from itertools import chain
 from itertools import product as cartesian
 
 from dofkit.configuration.variety import field_jacobian, find
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.exact.points.field import NoPointError
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.chart_of_block import make_chart
@@ -69,7 +69,7 @@ class Regularity:
         try:
             point = found.samples[0]
             jacobians = [field_jacobian(chart, point, [chart.ring.node(e) for e in s]) for s in sets]
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             return None
         return [rank_of_rows(j, point.p) for j in jacobians]
 

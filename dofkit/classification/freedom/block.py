@@ -11,7 +11,8 @@ from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.variety import Variety, find
 from dofkit.exact.engines import BALLS, BOTH
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.errors import NoPointError
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions.tree import Expr

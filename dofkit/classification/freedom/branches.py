@@ -11,7 +11,6 @@ from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.domain import within
 from dofkit.classification.freedom.isomorphic_blocks import alike, retold
 from dofkit.classification.freedom.through_reference import through_reference
-from dofkit.exact.points.field import NoPointError
 from dofkit.expressions import tree as ex
 from dofkit.integrability.modulo_others import verified
 from dofkit.relations.answer import Answer
@@ -227,5 +226,5 @@ def in_time(block: Block, setting: Setting) -> Answer:
         return within(block, answer(block, setting), setting)
     except OutOfTimeError as error:
         return Answer(None, verdict="undecided", reasons=[str(error)], late=True)
-    except (ArithmeticError, NoPointError):
+    except ArithmeticError:
         return Answer(None, verdict="undecided", reasons=["an expression has no value at the points that were tried"])

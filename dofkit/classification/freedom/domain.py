@@ -11,13 +11,12 @@ from dataclasses import replace
 from typing import Literal
 
 from flint import arb
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.classification.freedom.block import answer
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
 from dofkit.configuration.variety import find
-from dofkit.exact.points.balls import OutsideDomainError, RealPoint, RealSearch
-from dofkit.exact.points.field import NoPointError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.balls import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
@@ -77,7 +76,7 @@ def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:
     for point in samples:
         try:
             at = values(chart.ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             return [False] * len(nodes)
         found = [z and at[n] == 0 for z, n in zip(found, nodes, strict=True)]
     return found
@@ -90,7 +89,7 @@ def _found(chart: Chart, left: Sequence[tuple[int, DomainCondition]]) -> bool:
     for seed in range(SEEDS):
         try:
             point = search.search(seed)
-        except (OverflowError, ValueError, DomainError):
+        except (OverflowError, ValueError, NoValueError):
             continue
         if point is not None and point.certified and point.consistent:
             points.append(point)
@@ -101,7 +100,7 @@ def _found(chart: Chart, left: Sequence[tuple[int, DomainCondition]]) -> bool:
 def _strictly(chart: Chart, found: RealPoint, left: Sequence[tuple[int, DomainCondition]]) -> bool:
     try:
         at = values(chart.ring, found.point)
-    except (OutsideDomainError, ZeroDivisionError):
+    except NoValueError:
         return False
     return all(at[n] > 0 if c.sense != "!=" else not arb(at[n]).contains(0) for n, c in left)
 

@@ -8,7 +8,6 @@ from itertools import chain, count, islice
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.block import answer
-from dofkit.exact.points.field import NoPointError
 from dofkit.expressions.text import to_text
 from dofkit.integrability.differential_blocks import codistribution
 from dofkit.integrability.first_integrals import FirstIntegral, assigned, first_integrals
@@ -56,7 +55,7 @@ class Companionship:
         try:
             kept = self._needed(constraint, block, owners)
             integral = self._integral(constraint, block, kept)
-        except (OutOfTimeError, ArithmeticError, NoPointError):
+        except (OutOfTimeError, ArithmeticError):
             return Together()
         companions = tuple(o for o in kept if o != constraint)
         if integral is None:
@@ -70,7 +69,7 @@ class Companionship:
             return Together()
         try:
             integral = self._integral(constraint, block, owners)
-        except (OutOfTimeError, ArithmeticError, NoPointError):
+        except (OutOfTimeError, ArithmeticError):
             return Together()
         return Together() if integral is None else Together((), equation(integral, block), integral.identically)
 
@@ -108,7 +107,7 @@ class Companionship:
             return []
         try:
             integrals = self._found(block, owners).integrals
-        except (OutOfTimeError, ArithmeticError, NoPointError):
+        except (OutOfTimeError, ArithmeticError):
             return []
         return [equation(f, block, i if len(integrals) > 1 else None) for i, f in enumerate(integrals)]
 

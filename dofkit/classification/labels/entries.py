@@ -16,7 +16,6 @@ from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import said
 from dofkit.classification.labels.reasons import Others
-from dofkit.exact.points.field import NoPointError
 from dofkit.integrability.modulo_others import label
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
@@ -190,7 +189,7 @@ def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
     try:
         check()
         return alone(own, setting, coordinates)
-    except (OutOfTimeError, ArithmeticError, NoPointError):
+    except (OutOfTimeError, ArithmeticError):
         return Answer(None, verdict="undecided")
 
 

@@ -7,8 +7,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.deadline import OutOfTimeError, expired, limited
 from dofkit.base.errors import DofkitError
 from dofkit.base.verdicts import Verdict, weakest
@@ -29,8 +27,7 @@ from dofkit.classification.special.parameters import (
     differences,
 )
 from dofkit.classification.special.wording import drop, flag, order_of, where
-from dofkit.exact.points.field import NoPointError
-from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError
+from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
@@ -50,7 +47,7 @@ MAX_VALUES, MAX_PLACES = 8, 6
 MAX_SCENE, MAX_SECONDS = 40, 10.0
 SEARCHED = "special cases by the zeros of minors and of curvature"
 
-_UNFINISHED = (TooLargeError, DomainError, ArithmeticError, ValueError, NoPointError, OutOfTimeError)
+_UNFINISHED = (ArithmeticError, ValueError, OutOfTimeError)
 
 Again = Callable[[System], Report]
 

@@ -104,7 +104,7 @@ def _angles(canon: Canon, index: int, value: Expr) -> list[dict[Expr, Expr]]:
 
 
 def at_values(system: System, values: Values) -> System:
-    """The system with parameters replaced. Raises ZeroDivisionError where it has no meaning for them."""
+    """The system with parameters replaced. Raises PoleError where it has no meaning for them."""
 
     def put(e: Expr) -> Expr:
         return ex.substitute(e, values)

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.undecided import sketch
-from dofkit.exact.points.field import NoPointError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.methods.names import MethodName
@@ -20,7 +19,7 @@ from dofkit.report import ConstraintEntry, Report
 from dofkit.system import Constraint, System
 
 #: What a method may end with where a scene is not what it is for.
-FAILURES = (ArithmeticError, NoPointError, OutOfTimeError, NotImplementedError, ValueError)
+FAILURES = (ArithmeticError, OutOfTimeError, NotImplementedError, ValueError)
 OPEN = " Whether it follows from the others is not told."
 NONLINEAR = "It is nonlinear in the velocities as written; over the reals it may say something simpler."
 FINITE = "It is a relation between positions (and time): holonomic by definition."

@@ -9,6 +9,7 @@ from functools import cached_property
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.passes import Examined
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.expressions import tree as ex
@@ -149,7 +150,7 @@ def _built_somehow(
     """The model after an elimination; None where it cannot be built, also because something has no value there."""
     try:
         return _built(study, energy, elimination, coordinates)
-    except ZeroDivisionError:
+    except NoValueError:
         return None
 
 
@@ -179,6 +180,7 @@ def _read_integral(text: str, names: Names) -> EliminatedRelation | None:
     return None
 
 
+@raising_no_value
 def _built(
     study: Examined, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
 ) -> LagrangeModel | None:
