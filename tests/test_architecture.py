@@ -138,8 +138,8 @@ def undocumented() -> Iterator[str]:
                 yield f"{name}:{node.name}"
 
 
-#: Names of types that are words of another language in these files: what a question asks for, or a word that is counted;
-#: JSON Schema, or what people call a string; the chart of the ground; the key of a point on a body.
+#: Names of types that are words of another language in these files: what a question asks for, or a word that is
+#: counted; JSON Schema, or what people call a string; the chart of the ground; the key of a point on a body.
 _OTHER_WORDS = {
     "equation": {
         "homework/questions/equations.py", "homework/starting.py",

@@ -2,7 +2,8 @@
 
 A rank modulo p is never above the true one, so that these are proofs: where all rows are independent the freedom is
 the coordinates less their number (implicit function theorem); where they leave nothing but motions of the whole, or
-nothing at all, nothing else moves (infinitesimally rigid is rigid: Asimow and Roth). No relation is looked at.
+nothing at all, nothing else moves (infinitesimally rigid is rigid: Asimow and Roth), unless lengths change in time,
+which dependent ones need not allow. No relation is looked at.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from dataclasses import dataclass
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import doubt
-from dofkit.expressions.tree import Expr, coordinate
+from dofkit.expressions.tree import TIME, Expr, coordinate
 from dofkit.mobility.placement import Placement, drawn
 from dofkit.mobility.twists import rows_of
 from dofkit.system import GROUND, System
@@ -55,7 +56,8 @@ def drawn_rank(system: System, positive: frozenset[Expr]) -> DrawnRank | None:
         return None
     rank = rank_of_rows(rows, placement.p)
     left = len(system.coordinates) - rank
-    if rank == len(rows) or left in (0, _motions_of_the_whole(system, placement)):
+    still = all(TIME not in r.expr.symbols for c in system.constraints for r in c.relations)
+    if rank == len(rows) or (still and left in (0, _motions_of_the_whole(system, placement))):
         return DrawnRank(rows, owners, placement.p, left, rank == len(rows), copies)
     return None
 
