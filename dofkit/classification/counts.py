@@ -15,7 +15,6 @@ from dofkit.mobility.kutzbach import mobility
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
 from dofkit.mobility.placement import Placement, drawn, measured
 from dofkit.mobility.special_position import special
-from dofkit.mobility.twists import KINDS
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.report import Generic, Mobility
 
@@ -93,7 +92,7 @@ class CountsBeside:
         if here is None or system.tolerance is not None or not has_geometry(system):
             return None
         columns = len(system.coordinates)
-        small = columns <= MOST and all(c.type in KINDS for c in system.connections)
+        small = columns <= MOST and all(c.facts.velocities is not None for c in system.connections)
         placement = measured(system) if small else None
         return None if placement is None else nearly_dependent(placement, system.dimension, columns, columns - here)
 
@@ -104,7 +103,7 @@ class CountsBeside:
         """Gruebler's and Kutzbach's count; None without bodies and joints."""
         equations = [r.equations for r in self.reduced]
         others = sum(
-            all(isinstance(p, Finite) for p in n.pieces) or self.reduced[i].constraint.type == "roll"
+            all(isinstance(p, Finite) for p in n.pieces) or self.reduced[i].constraint.facts.joint
             for i, r in enumerate(self.reduced)
             for n in r.normals
         )

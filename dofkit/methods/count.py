@@ -59,7 +59,7 @@ def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
 def least_freedom(written: Written) -> int:
     """d(d+1)/2 for links between d particles or more that nothing joins to the ground (Maxwell), else 0."""
     system, d = written.system, written.system.dimension
-    linked = all(c.type in ("link", "rigid") and GROUND not in c.members for c in system.connections)
+    linked = all(c.facts.bars and GROUND not in c.members for c in system.connections)
     if not linked or len(system.connections) < len(system.constraints) or len(system.particles) < d or system.bodies:
         return 0
     return d * (d + 1) // 2

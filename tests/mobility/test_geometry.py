@@ -15,7 +15,7 @@ from dofkit.configuration.drawing import at_reference as local
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.interface.show.terminal import as_text
 from dofkit.mobility.placement import drawn
-from dofkit.mobility.twists import KINDS, rows_of
+from dofkit.mobility.twists import rows_of
 from dofkit.report import Report
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.lowering import lower
@@ -233,7 +233,7 @@ def drawn_rank(system: System) -> int | None:
     p = placement.p
     rows = []
     for found in placement.located:
-        own = rows_of(found, system.dimension)
+        own = rows_of(found)
         if own is None:
             return None
         rows += [{c: v % p for c, v in row.items() if v % p} for row in own]
@@ -245,7 +245,7 @@ def test_twists_have_the_rank_of_the_coordinates(path: Path) -> None:
     """In scenes that say what the first order is where all is drawn exactly."""
     scene = scene_of(path)
     first = scene.expect.get("instantaneous_dof")
-    if first is None or scene.tolerance is not None or any(c.kind() not in KINDS for c in scene.constraints):
+    if first is None or scene.tolerance is not None or any(c.facts.velocities is None for c in scene.constraints):
         return
     system = lower(scene)
     rank = drawn_rank(system)
@@ -254,7 +254,9 @@ def test_twists_have_the_rank_of_the_coordinates(path: Path) -> None:
 
 
 def test_every_type_is_known_as_a_connection_or_as_a_text() -> None:
-    assert KINDS | {"equation", "on", "string", "roll"} == set(TYPES)
+    without = {kind for kind, cls in TYPES.items() if cls.facts.velocities is None}
+    assert without == {"equation", "on", "string", "roll"}
+    assert all("facts" in vars(cls) for cls in TYPES.values())
 
 
 # No more than the scene needs

@@ -77,7 +77,7 @@ def test_counts_of_a_mechanism_agree(seed: int) -> None:
     if system.reference is None or placement is None or report.instantaneous_dof is None:
         pytest.skip("not drawn, or not decided")
     p, n = placement.p, len(system.coordinates)
-    rows = [row for found in placement.located for row in rows_of(found, system.dimension) or []]
+    rows = [row for found in placement.located for row in rows_of(found) or []]
     rank = rank_of_rows([{c: v % p for c, v in row.items() if v % p} for row in rows], p)
     assert report.instantaneous_dof == n - rank
     assert report.generic is not None

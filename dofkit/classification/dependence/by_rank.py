@@ -41,7 +41,7 @@ def everywhere(
     dropped = {i for r in by_rank for i in r.redundant}
     if not dropped or setting.reference is not None or len(numbers) > MAX_CHOICES:
         return True
-    plain = all(reduced[i].constraint.type in ("equation", "on") for i in numbers)
+    plain = all(reduced[i].constraint.facts.written for i in numbers)
     pieces = [p for i in numbers for n in reduced[i].normals for p in n.pieces]
     if not plain or not all(isinstance(p, Finite) and algebraic(p.expr, *BRANCHES) for p in pieces):
         return True

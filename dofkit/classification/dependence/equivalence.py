@@ -30,9 +30,6 @@ from dofkit.system import System
 #: The share of the time that is left in which an answer may be found impossible.
 POSSIBLE = 0.3
 
-#: Their equations also allow assemblies turned by half a turn, which nobody means: the drawn one is as good.
-JOINTS = frozenset({"revolute", "prismatic", "weld", "cylindrical", "screw", "universal", "spherical", "planar"})
-
 
 class Sameness(Enum):
     """How an answer compares with the constraints that were asked for; the value is a stable code."""
@@ -194,7 +191,7 @@ class Equivalence:
             return Sameness.UNDECIDED
         if (mine.dof, mine.velocity_dof) != (asked.dof, asked.velocity_dof):
             return Sameness.STRONGER
-        return Sameness.SAME if all(r.constraint.type in JOINTS for r in self._wanted) else Sameness.BRANCH
+        return Sameness.SAME if all(r.constraint.facts.half_turns for r in self._wanted) else Sameness.BRANCH
 
     # differentials
 

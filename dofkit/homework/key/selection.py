@@ -27,7 +27,7 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
     basis = report.integrable_part.basis if report.integrable_part is not None else []
     if basis is None:
         return None
-    held = [Equation(type="equation", name=f"held {name}", text=f"d{name} = 0") for name in names]
+    held = [Equation(name=f"held {name}", text=f"d{name} = 0") for name in names]
     named = [c.model_copy(update={"name": e.name}) for c, e in zip(scene.constraints, report.constraints, strict=True)]
     whole = _with(scene, [*named, *held])
     if basis:
