@@ -68,10 +68,10 @@ def ask(
     >>> ask(dofkit.load({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}), "dof").value
     1
     """
-    return asked(scene, question, answer, budget)
+    return answered_by(scene, question, answer, budget)
 
 
-def asked(
+def answered_by(
     scene: Scene | System,
     question: Question,
     answer: Mapping[str, str] | None = None,
@@ -177,8 +177,8 @@ def _redundancy(known: Study) -> Reply:
 def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:
     read = read_equations(answer["text"], survey(scene).world.names, constants=False)
     system = lower(with_equations(scene, read, ANSWER))
-    asked, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
-    found = compare(system, asked, own, read.constants, engines).sameness
+    answered_by, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
+    found = compare(system, answered_by, own, read.constants, engines).sameness
     if found is Sameness.UNDECIDED:
         return Reply(None, "undecided", "it was not decided whether one follows from the other")
     return Reply(found is Sameness.SAME, "probable", "" if found is Sameness.SAME else found.value)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from dofkit.exact.engines import BALLS, FIELD, Engines
 from dofkit.exact.points.balls import balls_of
 from dofkit.exact.points.field import primes_of
-from dofkit.methods.ask import Reply, asked
+from dofkit.methods.ask import Reply, answered_by
 from dofkit.methods.names import Question
 from dofkit.methods.shared.reply import Knobs, MethodReply
 from dofkit.scene.scene import Scene
@@ -45,6 +45,6 @@ class EngineMethod:
                 turned.enter_context(primes_of(knobs.prime_bits))
             if self.engines == BALLS:
                 turned.enter_context(balls_of(knobs.bits))
-            found: Reply = asked(scene, question, answer, engines=self.engines)
+            found: Reply = answered_by(scene, question, answer, engines=self.engines)
         value = sorted(found.value) if question == "redundancy" and found.value is not None else found.value
         return MethodReply(value, found.reason)

@@ -69,7 +69,7 @@ class Floats:
             return [self._drawn(written, rows)]
         found: list[FloatPoint] = []
         for k in range(STARTS):
-            point = self._found(written, rows, k)
+            point = self._newton_end(written, rows, k)
             if point is not None:
                 found.append(point)
             if len(found) == POINTS:
@@ -87,7 +87,7 @@ class Floats:
         symbols[ex.TIME] = 0.0
         return FloatPoint(symbols, self.seed)
 
-    def _found(self, written: Written, rows: WrittenRows, k: int) -> FloatPoint | None:
+    def _newton_end(self, written: Written, rows: WrittenRows, k: int) -> FloatPoint | None:
         """Where Gauss and Newton's method ends that begins at random."""
         unknowns = [*written.coordinates, *(ex.parameter(p) for p in written.system.generic)]
         nodes = [node for _, node in rows.finite]

@@ -67,10 +67,10 @@ def _equation_by_equation(
         before = [j for j in order[:k] if j in kept]
         single = reduced[i].equations == 1
         known_not_to = single and i in kept and before == order[:k]
-        said = [] if known_not_to else _said_before(reduced, i, order[:k], setting)
+        said = [] if known_not_to else _equations_implied(reduced, i, order[:k], setting)
         independent[i] = reduced[i].equations - len(said)
         if i in kept and not single:
-            said = said if before == order[:k] else _said_before(reduced, i, before, setting)
+            said = said if before == order[:k] else _equations_implied(reduced, i, before, setting)
             groups += [(len(said), sorted({i, *_needed(reduced, said, before, setting)}))] if said else []
     return independent, groups
 
@@ -95,7 +95,7 @@ def _more(
     return dropped
 
 
-def _said_before(reduced: Sequence[Reduced], i: int, before: Sequence[int], setting: Setting) -> list[Normal]:
+def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int], setting: Setting) -> list[Normal]:
     """The equations of a constraint that follow from those before it and from its own first ones."""
     known = [n for j in before for n in reduced[j].normals]
     said = []

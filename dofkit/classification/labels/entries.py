@@ -14,7 +14,7 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.isomorphic_blocks import nameless
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
-from dofkit.classification.labels.equation_names import said
+from dofkit.classification.labels.equation_names import in_words
 from dofkit.classification.labels.reasons import Others
 from dofkit.integrability.modulo_others import label
 from dofkit.integrability.traits import Traits, traits
@@ -46,7 +46,7 @@ def entries_of(
     circuits = {i: c for found in dependent for i, c in found.circuits.items()}
     left_open = {i for found in dependent for i in found.undecided}
     following = _following(dependent)
-    told = _told(len(reduced), outcome, setting)
+    told = _labelled_rows(len(reduced), outcome, setting)
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
@@ -73,7 +73,7 @@ def labels_in_system(
     reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
 ) -> list[tuple[bool | None, Verdict]]:
     """Whether each constraint is holonomic in the system, and how sure; what needs an integral found is left None."""
-    told = _told(len(reduced), outcome, setting)
+    told = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
     return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
@@ -93,7 +93,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     if following is None or made.independent is None or len(following) != made.equations - made.independent:
         return made
     written = [relation for relation in r.constraint.relations if relation.sense == "="]
-    names = [said(written[k], r.constraint.text) for k in sorted(following)]
+    names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
         many = "follows" if len(names) == 1 else "follow"
@@ -154,7 +154,7 @@ class _Remembered:
         return found
 
 
-def _told(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
+def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
     """Every constraint's rows with their labels; a copy has those of its original.
 
     What the other constraints reduce is labelled as it was written.
