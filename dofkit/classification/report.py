@@ -180,6 +180,7 @@ def warnings(study: Study) -> list[str]:
             if len(normal.branches) > 1:
                 told.append(BRANCH_WARNING.format(name=r.constraint.name))
         told += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
+    told += [f"'{study.names[i]}': whether it can hold at all was not decided" for i in study.outcome.unsettled]
     for a in study.outcome.answers:
         told += a.reasons
         told += [f"hidden finite relation: {to_text(g)} = 0" for g in a.hidden]

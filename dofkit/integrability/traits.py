@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import random
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import combinations
 
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
@@ -16,11 +18,16 @@ from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import is_zero, told_zero
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.enclosures import interval
 from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import Finite, Inequality, Pfaffian, Piece, velocities_of
 from dofkit.relations.normal.zero_set import never_vanishes
 
 Told = tuple[bool | None, Verdict]
+
+#: Points at which a degree is read off, the largest denominator that it has, and how close it comes.
+DRAWS, MAX_DEGREE, CLOSE = 8, 64, 1e-9
 
 
 @dataclass(frozen=True)
@@ -45,17 +52,39 @@ def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH
     if isinstance(piece, Pfaffian):
         return _pfaffian_without_time(piece, positive, engines)
     if isinstance(piece, Inequality):
-        return _factors_without_time(piece.expr, positive), "proved"
+        return _inequality_without_time(piece.expr, positive)
     if isinstance(piece, Finite):
         return _finite_without_time(piece.expr, positive, engines)
-    return ex.TIME not in piece.expr.symbols and _homogeneous(piece.expr), "proved"
+    return _nonlinear_without_time(piece.expr, positive, engines)
+
+
+def _inequality_without_time(g: Expr, positive: frozenset[Expr]) -> Told:
+    """False is proved by a point on the boundary at which dg/dt is not 0: there the boundary moves."""
+    if _factors_without_time(g, positive):
+        return True, "proved"
+    return (False, "proved") if _moves(g, positive) else (None, "undecided")
+
+
+def _nonlinear_without_time(e: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
+    """Neither t nor a hidden dt: on e = 0 both de/dt and v . de/dv vanish (Euler: the set is a cone in v)."""
+    moving = sorted(velocities_of(e), key=repr)
+    radial = ex.add(*(v * ex.diff(e, v) for v in moving))
+    cone: Told = (True, "proved") if _homogeneous(e, radial) else _vanishes_on(e, radial, positive, engines)
+    parts = [_finite_without_time(e, positive, engines), cone]
+    if any(holds is False for holds, _ in parts):
+        return False, min((sure for holds, sure in parts if holds is False), key=VERDICTS.index)
+    return (None, "undecided") if any(holds is None for holds, _ in parts) else (True, weakest(*(s for _, s in parts)))
 
 
 def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
     """dg/dt = 0 on g = 0."""
     if ex.TIME not in g.symbols or _factors_without_time(g, positive):
         return True, "proved"
-    slope = ex.diff(g, ex.TIME)
+    return _vanishes_on(g, ex.diff(g, ex.TIME), positive, engines)
+
+
+def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
+    """Is ``slope`` = 0 wherever g = 0? A certified point where it is not is a proof that it is not."""
     still, sure = told_zero(slope, positive, engines)
     if still:
         return True, sure
@@ -76,11 +105,23 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
         return False, "proved"
     if "field" not in engines:
         return (True, "numeric") if real is not None and real.certified else (None, "undecided")
-    return False, "probable" if point is not None else "undecided"
+    return (False, "probable") if point is not None else (None, "undecided")
+
+
+def _moves(g: Expr, positive: frozenset[Expr]) -> bool:
+    """Is there a certified zero of g at which dg/dt is not 0? False says nothing."""
+    slope = ex.diff(g, ex.TIME)
+    ring = Ring([g, slope], positive)
+    node, rate = ring.node(g), ring.node(slope)
+    try:
+        real = RealSearch(ring, [node], sorted(g.symbols, key=repr), positive).search()
+        return real is not None and real.certified and not values(ring, real.point)[rate].contains(0)
+    except (NoValueError, OverflowError, ValueError):
+        return False
 
 
 def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
-    """True where time is left in no factor that can vanish (the numerator's, over the rationals)."""
+    """True where time is left in no factor that can vanish (the numerator's, over the rationals); False: not known."""
     if ex.TIME not in e.symbols:
         return True
     try:
@@ -91,7 +132,7 @@ def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
         shown = [canon.to_expr(f) for f, _ in factors]
     except NoValueError:
         return False
-    return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
+    return all(ex.TIME not in f.symbols or _has_no_zero(f, positive) for f in shown)
 
 
 def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> Told:
@@ -107,11 +148,12 @@ def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: E
         return False, min((v for zero, v in told if zero is False), key=VERDICTS.index)
     if not all(zero for zero, _ in told):
         return None, "undecided"
-    return _common_factor_without_zeros(coefficients, positive), weakest(sure, *(v for _, v in told))
+    still = _common_factor_without_zeros(coefficients, positive)
+    return (None, "undecided") if still is None else (still, weakest(sure, *(v for _, v in told)))
 
 
-def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[Expr]) -> bool:
-    """The direction does not turn: is the factor that carries the time free of zeros?"""
+def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[Expr]) -> bool | None:
+    """The direction does not turn: is the factor that carries the time free of zeros? None: not known."""
     try:
         ring = Ring(coefficients, positive)
         nodes = [ring.node(e) for e in coefficients]
@@ -121,8 +163,16 @@ def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[E
             common = common.gcd(canon.quotient(node)[0])
         shown = [canon.to_expr(f) for f, _ in canon.factors(common)]
     except NoValueError:
-        return False
-    return all(ex.TIME not in f.symbols or _of_time_alone(f) or never_vanishes(f, positive) for f in shown)
+        return None
+    timed = [f for f in shown if ex.TIME in f.symbols and not _of_time_alone(f) and not _has_no_zero(f, positive)]
+    if not timed:
+        return True
+    return False if any(_moves(f, positive) for f in timed) else None
+
+
+def _has_no_zero(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Is it proved that ``e`` vanishes at no real point?"""
+    return never_vanishes(e, positive) or no_solution([e], positive)
 
 
 def _of_time_alone(e: Expr) -> bool:
@@ -130,10 +180,25 @@ def _of_time_alone(e: Expr) -> bool:
     return all(s.args[0] in ("time", "parameter") for s in e.symbols) and all(n.op != "call" for n in ex.nodes(e))
 
 
-def _homogeneous(e: Expr) -> bool:
-    """Homogeneous in the velocities (Euler's relation, of a degree up to 6): no dt is hidden in it."""
-    radial = ex.add(*(v * ex.diff(e, v) for v in velocities_of(e)))
-    return any(is_zero(radial - degree * e, frozenset()) for degree in range(7))
+def _homogeneous(e: Expr, radial: Expr) -> bool:
+    """Euler's relation ``radial`` = v . de/dv = k e for some k, which is read off at a random point."""
+    degree = _ratio(radial, e)
+    return degree is not None and is_zero(radial - ex.num(degree) * e, frozenset())
+
+
+def _ratio(a: Expr, b: Expr) -> Fraction | None:
+    """A rational number of small denominator that a/b is close to at a random point; None where there is none."""
+    symbols = sorted(a.symbols | b.symbols, key=repr)
+    rng = random.Random("dofkit degree")
+    for _ in range(DRAWS):
+        point = {s: Fraction(rng.randrange(64, 257), 97) for s in symbols}
+        above, below = interval(a, point), interval(b, point)
+        if above is None or below is None or below.contains(0):
+            continue
+        value = float((above / below).mid())
+        near = Fraction(value).limit_denominator(MAX_DEGREE)
+        return near if abs(value - near) < CLOSE else None
+    return None
 
 
 def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:

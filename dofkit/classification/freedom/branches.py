@@ -12,6 +12,7 @@ from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import alike, retold
 from dofkit.classification.freedom.through_reference import through_reference
 from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import verified
 from dofkit.relations.answer import Answer
 from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow
@@ -19,7 +20,7 @@ from dofkit.relations.beside_others import reduced as reduced_velocities
 from dofkit.relations.blocks import Block, Row, parted, split
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Still
-from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
@@ -33,7 +34,8 @@ _LEFT_OUT = f"of more than {MAX_CHOICES} choices of branches not all were looked
 class Outcome:
     """The blocks of one choice of branches and their answers.
 
-    ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows.
+    ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows; ``impossible``:
+    constraints that hold nowhere, ``unsettled``: inequalities of which that is not known.
     """
 
     rows: list[Row]
@@ -45,12 +47,13 @@ class Outcome:
     kinked: bool = False
     copies: dict[int, int] = field(default_factory=dict)
     reduced: tuple[RewrittenRow, ...] = ()
+    unsettled: list[int] = field(default_factory=list)
 
     @property
     def consistent(self) -> bool | None:
         if self.impossible or any(a.consistent is False for a in self.answers):
             return False
-        return None if any(a.consistent is None for a in self.answers) else True
+        return None if self.unsettled or any(a.consistent is None for a in self.answers) else True
 
     @property
     def written_rows(self) -> list[Row]:
@@ -96,7 +99,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     normals = [(i, through_reference(normal, setting)) for i, r in enumerate(reduced) for normal in r.normals]
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
-    never = [i for i, r in enumerate(reduced) if any(never_holds(q.expr, q.strict, positive) for q in r.inequalities)]
+    never, unsettled = _one_sided(reduced, positive)
     copied = copies(reduced) if "copies" in setting.reductions else {}
     outcomes, why = list[Outcome](), None
     known = AnsweredBlocks(system)
@@ -120,10 +123,22 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
     best.copies = copied if outcomes else {}
+    best.unsettled = unsettled
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
         best.first_order = _first_order(system, normals, setting, constants)
         best.kinked = any(normal.kinked for _, normal in normals)
     return best
+
+
+def _one_sided(reduced: Sequence[Reduced], positive: frozenset[Expr]) -> tuple[list[int], list[int]]:
+    """Constraints with an inequality that holds nowhere, and those of which it is not known; each by itself."""
+    known = {
+        i: [holds_somewhere(q.expr, q.strict, positive) for q in r.inequalities]
+        for i, r in enumerate(reduced)
+        if r.inequalities
+    }
+    never = [i for i, holds in known.items() if False in holds]
+    return never, [i for i, holds in known.items() if None in holds and False not in holds]
 
 
 def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> Outcome:

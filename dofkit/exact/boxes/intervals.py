@@ -124,11 +124,14 @@ def inverse(b: Interval) -> list[Interval]:
 
 
 def _quotient_low(a: float, b: float) -> float:
-    """A bound from below of a/b, b > 0."""
+    """A bound from below of a/b, b > 0: the quotient itself where it is a whole number exactly.
+
+    C's fmod has no rounding error, while q b = a may hold in rounded arithmetic only: 1/(1/3 in 53 bits) is not 3.
+    """
     if b == INF:
         return 0.0
     q = a / b
-    return q if b == 1.0 or (q.is_integer() and q * b == a and abs(a) < _WHOLE_BITS) else down(q)
+    return q if b == 1.0 or (abs(q) < _WHOLE_BITS and math.fmod(a, b) == 0.0) else down(q)
 
 
 def solve_product(x: Interval, y: Interval, result: Interval) -> Interval:

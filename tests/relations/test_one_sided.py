@@ -1,0 +1,58 @@
+"""Inequalities by themselves: consistent where a point is shown, inconsistent where it is proved, else open."""
+
+from __future__ import annotations
+
+import pytest
+
+import dofkit
+from dofkit.report import Report
+
+
+def classified(*texts: str) -> Report:
+    made = {
+        "coordinates": ["x", "y", "z"],
+        "parameters": {"L": "positive"},
+        "functions": {"h": ["s"]},
+        "constraints": [*texts],
+    }
+    return dofkit.classify(dofkit.load(made))
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["sin(x) >= 2", "x^2 + x + 1 <= 0", "abs(x) < 0", "exp(x) <= 0", "cos(x) > 1", "x^2 + y^2 < 0", "1/x^2 < 0",
+     "x < x", "xdot^2 < 0", "sin(x) + cos(x) >= 1.4143", "2 x^2 + 2 x y + y^2 + 1 <= 0"],
+)  # fmt: skip
+def test_what_holds_nowhere_is_inconsistent(text: str) -> None:
+    report = classified(text)
+    assert (report.consistent, report.conflicting, report.dof) == (False, ["c1"], None)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["x >= 2", "sin(x) >= 1", "x^2 + y^2 <= 0", "(x - 37)^2 + (y - 21)^2 <= 1/100", "sqrt(x) >= 3", "log(x) < -5",
+     "abs(x) + abs(y) <= 0", "x^2 - 2 x + 1 <= 0", "sin(x) + cos(x) >= 1.4142", "h(x) >= 0", "x <= x", "0 <= x <= L"],
+)  # fmt: skip
+def test_what_holds_somewhere_is_consistent(text: str) -> None:
+    report = classified(text)
+    assert (report.consistent, report.verdict, report.dof) == (True, "proved", 3)
+
+
+@pytest.mark.parametrize(
+    ("text", "scleronomic"),
+    [
+        ("xdot^7 + ydot^7 = zdot^7", True),  # homogeneous, of a degree that is not tried but read off
+        ("sqrt(xdot^2 + ydot^2 + zdot^2) = 2 zdot - xdot^3/zdot^2", True),  # degree 1, of a quotient
+        ("xdot^2 + ydot^2 = 1", False),  # dt^2 is hidden in it
+        ("xdot^2 + ydot^2 = zdot", False),
+        ("exp(t) (xdot^3 + ydot^3 - 2 zdot^3) = 0", True),  # a factor without zeros carries the time
+        ("xdot^3 + ydot^3 = t zdot^3", False),
+        ("(x^4 - x t + t^4 + 10) (xdot + y zdot) = 0", True),  # at least 9.875
+        ("(x - t) (xdot + y zdot) = 0", False),  # x = t is a branch
+        ("x >= t", False),
+        ("exp(t) x >= 0", True),
+    ],
+)
+def test_time_enters_where_a_point_shows_it(text: str, scleronomic: bool) -> None:
+    entry = classified(text).constraints[0]
+    assert entry.scleronomic is scleronomic
