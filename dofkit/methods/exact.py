@@ -28,8 +28,7 @@ from dofkit.methods.shared.pointwise import (
     look,
     same,
 )
-from dofkit.methods.shared.reply import Knobs, MethodReply, cannot
-from dofkit.methods.shared.reporting import MethodFindings
+from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply, cannot
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -279,7 +278,7 @@ def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Method
     return same(posed(scene, answer), Rationals(knobs.seed, COMPARED))
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """What the rational point proves; where the drawing is the point, functions have their own values there."""
     looked = _look(system, Knobs())
     if isinstance(looked, MethodReply):

@@ -21,7 +21,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.graph.answers import redundant_links
 from dofkit.mobility.placement import Placement, general
-from dofkit.mobility.twists import KINDS, rows_of
+from dofkit.mobility.twists import rows_of
 from dofkit.relations.blocks import Row
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.relations.setting import Setting
@@ -54,7 +54,7 @@ def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -
         return General(None, why=DIFFERENTIAL)
     particles = set(system.particles)
     by_graph = "cheapest" in setting.reductions
-    if by_graph and all(c.type in ("link", "rigid") and particles.issuperset(c.members) for c in system.connections):
+    if by_graph and all(c.facts.bars and particles.issuperset(c.members) for c in system.connections):
         return _of_links(system)
     return _of_rows(system, rows, setting)
 
@@ -80,7 +80,7 @@ def _of_rows(system: System, given: Sequence[Row], setting: Setting) -> General:
         placement, rows = drawn
         for found in placement.located:
             check()
-            own = rows_of(found, system.dimension) or []
+            own = rows_of(found) or [] if found.facts.placed else []
             rows += [{c: int(v % placement.p) for c, v in row.items() if v % placement.p} for row in own]
         rank = rank_of_rows(rows, placement.p)
         return General(rank, "proved" if rank == len(rows) and not written else "probable")
@@ -88,9 +88,9 @@ def _of_rows(system: System, given: Sequence[Row], setting: Setting) -> General:
 
 
 def _as_texts(system: System, rows: Sequence[Row]) -> list[Row]:
-    """The rows that are no connection's: equations, surfaces, strings."""
-    geometric = {c.constraint for c in system.connections if c.type in KINDS}
-    return [row for row in rows if row.constraint not in geometric]
+    """The rows that no connection's geometry says: equations, surfaces, profiles, strings."""
+    placed = {c.constraint for c in system.connections if c.facts.placed}
+    return [row for row in rows if row.constraint not in placed]
 
 
 def _drawn_at_random(

@@ -81,7 +81,7 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
     try:
         states = States(sorted({*names, *moving}), way.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
-        held = _held(states, branches, written, given, asked, smaller)
+        held = _vanishes_on_states(states, branches, written, given, asked, smaller)
     except (OutOfTimeError, ArithmeticError):
         return None
     return held if held or known else None
@@ -113,7 +113,7 @@ def at_state(piece: Finite | Pfaffian | Nonlinear) -> Expr:
     return form_rate(piece) if isinstance(piece, Pfaffian) else piece.expr
 
 
-def _held(
+def _vanishes_on_states(
     states: States,
     branches: Sequence[Sequence[Expr]],
     written: Sequence[Expr],

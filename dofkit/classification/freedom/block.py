@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
-from dofkit.classification.freedom.agreement import held, numeric
+from dofkit.classification.freedom.agreement import agreed, numeric
 from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.variety import Variety, find
@@ -66,7 +66,7 @@ def _engines(block: Block, setting: Setting) -> Answer:
             raise
         return numeric(_answer(block, alone))
     if found.doubt and setting.engines == BOTH and setting.tolerance is None:
-        return held(found, _answer(block, alone))
+        return agreed(found, _answer(block, alone))
     return found
 
 

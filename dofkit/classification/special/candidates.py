@@ -61,6 +61,8 @@ def _simple(leaf: Leaf) -> bool:
 
 
 class CandidateSearch:
+    """The search for candidates in one table; what is too large finds nothing."""
+
     def __init__(self, table: MinorTable) -> None:
         self.table, self.reals = table, table.reals
         self.found = Candidates()

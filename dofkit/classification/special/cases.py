@@ -207,19 +207,19 @@ def _places(found: SearchedBlock, told: GenericAnswer) -> Iterator[SpecialCase]:
         return
     dropped: list[Leaf] = []
     for leaf in found.candidates.ranks[:MAX_PLACES]:
-        seen = _seen(found, told, leaf, 0)
+        seen = _locus_of(found, told, leaf, 0)
         if seen is not None and seen.rank < found.rank:
             dropped.append(leaf)
             yield from _dropping(found, told, leaf, seen)
     for leaf in found.candidates.bends[:MAX_PLACES] if found.curved else ():
-        seen = None if leaf in dropped else _seen(found, told, leaf, found.rank)
+        seen = None if leaf in dropped else _locus_of(found, told, leaf, found.rank)
         if seen is not None:
             yield from _bending(found, told, leaf, seen)
     for row, below in found.candidates.poles[:MAX_PLACES]:
         yield from _pole(found, told, row, below)
 
 
-def _seen(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
+def _locus_of(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
     canon, reals = found.table.canon, found.table.reals
     left = [g for g in found.table.relations if not _holds(reals, leaf, g)]
     if len(leaf.conditions(canon)) + len(left) > len(found.block.coordinates):
