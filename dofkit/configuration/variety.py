@@ -23,8 +23,9 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import Pivots, sparse_frame
 from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.ring.instructions import VAR, reachable
 from dofkit.exact.ring.program import gradient, value_of, values
-from dofkit.exact.ring.ring import VAR, Ring, reachable
+from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.ideals import complex_dimension
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import excludes_zero

@@ -23,8 +23,8 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, field_frame, pairing
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.ring.instructions import Scalar
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import Scalar
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

@@ -13,8 +13,9 @@ from typing import Any
 from flint import arb, fmpq
 
 from dofkit.exact.errors import OutsideDomainError
+from dofkit.exact.ring.instructions import Scalar, Var
 from dofkit.exact.ring.program import gradient
-from dofkit.exact.ring.ring import Ring, Scalar, Var
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 
 PRECISION = 256
