@@ -29,28 +29,28 @@ class Misconception(NamedTuple):
 
 
 def _all_links(f: SceneCounts) -> Numbers:
-    if f.links > f.n - f.dof and f.naive < f.dof:
+    if f.bars.links > f.n - f.dof and f.naive < f.dof:
         yield f.naive
 
 
 def _rod_three(f: SceneCounts) -> Numbers:
-    if f.links and f.naive > f.dof:
+    if f.bars.links and f.naive > f.dof:
         yield f.naive
 
 
 def _curve_one(f: SceneCounts) -> Numbers:
-    if f.surplus_surfaces:
-        yield f.dof + f.surplus_surfaces
+    if f.surfaces.surplus:
+        yield f.dof + f.surfaces.surplus
 
 
 def _param_count(f: SceneCounts) -> Numbers:
-    if f.on_curves:
-        yield f.dof - f.on_curves
+    if f.surfaces.on_curves:
+        yield f.dof - f.surfaces.on_curves
 
 
 def _plane_forgotten(f: SceneCounts) -> Numbers:
-    if f.planes and f.d == 3:
-        yield f.dof + f.planes
+    if f.surfaces.planes and f.d == 3:
+        yield f.dof + f.surfaces.planes
     if f.d == 2 and f.particles:
         yield f.dof + f.particles
 
@@ -61,23 +61,23 @@ def _plane_twice(f: SceneCounts) -> Numbers:
 
 
 def _no_spin(f: SceneCounts) -> Numbers:
-    if f.d == 3 and f.bodies + f.clusters:
-        yield f.dof - f.bodies - f.clusters
+    if f.d == 3 and f.bodies + f.bars.clusters:
+        yield f.dof - f.bodies - f.bars.clusters
 
 
 def _rod_spin(f: SceneCounts) -> Numbers:
-    if f.d == 3 and f.rods:
-        yield f.dof + f.rods
+    if f.d == 3 and f.bars.rods:
+        yield f.dof + f.bars.rods
 
 
 def _bar_two(f: SceneCounts) -> Numbers:
-    if f.links:
-        yield f.dof - f.links
+    if f.bars.links:
+        yield f.dof - f.bars.links
 
 
 def _bar_point(f: SceneCounts) -> Numbers:
-    if f.links and f.d > 1:
-        yield f.dof - (f.d - 1) * f.links
+    if f.bars.links and f.d > 1:
+        yield f.dof - (f.d - 1) * f.bars.links
 
 
 def _point_six(f: SceneCounts) -> Numbers:
@@ -106,10 +106,10 @@ def _roll_nh(f: SceneCounts) -> Numbers:
 
 
 def _sum_of_squares(f: SceneCounts) -> Numbers:
-    if not f.links and f.naive > f.dof and not f.integrable and not f.nonholonomic:
+    if not f.bars.links and f.naive > f.dof and not f.integrable and not f.nonholonomic:
         yield f.naive
-    elif f.surplus_surfaces:
-        yield f.dof + f.surplus_surfaces
+    elif f.surfaces.surplus:
+        yield f.dof + f.surfaces.surplus
 
 
 def _springs(f: SceneCounts) -> Numbers:
