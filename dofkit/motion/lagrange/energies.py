@@ -1,29 +1,21 @@
-"""The energies of a scene: as written, or from its masses, inertias, gravity, springs, dampers and forces.
+"""The energies of a scene: as written, or from its masses, inertias and forces.
 
-T = sum m v.v/2 + w.J w/2, every body's centre of mass at its origin; V = -sum m g.r + k (d - d0)^2/2 for each spring;
-Rayleigh's D = c ddot^2/2 for each damper; Q_i = sum F . dr/dq_i for each force.
+T = sum m v.v/2 + w.J w/2, every body's centre of mass at its origin.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 
-from dofkit.base.errors import Fault
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import HALF, ZERO, Expr
-from dofkit.expressions.vectors import Vec, dot, length, minus, scaled, square
-from dofkit.motion.lagrange.rates import by_time
-from dofkit.scene.frames import Frame, Placed
-from dofkit.scene.ledger import MOVING
-from dofkit.scene.parts import Force
+from dofkit.expressions.vectors import Vec, square
+from dofkit.motion.lagrange.forces import PARTS, ForceReader, Numbered
+from dofkit.motion.lagrange.quantities import mass, moving
+from dofkit.scene.frames import Frame
 from dofkit.scene.scene import Scene
 from dofkit.scene.world import World
-from dofkit.system import GROUND
-
-#: Stand for a mass or an inertia that the scene leaves out; an error where the motion depends on it.
-MISSING = "_missing "
 
 
 @dataclass(frozen=True)
@@ -58,211 +50,74 @@ class EnergyReader:
         dissipation = self._text(given and given.dissipation, "dissipation")
         own = {} if given is None else given.forces
         self.world.here = ("energies",)
-        forces = {name: self._moving(text, "forces", name) for name, text in own.items()}
-        springs = [(i, f) for i, f in enumerate(self.scene.forces) if f.type in ("spring", "gravity")]
+        forces = {name: moving(self.world, text, "forces", name) for name, text in own.items()}
         if kinetic is None:
             kinetic = ex.add(*self._kinetic())
             self._assumed_centres()
+        reader = ForceReader(self.scene, self.world, self.notes)
+        springs, dampers, applied = map(reader.entering, PARTS)
         if potential is None:
-            potential = ex.add(*(self._potential(i, f) for i, f in springs))
+            potential = reader.potential(springs)
         elif springs:
-            self._as_written("the potential energy", [f for _, f in springs])
-        dampers = [(i, f) for i, f in enumerate(self.scene.forces) if f.type == "damper"]
+            self._as_written("the potential energy", springs)
         if dissipation is None:
-            dissipation = ex.add(*(self._damper(i, f) for i, f in dampers))
+            dissipation = reader.dissipation(dampers)
         elif dampers:
-            self._as_written("the dissipation function", [f for _, f in dampers])
-        applied = [(i, f) for i, f in enumerate(self.scene.forces) if f.type == "force"]
+            self._as_written("the dissipation function", dampers)
         if forces and applied:
-            self._as_written("the generalized forces", [f for _, f in applied])
+            self._as_written("the generalized forces", applied)
         elif applied:
-            forces = self._applied(applied)
+            forces = reader.applied(applied)
         return Energy(kinetic, potential, dissipation, forces, tuple(self.notes))
 
     def _text(self, text: object, key: str) -> Expr | None:
         self.world.here = ("energies",)
-        return None if text is None else self._moving(text, key)
+        return None if text is None else moving(self.world, text, key)
 
-    def _moving(self, value: object, *where: str | int) -> Expr:
-        if isinstance(value, (str, Fraction)):
-            return self.world.expression(value, *where, allow=MOVING)
-        self.world.fault("one value is needed here, not a list", *where, hint="write a number or a text")
-        return ZERO
-
-    def _as_written(self, what: str, entries: list[Force]) -> None:
-        kinds = " and ".join(dict.fromkeys(f.type for f in entries))
+    def _as_written(self, what: str, entries: Sequence[Numbered]) -> None:
+        kinds = " and ".join(dict.fromkeys(force.type for _, force in entries))
         self.notes.append(f"`energies` gives {what}: the {kinds} among the forces is taken to be in it already.")
 
     def _assumed_centres(self) -> None:
         if self.scene.bodies:
             self.notes.append("Each body's centre of mass is taken to be at its origin, its inertia about that.")
 
-    # kinetic energy
-
     def _kinetic(self) -> Iterator[Expr]:
         for i, particle in enumerate(self.scene.particles):
             self.world.here = ("particles", i)
-            mass = self._mass(particle.mass, "mass", particle.name)
-            yield HALF * mass * _speed_squared(self.world.table.particles[particle.name])
+            m = mass(self.world, particle.mass, "mass", particle.name)
+            yield HALF * m * _speed_squared(self.world.table.particles[particle.name])
         d = self.world.dimension
         for i, body in enumerate(self.scene.bodies):
             self.world.here = ("bodies", i)
             frame = self.world.frames[body.name]
-            mass = self._mass(body.mass, "mass", body.name)
-            yield HALF * mass * _speed_squared(self.world.table.bodies[body.name][:d])
+            m = mass(self.world, body.mass, "mass", body.name)
+            yield HALF * m * _speed_squared(self.world.table.bodies[body.name][:d])
             if d > 1:
                 yield self._turning(body.inertia, frame)
-
-    def _mass(self, value: object, key: str, name: str) -> Expr:
-        return ex.parameter(f"{MISSING}{key} of {name}") if value is None else self._moving(value, key)
 
     def _turning(self, inertia: object, frame: Frame) -> Expr:
         """w.J w/2 with J in the body's axes."""
         if frame.dimension == 2:
             rate = ex.velocity(frame.angles[0])
-            return HALF * self._mass(inertia, "inertia", frame.name) * rate * rate
+            return HALF * mass(self.world, inertia, "inertia", frame.name) * rate * rate
         spin = body_spin(frame)
         if not isinstance(inertia, tuple):
-            return HALF * self._mass(inertia, "inertia", frame.name) * square(spin)
+            return HALF * mass(self.world, inertia, "inertia", frame.name) * square(spin)
         if len(inertia) != 3:
             self.world.fault("an inertia is one number, three principal moments or three rows", "inertia")
             return ZERO
         if all(isinstance(row, tuple) for row in inertia):
-            rows = [[self._moving(v, "inertia", i, j) for j, v in enumerate(row)] for i, row in enumerate(inertia)]
+            rows = [
+                [moving(self.world, v, "inertia", i, j) for j, v in enumerate(row)] for i, row in enumerate(inertia)
+            ]
             if any(len(row) != 3 for row in rows):
                 self.world.fault("a row of the inertia has three entries", "inertia")
                 return ZERO
             return HALF * ex.add(*(ex.mul(w, m, u) for w, row in zip(spin, rows, strict=True)
                                    for m, u in zip(row, spin, strict=True)))  # fmt: skip
-        moments = [self._moving(v, "inertia", i) for i, v in enumerate(inertia)]
+        moments = [moving(self.world, v, "inertia", i) for i, v in enumerate(inertia)]
         return HALF * ex.add(*(ex.mul(m, w, w) for m, w in zip(moments, spin, strict=True)))
-
-    # potential energy
-
-    def _potential(self, index: int, force: Force) -> Expr:
-        self.world.here = ("forces", index)
-        return self._gravity(force) if force.type == "gravity" else self._spring(force)
-
-    def _gravity(self, force: Force) -> Expr:
-        field_ = self._vector(force.acceleration, force.direction, "acceleration", downward=True)
-        terms = []
-        d = self.world.dimension
-        for i, particle in enumerate(self.scene.particles):
-            self.world.here = ("particles", i)
-            place = tuple(ex.coordinate(q) for q in self.world.table.particles[particle.name])
-            terms.append(self._mass(particle.mass, "mass", particle.name) * dot(field_, place))
-        for i, body in enumerate(self.scene.bodies):
-            self.world.here = ("bodies", i)
-            place = tuple(ex.coordinate(q) for q in self.world.table.bodies[body.name][:d])
-            terms.append(self._mass(body.mass, "mass", body.name) * dot(field_, place))
-        return -ex.add(*terms)
-
-    def _spring(self, force: Force) -> Expr:
-        stiffness = self._needed(force.stiffness, "stiffness", "of a spring")
-        turned = self._turned(force)
-        if turned is not None:
-            rest = ZERO if force.rest_length is None else self._moving(force.rest_length, "rest_length")
-            return HALF * stiffness * (turned - rest) ** 2
-        ends = self._ends(force)
-        if ends is None:
-            return ZERO
-        gap = minus(_place(ends[1]), _place(ends[0]))
-        if force.rest_length is not None:
-            rest = self._moving(force.rest_length, "rest_length")
-        elif ends[0].reference is not None and ends[1].reference is not None:
-            rest = length(minus(ends[1].reference, ends[0].reference))
-            self.notes.append("A spring without `rest_length` is unstretched in the drawing.")
-        else:
-            self.world.fault("a spring needs its `rest_length` here", hint="write its length without load, perhaps 0")
-            return ZERO
-        if rest.is_zero:
-            return HALF * stiffness * square(gap)
-        return HALF * stiffness * (ex.sqrt(square(gap)) - rest) ** 2
-
-    def _damper(self, index: int, force: Force) -> Expr:
-        self.world.here = ("forces", index)
-        damping = self._needed(force.damping, "damping", "of a damper")
-        turned = self._turned(force)
-        if turned is not None:
-            return HALF * damping * by_time(turned) ** 2
-        ends = self._ends(force)
-        if ends is None:
-            return ZERO
-        gap = minus(_place(ends[1]), _place(ends[0]))
-        if len(gap) == 1:
-            return HALF * damping * by_time(gap[0]) ** 2
-        along = dot(gap, tuple(by_time(part) for part in gap))
-        return HALF * damping * along**2 / square(gap)
-
-    def _ends(self, force: Force) -> tuple[Placed, Placed] | None:
-        if force.between is None or any(
-            isinstance(e, str) and e in (*self.world.frames, GROUND) for e in force.between
-        ):
-            hint = "write `between: [point, point]`; a point of a body is {on: BODY, at: [..]}"
-            self.world.fault(f"a {force.type} needs the two points that it acts between", "between", hint=hint)
-            return None
-        first, second = (self.world.point(end, "between", j) for j, end in enumerate(force.between))
-        return first, second
-
-    def _turned(self, force: Force) -> Expr | None:
-        """The angle between two planar bodies that a torsion spring or damper acts on."""
-        names = [e for e in force.between or () if isinstance(e, str) and e in (*self.world.frames, GROUND)]
-        if len(names) != 2 or self.world.dimension != 2:
-            return None
-        first, second = (self.world.frame(name, "between") for name in names)
-        return second.angle - first.angle
-
-    def _needed(self, value: object, key: str, what: str) -> Expr:
-        if value is None:
-            self.world.fault(f"the `{key}` {what} is missing", hint="give a number or a parameter")
-            return ZERO
-        return self._moving(value, key)
-
-    # forces
-
-    def _applied(self, entries: list[tuple[int, Force]]) -> dict[str, Expr]:
-        found: dict[str, Expr] = {}
-        for i, force in entries:
-            self.world.here = ("forces", i)
-            if force.point is not None:
-                place = _place(self.world.point(force.point, "point"))
-            elif force.body is not None:
-                place = self.world.frame(force.body, "body").position
-            else:
-                hint = "name its `point` or `body`, or give `energies: {forces: ...}`"
-                self.world.fault("where the force acts is not said", hint=hint)
-                continue
-            vector = self._vector(force.value, force.direction, "value", downward=False)
-            for q in self.world.table.coordinates:
-                symbol = ex.coordinate(q.name)
-                work = ex.add(*(f * ex.diff(part, symbol) for f, part in zip(vector, place, strict=True)))
-                if not work.is_zero:
-                    found[q.name] = found.get(q.name, ZERO) + work
-        return found
-
-    def _vector(self, value: object, direction: object, key: str, downward: bool) -> Vec:
-        """A vector from its components, or from its size and direction (gravity's is the last axis, downward)."""
-        d = self.world.dimension
-        zero: Vec = (ZERO,) * d
-        if isinstance(value, tuple):
-            if len(value) != d:
-                self.world.fault(f"{len(value)} components given where the dimension is {d}", key)
-                return zero
-            return tuple(self._moving(part, key, i) for i, part in enumerate(value))
-        size = self._needed(value, key, "of gravity" if downward else "of a force")
-        if direction is None:
-            if not downward and d > 1:
-                self.world.fault("the `direction` of the force is missing", hint="or give its components as `value`")
-                return zero
-            return (*(ZERO,) * (d - 1), -size if downward else size)
-        if not isinstance(direction, tuple) or len(direction) != d:
-            self.world.fault(f"a direction has {d} components here", "direction")
-            return zero
-        along = tuple(self._moving(part, "direction", i) for i, part in enumerate(direction))
-        if all(part.is_zero for part in along):
-            self.world.fault("a direction cannot be zero", "direction")
-            return zero
-        return scaled(size / length(along), along)
 
 
 def body_spin(frame: Frame) -> Vec:
@@ -281,18 +136,5 @@ def body_spin(frame: Frame) -> Vec:
     )
 
 
-def _place(point: Placed) -> Vec:
-    return tuple(part / point.under for part in point.over)
-
-
 def _speed_squared(names: tuple[str, ...]) -> Expr:
     return ex.add(*(ex.velocity(name) ** 2 for name in names))
-
-
-def missing(symbols: frozenset[Expr], scene: Scene) -> list[Fault]:
-    """A fault for everything that was left out and that the motion depends on, where it belongs."""
-    named = sorted(str(s.args[1]).removeprefix(MISSING) for s in symbols if str(s.args[1]).startswith(MISSING))
-    where: dict[str, tuple[str | int, ...]] = {p.name: ("particles", i) for i, p in enumerate(scene.particles)}
-    where.update({b.name: ("bodies", i) for i, b in enumerate(scene.bodies)})
-    hint = "give it, or `energies: {kinetic: ...}`"
-    return [Fault(f"the {name} is missing", where.get(name.rpartition(" ")[2], ()), hint=hint) for name in named]

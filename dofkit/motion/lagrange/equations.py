@@ -20,8 +20,9 @@ from dofkit.motion.lagrange.angles import compound
 from dofkit.motion.lagrange.conserved import conserved, cyclic
 from dofkit.motion.lagrange.derivation import Derived, derive
 from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
-from dofkit.motion.lagrange.energies import Energy, EnergyReader, missing
+from dofkit.motion.lagrange.energies import Energy, EnergyReader
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
+from dofkit.motion.lagrange.quantities import missing
 from dofkit.motion.lagrange.regularity import SINGULAR, degenerate
 from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.motion.lagrange.small_motions import linearized

@@ -89,8 +89,8 @@ def in_velocities(piece: Remaining) -> Expr:
 def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
     """The system with as much eliminated as is possible in closed form, and as ``care`` allows.
 
-    Integrals of differential constraints are used where their constants do not enter the motion. Raises MotionError
-    where the system is inconsistent or was not decided.
+    Integrals of differential constraints are used where their constants do not enter the motion. Raises
+    NoEquationsError where the system is inconsistent or was not decided.
     """
     _possible(study)
     outcome = study.outcome

@@ -20,7 +20,7 @@ SINGULAR = "The kinetic energy is degenerate: these equations do not determine a
 def degenerate(derived: Derived) -> bool:
     """Is the matrix [[M, A^T], [A, 0]] singular, as far as points show it?
 
-    Raises MotionError where an equation says that a number is 0, or nothing in the energies moves.
+    Raises NoEquationsError where an equation says that a number is 0, or nothing in the energies moves.
     """
     model = derived.model
     for name, e in derived.equations.items():

@@ -36,8 +36,8 @@ def linearized(derived: Derived) -> Linearized:
     """M, C and K at the reference configuration if that is an equilibrium, else at 0, else at another that is found.
 
     With E(q, qdot, qddot, lam) = 0 the equations: M = dE/dqddot, C = dE/dqdot, K = dE/dq there, all of them restricted
-    to the deviations that the constraints which kept a multiplier allow. Raises MotionError where time enters or no
-    equilibrium is known.
+    to the deviations that the constraints which kept a multiplier allow. Raises NoEquationsError where time enters or
+    no equilibrium is known.
     """
     if any(ex.TIME in e.symbols for e in (*derived.model.holonomic, *derived.model.nonholonomic)):
         raise NoEquationsError("time enters the constraints, so that the system does not rest")
