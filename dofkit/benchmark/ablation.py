@@ -1,4 +1,4 @@
-"""What each of the `dofkit.relations.reductions` is worth: cost and size of the model with one after another left out.
+"""What each reduction of `dofkit.relations.reductions` is worth: cost and size of the model without one after another.
 
 The scenes grow by what one reduction leaves out; those of the catalog stand beside them.
 """
@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.benchmark.record import ReductionCost
-from dofkit.classification.passes import Study, examined
+from dofkit.classification.passes import Examined, examined
 from dofkit.relations.reductions import ALL, REDUCTIONS, ReductionName, Reductions
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.catalog import catalog_names
@@ -66,7 +66,7 @@ def ablated(scene: AblatedScene, without: tuple[ReductionName, ...], repeats: in
         yield _cost(scene, off, study, seconds, changed)
 
 
-def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Study | None, float]:
+def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Examined | None, float]:
     """The answer and its processor time; None where there was no time for it."""
     best = float("inf")
     for _ in range(repeats):
@@ -81,7 +81,7 @@ def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEAT
     return study, best
 
 
-def _cost(scene: AblatedScene, off: str, study: Study | None, seconds: float, changed: list[str]) -> ReductionCost:
+def _cost(scene: AblatedScene, off: str, study: Examined | None, seconds: float, changed: list[str]) -> ReductionCost:
     sizes = [] if study is None else [a.size for a in study.outcome.answers]
     return ReductionCost(
         scene=scene.name,

@@ -11,17 +11,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.local.dimension import local_dimension
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.singular_points import numeric_local
+from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.points.balls import BallPoint, RealPoint, RealSearch
+from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import Pivots, sparse_frame
 from dofkit.exact.ring.program import gradient, value_of, values
 from dofkit.exact.ring.ring import VAR, Ring, reachable
@@ -85,7 +84,7 @@ def on_variety(chart: Chart, point: FieldPoint) -> bool:
     """Do all finite relations hold at the point?"""
     try:
         at = values(chart.ring, point)
-    except (ZeroDivisionError, NoPointError):
+    except NoValueError:
         return False
     return all(at[n] == 0 for n in chart.nodes)
 
@@ -102,10 +101,10 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
             for index, node in fixed:
                 point.set(chart.ring.vars[index], value_of(chart.ring, point, node))
             values(chart.ring, point)
-        except NoPointError:
-            continue
-        except ZeroDivisionError:
+        except PoleError:
             return None
+        except NoValueError:
+            continue
         return point
     return None
 
@@ -123,7 +122,7 @@ def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | 
                 settled[var.index] = ring.node(ex.substitute(ex.substitute(shown, ring.alias), known))
             if len(ring.vars) == before:
                 break
-    except ZeroDivisionError:
+    except NoValueError:
         return None
     return sorted(settled.items(), key=lambda pair: pair[1])
 
@@ -232,7 +231,7 @@ def _real(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
     search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
     try:
         return search.search(seed)
-    except (OverflowError, ValueError, DomainError):
+    except (OverflowError, ValueError, NoValueError):
         return None
 
 
@@ -400,7 +399,7 @@ def local_at(
         if ball is not None:
             ball_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
         return local_dimension(field_manifold, ball_manifold, rigid, time)
-    except (ZeroDivisionError, OutsideDomainError, NoPointError):
+    except NoValueError:
         return LocalDimension(
             None, "undecided", "the relations could not be followed along a curve through this configuration"
         )

@@ -15,11 +15,12 @@ from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.drawing.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.variety import Variety, on_variety, pose_point
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import sparse
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.balls import BallPoint, RealPoint
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, field_frame, pairing
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Scalar
@@ -82,7 +83,7 @@ def first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) 
         return None
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
-    except (ZeroDivisionError, NoPointError):
+    except NoValueError:
         return None
     return forms.n - rank_of([row[: forms.n] for row in matrix], point.p)
 
@@ -93,7 +94,7 @@ def _first_order_by_balls(forms: Codistribution, reference: Mapping[Expr, Expr])
         return None
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, ball), arb(0))
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return None
     part = ball_part([row[: forms.n] for row in matrix])
     return forms.n - part.rank if part.gap > CLEAR else None
@@ -113,7 +114,7 @@ def confined(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], .
         return None
     try:
         balls = forms.rows.matrix(values(forms.chart.ring, found.real.point), arb(0))
-    except (OutsideDomainError, ZeroDivisionError):
+    except NoValueError:
         return None
     free = ball_part([row[:n] for row in balls]).rank == ball_part(balls).rank
     return None if free else hidden_relation(forms.rows, n, found.real.point)
@@ -155,7 +156,7 @@ def span_at(forms: Codistribution, point: FieldPoint) -> SampledSpan | None:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
         frame = field_frame(matrix, len(forms.chart.symbols), point.p)
         return SampledSpan(lie_span(forms.rows, frame, point), matrix, frame)
-    except (ZeroDivisionError, NoPointError):
+    except NoValueError:
         return None
 
 
@@ -169,7 +170,7 @@ def ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span,
         free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(part.columns))
         point.rng.seed("dofkit curve")
         return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point), matrix
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return None
 
 

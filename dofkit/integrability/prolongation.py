@@ -13,11 +13,11 @@ from itertools import combinations, islice
 from typing import Any
 
 from flint import arb
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.frames import FormRows
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Point, Scalar
@@ -59,9 +59,9 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
                 break
         if common is None:
             return ()
-        left = tuple(dict.fromkeys(canon.to_expr(m / common) for m in minors))
+        left = tuple(dict.fromkeys(canon.to_expr(divided(m, common)) for m in minors))
         return ((canon.to_expr(common),), left)
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return ()
 
 

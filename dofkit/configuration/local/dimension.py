@@ -23,6 +23,7 @@ from dofkit.configuration.local.degrees import degree as degree_of
 from dofkit.configuration.local.manifold import LocalDimension, Manifold, is_zero
 from dofkit.configuration.local.neighbourhood import holds_away
 from dofkit.configuration.local.second_order import UNDECIDED, by_signs, decide
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.points.balls import precision
 from dofkit.exact.ring.ring import Scalar
 
@@ -36,6 +37,7 @@ FLAT = "may be flat here to a higher order than is followed"
 WHOLE = "nothing but motions of the whole is possible to first order"
 
 
+@raising_no_value
 def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: int | None = None) -> LocalDimension:
     """The local dimension at the point; ``rigid`` is the dimension of the motions that move everything as one body.
 
@@ -73,6 +75,7 @@ def _local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: i
     return _signs_in_time(ball, rigid, time)
 
 
+@raising_no_value
 def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> LocalDimension:
     """The same from an approximate point: where a tiny ball contains 0 it is taken for 0; the verdict is numeric."""
     m = ball.dimension

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from flint import nmod_mat
 
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
@@ -205,7 +206,7 @@ def _at_points(
         rows = [[int(at[i]) for i in row] for row in right]
         try:
             solution = _solve(rows, p)
-        except ZeroDivisionError:
+        except NoValueError:
             continue
         own = [[int(at[i]) for i in row] for row in given]
         inserted = [[*row[n:-1], (row[-1] + _dot(row[:n], solution[:n])) % p] for row in own]
@@ -221,6 +222,7 @@ def _dot(a: Sequence[int], b: Sequence[int]) -> int:
     return sum(x * y for x, y in zip(a, b, strict=True))
 
 
+@raising_no_value
 def _solve(rows: list[list[int]], p: int) -> list[int]:
     """The solution of rows whose last entry is the constant term."""
     if not rows:

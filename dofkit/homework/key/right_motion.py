@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.errors import DofkitError
-from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
@@ -87,7 +86,7 @@ def points(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
             return
         try:
             at = values(ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         yield point.p, at
         found += 1
@@ -147,7 +146,7 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
         return None
     try:
         found, verdict = told_zero(e, positive)
-    except (ArithmeticError, DomainError, NoPointError):
+    except ArithmeticError:
         return None
     return None if found and verdict not in ("proved", "probable") else found
 

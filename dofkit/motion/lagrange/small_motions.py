@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from itertools import combinations, islice
 from typing import Any, NamedTuple
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
@@ -115,7 +116,7 @@ def _texts(derived: Derived, bridge: Bridge, at: Equilibrium) -> dict[str, str]:
     for name, value in derived.model.elimination.solved.items():
         try:
             here = ex.substitute(value, at.place)
-        except ZeroDivisionError:
+        except NoValueError:
             continue
         found[name] = to_text(bridge.expr(bridge.sympy(here)))
     return found
