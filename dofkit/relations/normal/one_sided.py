@@ -19,7 +19,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.zero_set import never_holds, never_vanishes
+from dofkit.relations.normal.semidefinite import never_holds
+from dofkit.relations.normal.zero_set import never_vanishes
 
 #: Values that are tried for every symbol, and for all alike.
 _SIMPLE = (ex.ZERO, ex.ONE, ex.MINUS_ONE, ex.TWO, ex.PI, ex.PI * ex.HALF, -ex.PI * ex.HALF)
