@@ -187,9 +187,7 @@ def _along(forms: Codistribution, span: Span, point: FieldPoint | BallPoint, nod
 def _moving(ring: Ring, point: FieldPoint | BallPoint, moved: dict[Expr, Scalar]) -> FieldPoint | BallPoint:
     """The same configuration with other velocities."""
     if isinstance(point, BallPoint):
-        ball = BallPoint({**point.symbols, **moved}, 0)
-        ball.calls = point.calls
-        return ball
+        return BallPoint({**point.symbols, **moved}, point.seed)
     other = point.copy()
     for var in ring.vars:
         if moves(ring, var.index):

@@ -13,6 +13,7 @@ from typing import Any
 from flint import arb, fmpq
 
 from dofkit.exact.errors import OutsideDomainError
+from dofkit.exact.points.smooth import smooth_function
 from dofkit.exact.ring.instructions import Scalar, Var
 from dofkit.exact.ring.program import gradient
 from dofkit.exact.ring.ring import Ring
@@ -43,18 +44,12 @@ def fixed_bits() -> int | None:
 
 
 class _RealPoint:
-    """Values of the symbols, and of unknown functions as they are asked for."""
+    """Values of the symbols, and an unknown function of each name that is asked for."""
 
     def __init__(self, symbols: Mapping[Expr, Any], seed: int) -> None:
         self.symbols = dict(symbols)
-        self.calls: dict[Any, float] = {}
+        self.seed = seed
         self.rng = random.Random(f"dofkit functions {seed}")
-
-    def call(self, var: Var) -> float:
-        """Any jet is the jet of some smooth function: derivatives are independent numbers."""
-        if var.key not in self.calls:
-            self.calls[var.key] = self.rng.randrange(-999, 999) / 512 or 1.0
-        return self.calls[var.key]
 
 
 class FloatPoint(_RealPoint):
@@ -69,7 +64,9 @@ class FloatPoint(_RealPoint):
         if var.kind == "pi":
             return math.pi
         if var.kind == "call":
-            return self.call(var)
+            name, orders, _ = var.key
+            function = smooth_function(name, len(args), self.seed)
+            return float(function.value(args, orders, self.number, math.sin, math.pi / 2))
         if var.kind == "root":
             return _real_root(float(args[0]), var.degree)
         if var.kind == "sign":
@@ -110,7 +107,9 @@ class BallPoint(_RealPoint):
         if var.kind == "pi":
             return arb.pi()
         if var.kind == "call":
-            return arb(self.call(var))
+            name, orders, _ = var.key
+            function = smooth_function(name, len(args), self.seed)
+            return arb(function.value(args, orders, self.number, arb.sin, arb.pi() / 2))
         if var.kind == "root":
             return arb(args[0]).root(var.degree) if args[0] > 0 or var.degree % 2 == 0 else -(-args[0]).root(var.degree)
         if var.kind == "sign":

@@ -8,11 +8,11 @@ the unit circle; exp, log, inverse and unknown functions are independent; roots 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from math import gcd, lcm
 
 from flint import fmpz, nmod, nmod_poly
@@ -82,6 +82,10 @@ def _has_root(value: int, degree: int, p: int) -> bool:
     return pow(value, (p - 1) // gcd(degree, p - 1), p) == 1
 
 
+#: Of exp(u) = v and u = log(v) each gives the other.
+_INVERSE = {"exp": "log", "log": "exp"}
+
+
 class FieldPoint:
     """Values in GF(p) for every generator; those not ``given`` are drawn at random and kept."""
 
@@ -90,6 +94,8 @@ class FieldPoint:
         self.rng = rng
         self.order = order
         self.given: dict[tuple[str, object], Scalar] = {}
+        self._taken: dict[tuple[object, ...], Scalar] = {}
+        self._agreed: set[tuple[str, object]] = set()
         self._zeta: Scalar = None
         self._imaginary: Scalar = None
 
@@ -101,6 +107,7 @@ class FieldPoint:
         """A point with the same values so far; what is drawn later differs."""
         other = FieldPoint(self.p, self.rng, self.order)
         other.given = dict(self.given)
+        other._taken, other._agreed = dict(self._taken), set(self._agreed)
         other._zeta, other._imaginary = self._zeta, self._imaginary
         return other
 
@@ -113,15 +120,36 @@ class FieldPoint:
         return nmod(self.rng.randrange(2, self.p - 1), self.p)
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
-        found = self.given.get((var.kind, var.key))
+        name = (var.kind, var.key)
+        found = self.given.get(name)
         if found is None:
-            found = self.given[var.kind, var.key] = self._draw(var, args)
+            found = self.given[name] = self._draw(var, args)
+        elif args and name not in self._agreed and var.kind not in ("cos", "sin"):
+            self._agreed.add(name)
+            if self._of_arguments(var, args, lambda: found) != found:
+                raise NoPointError("a function with two values at one place")
         return found
+
+    def _of_arguments(self, var: Var, args: Sequence[Scalar], draw: Callable[[], Scalar]) -> Scalar:
+        """The value that this function has taken at these arguments, however they are written; else a new one.
+
+        On the set where the point lies arguments may be equal that are written apart: f(a) = f(b) wherever a = b.
+        """
+        head = var.key[:2] if var.kind == "call" else ()
+        key = (var.kind, *head, var.degree, *map(int, args))
+        if key not in self._taken:
+            self._taken[key] = value = draw()
+            if var.kind in _INVERSE:
+                self._taken.setdefault((_INVERSE[var.kind], 1, int(value)), args[0])
+        return self._taken[key]
 
     def _draw(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         if var.kind in ("cos", "sin"):
             self._draw_angle(var, args)
             return self.given[var.kind, var.key]
+        return self._of_arguments(var, args, partial(self._draw_value, var, args)) if args else self.random()
+
+    def _draw_value(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         if var.kind == "root":
             return self._root(var, args[0])
         if var.kind == "sign":
@@ -137,7 +165,9 @@ class FieldPoint:
         elif args[0] == 0:
             cos, sin = nmod(1, self.p), nmod(0, self.p)
         else:
-            w = self.random()
+            opposite = int(args[0]) > self.p // 2
+            w = self._of_arguments(Var(-1, "angle", (), var.args), [-args[0] if opposite else args[0]], self.random)
+            w = -w if opposite else w
             below = 1 + w * w
             cos, sin = (1 - w * w) / below, 2 * w / below
         self.given["cos", var.key] = cos

@@ -11,7 +11,7 @@ from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.exact.boxes.box_program import BoxProgram
 from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.balls import RealSearch
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
