@@ -12,7 +12,8 @@ from flint import arb, ctx
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.drawing.dependent_classes import chart_of, dependent_parts
 from dofkit.configuration.drawing.fewer_coordinates import smaller
-from dofkit.configuration.local.dimension import INDEPENDENT, WHOLE, numeric_dimension
+from dofkit.configuration.local.dimension import numeric_dimension
+from dofkit.configuration.local.first_order import INDEPENDENT, WHOLE
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.configuration.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
@@ -119,8 +120,8 @@ def _by_parts(
 ) -> tuple[LocalDimension, FollowedClasses] | None:
     """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
 
-    See `separate`. None where one does not, or is not known to, or is all there is: then all have to be looked at
-    together.
+    See `dependent_classes`. None where one does not, or is not known to, or is all there is: then all have to be
+    looked at together.
     """
     dimension = len(chart.columns) - rank
     if rank == len(matrix):
