@@ -270,7 +270,7 @@ def _from_samples(
 def _smooth(chart: Chart, point: FieldPoint, solver: TriangularSolver | None) -> bool:
     """Is the set with all parameters free a manifold at the point, of the dimension of the family drawn from?
 
-    Then a generic fibre over the parameters is one too (Sard), and its dimension is the number of columns less the
+    Then a generic fibre over the parameters is one too [Sard1942], and its dimension is the number of columns less the
     rank. The family has as many dimensions as there are symbols less steps; a root's own relation adds both.
     """
     if solver is None or solver.plan.stuck or solver.plan.contradictory:

@@ -278,7 +278,7 @@ def _label(
     total: int,
     trusted: bool,
 ) -> HolonomyLabel:
-    """Is the row in the largest integrable part: does it annihilate the Lie algebra of D?"""
+    """Is the row in the largest integrable part: does it annihilate the Lie algebra of D [HermannNagano]?"""
     zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in good]
     if all(zero):
         line = total - rank <= 1

@@ -309,7 +309,7 @@ def _simplest_first(null: nmod_mat, nullity: int, columns: int, p: int) -> Itera
 
 
 def _rational(value: int, p: int) -> Fraction | None:
-    """The fraction with small terms that is ``value`` modulo p (Wang 1981); None where there is none."""
+    """The fraction with small terms that is ``value`` modulo p [Wang1981]; None where there is none."""
     bound = isqrt(p // 2)
     r0, r1, t0, t1 = p, value % p, 0, 1
     while r1 > bound:

@@ -3,7 +3,7 @@
 Beside the others such a relation f(q, qdot, t) = 0 reads as a linear form, and may be integrable then; but it follows
 from finite relations only where it holds for all velocities that those leave. With I^(inf) the largest integrable part,
 f is holonomic in the system iff it vanishes on every velocity (dt = 1) in the kernel of I^(inf) at a generic
-configuration, which is the Lie algebra of the admissible velocities (Frobenius, Hermann-Nagano); for a linear f that
+configuration, which is the Lie algebra of the admissible velocities [HermannNagano]; for a linear f that
 says that its form lies in I^(inf).
 """
 

@@ -1,8 +1,8 @@
 """Dependent relations that begin at some higher order, where two motions are in question: their initial forms.
 
 On a plane across the motions of the whole let f_i begin with the binary form h_i of degree k_i. A curve of the set
-leaves along a common zero of the h_i, so there is none where they have no common zero: over the complex numbers a gcd
-of 1 says so, over the reals one h_i that is definite.
+[CurveSelection] leaves along a common zero of the h_i, so there is none where they have no common zero: over the
+complex numbers a gcd of 1 says so, over the reals one h_i that is definite.
 """
 
 from __future__ import annotations

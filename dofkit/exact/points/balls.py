@@ -1,8 +1,8 @@
 """Real points as balls (arb): a value whose ball excludes 0 is proved not to be 0.
 
 A real point of {g = 0} is found by Gauss-Newton from random starts in floating point, refined to high
-precision on a regular subset of the relations, and certified by the interval Newton test: the ball then
-contains a true real zero of that subset, and only one.
+precision on a regular subset of the relations, and certified by the interval Newton test [KrawczykNewton]: the ball
+then contains a true real zero of that subset, and only one.
 """
 
 from __future__ import annotations
@@ -358,7 +358,7 @@ class RealSearch:
             step = j.solve(f)
         except (ZeroDivisionError, OutsideDomainError):
             return None
-        inside = True
+        inside = True  # [KrawczykNewton]
         for i, u in enumerate(unknowns):
             new = exact[u] - step[i, 0]
             inside = inside and bool(boxed[u].contains_interior(new))
