@@ -10,6 +10,7 @@ import io
 import re
 import tokenize
 from collections import defaultdict
+from functools import cache
 from pathlib import Path
 
 import dofkit
@@ -32,6 +33,7 @@ def remarks(path: Path) -> str:
     return "\n".join([*comments, *docstrings])
 
 
+@cache
 def uses() -> dict[str, list[str]]:
     """The files that hold each key."""
     found: defaultdict[str, list[str]] = defaultdict(list)
@@ -41,6 +43,7 @@ def uses() -> dict[str, list[str]]:
     return dict(found)
 
 
+@cache
 def rows() -> dict[str, tuple[str, str, str, str]]:
     """Author, year, statement and where used, of every key."""
     found = ROW.findall(TABLE.read_text(encoding="utf-8"))

@@ -14,7 +14,8 @@ from flint import arb, nmod_mat
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.drawing.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.finite_blocks import dependent_names
-from dofkit.configuration.variety import Variety, on_variety, pose_point
+from dofkit.configuration.generic_points import on_variety, pose_point
+from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import sparse

@@ -16,8 +16,9 @@ from flint import arb
 
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import weakest
+from dofkit.configuration.search import find
 from dofkit.configuration.states import States, moves, value_at, vanishes
-from dofkit.configuration.variety import Variety, find
+from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint, OutsideDomainError
 from dofkit.exact.points.field import FieldPoint, NoPointError

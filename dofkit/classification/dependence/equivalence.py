@@ -20,7 +20,8 @@ from dofkit.classification.dependence.inequalities import same_side
 from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.configuration.variety import field_jacobian, find
+from dofkit.configuration.generic_points import field_jacobian
+from dofkit.configuration.search import find
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.field import NoPointError

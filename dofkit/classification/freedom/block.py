@@ -9,7 +9,8 @@ from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.agreement import held, numeric
 from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.finite_blocks import finite_answer
-from dofkit.configuration.variety import Variety, find
+from dofkit.configuration.search import find
+from dofkit.configuration.variety import Variety
 from dofkit.exact.engines import BALLS, BOTH
 from dofkit.exact.points.field import FieldPoint, NoPointError
 from dofkit.exact.points.frames import pairing

@@ -15,7 +15,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit.classification.freedom.block import answer
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
-from dofkit.configuration.variety import find
+from dofkit.configuration.search import find
 from dofkit.exact.points.balls import OutsideDomainError, RealPoint, RealSearch
 from dofkit.exact.points.field import NoPointError
 from dofkit.exact.ring.program import values

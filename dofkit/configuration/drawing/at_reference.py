@@ -12,11 +12,12 @@ from flint import arb, ctx
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.drawing.dependent_classes import chart_of, dependent_parts
 from dofkit.configuration.drawing.fewer_coordinates import smaller
-from dofkit.configuration.local.dimension import numeric_dimension
+from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.local.dimension import local_at, numeric_dimension
 from dofkit.configuration.local.first_order import INDEPENDENT, WHOLE
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.configuration.reality import BALL_COLUMNS
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
-from dofkit.configuration.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import rank_of, without_time
 from dofkit.exact.matrices.sparse import SparseRow, echelon, rank_of_rows, sparse

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from flint import ctx
 
+from dofkit.configuration.generic_points import frame_at
 from dofkit.configuration.local.criteria import decision
 from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
-from dofkit.exact.points.balls import precision
+from dofkit.exact.points.balls import BallPoint, OutsideDomainError, precision
+from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.relations.chart import Chart
 
 
 def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: int | None = None) -> LocalDimension:
@@ -23,3 +26,23 @@ def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: in
 def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> LocalDimension:
     """The same from an approximate point: where a tiny ball contains 0 it is taken for 0; the verdict is numeric."""
     return decision(Germ(None, ball, rigid, time))[1]
+
+
+def local_at(
+    chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None
+) -> LocalDimension:
+    """The local dimension at a point of the variety, time counted where it is a column.
+
+    ``time``: the number of that column, where it matters whether time moves on.
+    """
+    frame = frame_at(chart, point)
+    try:
+        field_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
+        ball_manifold = None
+        if ball is not None:
+            ball_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
+        return local_dimension(field_manifold, ball_manifold, rigid, time)
+    except (ZeroDivisionError, OutsideDomainError, NoPointError):
+        return LocalDimension(
+            None, "undecided", "the relations could not be followed along a curve through this configuration"
+        )
