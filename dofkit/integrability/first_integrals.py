@@ -29,7 +29,7 @@ from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.differential_blocks import Codistribution
+from dofkit.integrability.codistribution import Codistribution
 from dofkit.integrability.integrals.normal_shape import arranged, upright
 from dofkit.relations.ambient import free_point
 

@@ -10,7 +10,7 @@ from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.block import answer
 from dofkit.exact.points.field import NoPointError
 from dofkit.expressions.text import to_text
-from dofkit.integrability.differential_blocks import codistribution
+from dofkit.integrability.codistribution import codistribution
 from dofkit.integrability.first_integrals import FirstIntegral, assigned, first_integrals
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
