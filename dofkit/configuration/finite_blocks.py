@@ -32,6 +32,7 @@ ONE_MOMENT = "at the reference configuration the relations hold at this moment o
 
 
 def finite_answer(block: Block, setting: Setting) -> Answer:
+    """The answer to a block of finite relations, at the reference where it satisfies them and else generically."""
     chart = make_chart(block, setting)
     result = _finite_answer(chart, setting)
     result.doubt = doubt(chart.ring)

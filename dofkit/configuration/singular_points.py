@@ -39,14 +39,11 @@ def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
     """The local dimension near a singular point that a real search ran into; None where it cannot be told."""
     if len(chart.nodes) > MAX_ROWS:
         return None
-    old = ctx.prec
-    ctx.prec = BITS
     try:
-        return _look(chart, real)
+        with ctx.workprec(BITS):
+            return _look(chart, real)
     except (ZeroDivisionError, OutsideDomainError):
         return None
-    finally:
-        ctx.prec = old
 
 
 def _look(chart: Chart, real: RealPoint) -> LocalDimension | None:

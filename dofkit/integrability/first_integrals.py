@@ -113,6 +113,11 @@ def shown(f: Expr) -> Expr:
 
 
 class IntegralSearch:
+    """The functions of some forms that are constant along D = ker I, looked for among products of what occurs in them.
+
+    At points over GF(p) on the finite relations the differentials of the products are held against D.
+    """
+
     def __init__(self, forms: Codistribution, seed: int) -> None:
         forms = self.forms = _with_all_symbols(forms)
         self.seed, chart = seed, forms.chart

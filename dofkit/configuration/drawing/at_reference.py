@@ -61,9 +61,13 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
 
     With measured geometry (not ``exact``) the relations need not hold there to the last digit.
     """
-    known = {**reference, ex.TIME: ex.ZERO}
-    if "field" not in chart.engines:
-        return by_balls(chart, known, exact)
+    with ctx.workprec(precision()):
+        known = {**reference, ex.TIME: ex.ZERO}
+        return (_by_field if "field" in chart.engines else by_balls)(chart, known, exact)
+
+
+def _by_field(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:
+    """`at_reference` with a point over GF(p), and balls where signs are asked for."""
     point = pose_point(chart, known, 3)
     if point is None or (exact and not on_variety(chart, point)):
         return None
@@ -221,7 +225,11 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
 
 def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
     """The reference configuration with balls; symbols without a value get random ones."""
-    ctx.prec = precision()
+    with ctx.workprec(precision()):
+        return _ball_point(chart, known, rng)
+
+
+def _ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
     symbols: dict[Expr, Any] = {}
     for var in chart.ring.vars:
         if var.kind != "symbol":
