@@ -16,10 +16,10 @@ from dofkit.base.errors import DofkitError, SceneError, TextError
 from dofkit.base.version import __version__
 
 if TYPE_CHECKING:
-    from dofkit.classification.passes import classify, derived_flag
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.grading import grade
     from dofkit.methods.ask import ask
+    from dofkit.methods.classify import classify, derived_flag
     from dofkit.mobility.graph.answers import Linkage, linkage, redundant_links
     from dofkit.motion.lagrange.equations import lagrange
     from dofkit.motion.sampled.configurations import configurations
@@ -59,9 +59,9 @@ _HOMES = {
     "ask": "dofkit.methods.ask",
     "catalog_names": "dofkit.scene.catalog",
     "catalog_text": "dofkit.scene.catalog",
-    "classify": "dofkit.classification.passes",
+    "classify": "dofkit.methods.classify",
     "configurations": "dofkit.motion.sampled.configurations",
-    "derived_flag": "dofkit.classification.passes",
+    "derived_flag": "dofkit.methods.classify",
     "grade": "dofkit.homework.grading",
     "lagrange": "dofkit.motion.lagrange.equations",
     "linkage": "dofkit.mobility.graph.answers",

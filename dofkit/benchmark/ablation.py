@@ -1,4 +1,4 @@
-"""What each reduction of `dofkit.reductions` is worth: cost and size of the model with one after another left out.
+"""What each reduction of `dofkit.relations.reductions` is worth: cost and size of the model without one after another.
 
 The scenes grow by what one reduction leaves out; those of the catalog stand beside them.
 """
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError
-from dofkit.classification.passes import Study, examined
+from dofkit.classification.passes import Examined, examined
 from dofkit.relations.reductions import ALL, REDUCTIONS, ReductionName, Reductions
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.catalog import catalog_names
@@ -92,7 +92,7 @@ def ablated(
         yield _row(name, family, size, off, study, seconds, changed)
 
 
-def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Study | None, float]:
+def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Examined | None, float]:
     """The answer and its processor time; None where there was no time for it."""
     best = float("inf")
     for _ in range(repeats):
@@ -108,7 +108,7 @@ def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEAT
 
 
 def _row(
-    name: str, family: str, size: int, off: str, study: Study | None, seconds: float, changed: list[str]
+    name: str, family: str, size: int, off: str, study: Examined | None, seconds: float, changed: list[str]
 ) -> AblationRow:
     sizes = [] if study is None else [a.size for a in study.outcome.answers]
     return AblationRow(

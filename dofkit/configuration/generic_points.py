@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.matrices.sparse import SparseRow
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import Pivots, sparse_frame
 from dofkit.exact.ring.program import gradient, value_of, values
 from dofkit.exact.ring.ring import VAR, Ring, reachable
@@ -41,7 +42,7 @@ def on_variety(chart: Chart, point: FieldPoint) -> bool:
     """Do all finite relations hold at the point?"""
     try:
         at = values(chart.ring, point)
-    except (ZeroDivisionError, NoPointError):
+    except NoValueError:
         return False
     return all(at[n] == 0 for n in chart.nodes)
 
@@ -58,10 +59,10 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
             for index, node in fixed:
                 point.set(chart.ring.vars[index], value_of(chart.ring, point, node))
             values(chart.ring, point)
-        except NoPointError:
-            continue
-        except ZeroDivisionError:
+        except PoleError:
             return None
+        except NoValueError:
+            continue
         return point
     return None
 
@@ -79,7 +80,7 @@ def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | 
                 settled[var.index] = ring.node(ex.substitute(ex.substitute(shown, ring.alias), known))
             if len(ring.vars) == before:
                 break
-    except ZeroDivisionError:
+    except NoValueError:
         return None
     return sorted(settled.items(), key=lambda pair: pair[1])
 

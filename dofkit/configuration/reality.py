@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.generic_points import generators_of
 from dofkit.configuration.singular_points import numeric_local
 from dofkit.configuration.variety import Variety
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.balls import RealPoint, RealSearch
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.relations.chart import Chart
@@ -25,7 +24,7 @@ def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None
     search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
     try:
         return search.search(seed)
-    except (OverflowError, ValueError, DomainError):
+    except (OverflowError, ValueError, NoValueError):
         return None
 
 

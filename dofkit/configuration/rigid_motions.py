@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch
+from dofkit.exact.points.balls import BallPoint, RealSearch
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
@@ -72,7 +73,7 @@ def _away(chart: Chart) -> FieldPoint | BallPoint | None:
         point = BallPoint(search.start(seed, {}), seed)
         try:
             values(chart.ring, point)
-        except (OutsideDomainError, ZeroDivisionError):
+        except NoValueError:
             continue
         return point
     return None

@@ -12,8 +12,9 @@ from dofkit.base.deadline import check
 from dofkit.configuration.local.dimension import numeric_dimension
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.singular_values import independent_part
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint, jacobian
+from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian
 from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
@@ -39,13 +40,14 @@ def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
     """The local dimension near a singular point that a real search ran into; None where it cannot be told."""
     if len(chart.nodes) > MAX_ROWS:
         return None
-    try:
-        with ctx.workprec(BITS):
+    with ctx.workprec(BITS):
+        try:
             return _look(chart, real)
-    except (ZeroDivisionError, OutsideDomainError):
-        return None
+        except NoValueError:
+            return None
 
 
+@raising_no_value
 def _look(chart: Chart, real: RealPoint) -> LocalDimension | None:
     point = _converge(chart, real)
     if point is None:

@@ -56,14 +56,11 @@ def interval(e: Expr, values: Mapping[Expr, Fraction] | None = None, bits: int =
             return _function(node.args[0])(*(go(part) for part in node.args[1:]))
         raise KeyError(node)
 
-    before = ctx.prec
-    ctx.prec = bits
-    try:
-        found = go(e)
-    except (KeyError, ZeroDivisionError, RecursionError, OverflowError):
-        return None
-    finally:
-        ctx.prec = before
+    with ctx.workprec(bits):
+        try:
+            found = go(e)
+        except (KeyError, ZeroDivisionError, RecursionError, OverflowError):
+            return None
     return found if found.is_finite() else None
 
 

@@ -27,6 +27,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from typing import Any, Literal, get_args
 
+from dofkit.base.errors import PoleError
+
 Kind = Literal["coordinate", "velocity", "acceleration", "differential", "parameter", "time", "dt"]
 KINDS: tuple[str, ...] = get_args(Kind)
 
@@ -228,7 +230,7 @@ def mul(*factors: Expr) -> Expr:
 
 
 def power(base: Expr, exponent: Expr) -> Expr:
-    """``base^exponent``; ``E^u`` is ``exp(u)``, ``0^-n`` raises ZeroDivisionError."""
+    """``base^exponent``; ``E^u`` is ``exp(u)``, ``0^-n`` raises PoleError."""
     if exponent.op == "num":
         value: Fraction = exponent.args[0]
         if value == 1:
@@ -253,7 +255,7 @@ def _number_power(base: Fraction, value: Fraction) -> Expr | None:
     """An exact number to an exact power, where that is a number of bounded size."""
     if base == 0:
         if value < 0:
-            raise ZeroDivisionError("division by zero")
+            raise PoleError
         return ONE if value == 0 else ZERO
     if base == 1:
         return ONE

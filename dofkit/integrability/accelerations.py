@@ -12,10 +12,8 @@ from dataclasses import dataclass
 from itertools import chain
 from itertools import product as cartesian
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.errors import TextError
-from dofkit.exact.ring.canonical import TooLargeError
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.zero.identity import certainly_nonzero, told_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.differentials import NOT_LINEAR, SOLVE_FOR_IT, accelerations_of, in_velocities
@@ -86,7 +84,7 @@ def integrated_once(e: Expr, positive: frozenset[Expr]) -> Once:
             found = _with_factor(work, factor, slopes, rest)
             if found is not None and _sound(found, factor) and _proved(e, Once(found, factor), positive):
                 return Once(found, factor)
-    except (GivenUpError, TooLargeError, DomainError, RecursionError, ArithmeticError):
+    except (GivenUpError, RecursionError, ArithmeticError):
         pass
     raise TextError(NOT_INTEGRABLE, hint=WHAT_TO_DO)
 
@@ -100,6 +98,7 @@ def _factors(slopes: Mapping[Expr, Expr]) -> Iterator[Expr]:
     yield from dict.fromkeys(proposed[:MAX_FACTORS])
 
 
+@raising_no_value
 def _with_factor(work: Algebra, factor: Expr, slopes: Mapping[Expr, Expr], rest: Expr) -> Expr | None:
     """F, by the velocities first, then by coordinates and time; None where mu E is seen to be no rate."""
     form = {v: work.tidy(factor * a) for v, a in slopes.items()}

@@ -10,10 +10,9 @@ from flint import arb
 
 from dofkit.configuration.drawing.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.balls import OutsideDomainError
-from dofkit.exact.points.field import NoPointError
 from dofkit.exact.points.frames import FormRows
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
@@ -71,7 +70,7 @@ def first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) 
         return None
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
-    except (ZeroDivisionError, NoPointError):
+    except NoValueError:
         return None
     return forms.n - rank_of([row[: forms.n] for row in matrix], point.p)
 
@@ -82,7 +81,7 @@ def _first_order_by_balls(forms: Codistribution, reference: Mapping[Expr, Expr])
         return None
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, ball), arb(0))
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return None
     part = ball_part([row[: forms.n] for row in matrix])
     return forms.n - part.rank if part.gap > CLEAR else None

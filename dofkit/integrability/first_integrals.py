@@ -17,13 +17,13 @@ from math import isqrt
 from typing import Any
 
 from flint import nmod_mat
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, kernel
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.canonical import Canon, remainder
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.solving.triangular import TriangularSolver
@@ -295,7 +295,7 @@ def _sample_at(forms: Codistribution, point: FieldPoint | None) -> _Sample | Non
             g = gradient(ring, at, point, [(ring.var_node[v.index], one)])
             gradients[v.index] = [g.get(c, one * 0) if c >= 0 else one * 0 for c in columns]
         at_vars = [at[ring.var_node[v.index]] for v in ring.vars]
-    except (ZeroDivisionError, NoPointError):
+    except NoValueError:
         return None
     return _Sample(point, point.p, one, at_vars, gradients, basis, matrix)
 
@@ -341,9 +341,9 @@ def _identically(forms: Codistribution, f: Expr, sample: _Sample) -> bool | None
         for j in frame.free:
             minor = determinant(canon, [[table[r][c] for c in (*frame.dependent, j)] for r in rows])
             if relation is not None and minor != 0:
-                minor = divmod(minor, relation)[1]
+                minor = remainder(minor, relation)
             if minor != 0:
                 return False if relation is None else None
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return None
     return True

@@ -7,9 +7,10 @@ from typing import Any
 
 from flint import arb
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, field_frame
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
@@ -33,7 +34,7 @@ def span_at(forms: Codistribution, point: FieldPoint) -> SampledSpan | None:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
         frame = field_frame(matrix, len(forms.chart.symbols), point.p)
         return SampledSpan(lie_span(forms.rows, frame, point), matrix, frame)
-    except (ZeroDivisionError, NoPointError):
+    except NoValueError:
         return None
 
 
@@ -47,5 +48,5 @@ def ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span,
         free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(part.columns))
         point.rng.seed("dofkit curve")
         return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point), matrix
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return None

@@ -19,9 +19,10 @@ from dofkit.base.verdicts import weakest
 from dofkit.configuration.search import find
 from dofkit.configuration.states import States, moves, value_at, vanishes
 from dofkit.configuration.variety import Variety
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import VAR, Ring, Scalar, reachable
 from dofkit.exact.zero.independence import independent_generators
@@ -87,7 +88,7 @@ def _holds(
         seen = [value_at(states.ring, p, node) for k in range(CHECKED) if (p := states.draw(k + 1)) is not None]
         if not seen or not all(v is not None and vanishes(v) for v in seen):
             seen = [value_at(states.ring, p, node) for p in states.certain(CHECKED)]
-    except (OutOfTimeError, ArithmeticError, NoPointError):
+    except (OutOfTimeError, ArithmeticError):
         return False
     return bool(seen) and all(v is not None and vanishes(v) for v in seen)
 
@@ -106,7 +107,7 @@ def label(
         return HolonomyLabel(None, "undecided"), together
     try:
         told = _on_the_kernel(f.expr, _joined(slot, blocks, numbers), together.hidden, setting)
-    except (OutOfTimeError, ArithmeticError, NoPointError):
+    except (OutOfTimeError, ArithmeticError):
         return HolonomyLabel(None, "undecided"), together
     labels = [x for a in own for x in a.labels.values()]
     if told.holonomic and all(x.holonomic for x in labels):
@@ -180,7 +181,7 @@ def _along(forms: Codistribution, span: Span, point: FieldPoint | BallPoint, nod
         moved = {ex.velocity(str(s.args[1])): v for s, v in zip(symbols, vector, strict=False)}
         try:
             yield values(forms.chart.ring, _moving(forms.chart.ring, point, moved), node + 1)[node]
-        except (ZeroDivisionError, NoPointError, OutsideDomainError):
+        except NoValueError:
             continue
 
 

@@ -14,15 +14,14 @@ from itertools import product as cartesian
 from typing import Any
 
 from flint import arb
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
 from dofkit.configuration.variety import Variety
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.balls import OutsideDomainError
 from dofkit.exact.points.frames import FormRows
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Point, Scalar
@@ -52,7 +51,7 @@ def confined(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], .
         return None
     try:
         balls = forms.rows.matrix(values(forms.chart.ring, found.real.point), arb(0))
-    except (OutsideDomainError, ZeroDivisionError):
+    except NoValueError:
         return None
     free = ball_part([row[:n] for row in balls]).rank == ball_part(balls).rank
     return None if free else hidden_relation(forms.rows, n, found.real.point)
@@ -111,9 +110,9 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
                 break
         if common is None:
             return ()
-        left = tuple(dict.fromkeys(canon.to_expr(m / common) for m in minors))
+        left = tuple(dict.fromkeys(canon.to_expr(divided(m, common)) for m in minors))
         return ((canon.to_expr(common),), left)
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return ()
 
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import combinations
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.balls import RealSearch
-from dofkit.exact.points.field import NoPointError
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
@@ -68,7 +66,7 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
         try:
             if values(ring, point)[rate] == 0:
                 return True, "probable"
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             return None, "undecided"
     if "balls" not in engines:
         known = point is not None and independent_generators(ring)
@@ -91,7 +89,7 @@ def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
         canon = Canon(ring)
         factors = canon.factors(canon.quotient(node)[0])
         shown = [canon.to_expr(f) for f, _ in factors]
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return False
     return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
 
@@ -122,7 +120,7 @@ def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[E
         for node in nodes[1:]:
             common = common.gcd(canon.quotient(node)[0])
         shown = [canon.to_expr(f) for f, _ in canon.factors(common)]
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return False
     return all(ex.TIME not in f.symbols or _of_time_alone(f) or never_vanishes(f, positive) for f in shown)
 

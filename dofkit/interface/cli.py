@@ -15,7 +15,8 @@ import typer
 
 from dofkit.base.errors import DofkitError, Fault, SceneError
 from dofkit.base.version import __version__
-from dofkit.methods.table import METHODS, MethodName
+from dofkit.methods.names import MethodName
+from dofkit.methods.table import METHODS
 
 app = typer.Typer(
     name="dofkit",

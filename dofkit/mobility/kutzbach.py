@@ -9,14 +9,14 @@ where it is smaller the loop closes by fewer: all hinges parallel or through one
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import networkx as nx
 
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.mobility.placement import Placement
-from dofkit.mobility.twists import KINDS, TURNS, Located, Member, rows_of
+from dofkit.mobility.twists import TURNS, Located, Member, rows_of
 from dofkit.report import Mobility
 from dofkit.system import GROUND, System
 
@@ -45,7 +45,7 @@ def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
     found = []
     for c in system.connections:
         members = [m for m in c.members if m != GROUND]
-        if c.type not in KINDS | {"roll"} or not members or len(members) > 2 or not moving.issuperset(members):
+        if not c.facts.joint or not members or len(members) > 2 or not moving.issuperset(members):
             continue
         first, second = (GROUND, *members)[-2:]
         freedom = whole - equations[c.constraint] + c.driven
@@ -151,8 +151,7 @@ def allowed(found: Located, dimension: int, p: int) -> list[SparseRow]:
     ends = {id(bodies[-1]): free}
     members = tuple(ends.get(id(m), ground) for m in found.members)
     points = tuple((ends.get(id(m), ground), at) for m, at in found.points)
-    placed = Located(found.type, members, points, found.places, found.directions, found.number)
-    rows = rows_of(placed, dimension)
+    rows = rows_of(replace(found, members=members, points=points, driven=False))
     if rows is None:
         return [{c: 1} for c in range(size)]
     return kernel([{c: v % p for c, v in row.items() if v % p} for row in rows], size, p)

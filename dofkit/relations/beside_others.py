@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from itertools import islice
 from itertools import product as cartesian
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
@@ -145,7 +144,7 @@ def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
         canon = Canon(ring)
         own = canon.quotient(nodes[0])[0]
         return any(not own.gcd(canon.quotient(n)[0]).is_constant() for n in nodes[1:])
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return False
 
 

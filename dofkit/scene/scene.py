@@ -13,6 +13,7 @@ from pydantic import BeforeValidator, Field, ValidationError, ValidatorFunctionW
 
 from dofkit.base.errors import Fault
 from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
+from dofkit.scene.constraints.equations import as_equation
 from dofkit.scene.fields import (
     Listed,
     Number,
@@ -29,11 +30,6 @@ from dofkit.scene.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, 
 from dofkit.scene.survey import checked
 
 __all__ = ["Body", "BodyPoint", "Energies", "Force", "Particle", "Scene", "check", "faults_of"]
-
-
-def _constraint(value: object) -> object:
-    """A plain text is an equation."""
-    return {"type": "equation", "text": value} if isinstance(value, str) else value
 
 
 def _told(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
@@ -103,7 +99,7 @@ def _tolerance(value: object) -> object:
 
 _Mapping = BeforeValidator(_mapping)
 _AnyConstraint = Annotated[
-    AnyConstraint, WrapValidator(_told), BeforeValidator(_constraint, json_schema_input_type=str | AnyConstraint)
+    AnyConstraint, WrapValidator(_told), BeforeValidator(as_equation, json_schema_input_type=str | AnyConstraint)
 ]
 
 

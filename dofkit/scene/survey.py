@@ -13,7 +13,7 @@ from dofkit.base.deadline import check as out_of_time
 from dofkit.base.errors import Fault
 from dofkit.expressions.tree import Expr
 from dofkit.report import Report
-from dofkit.scene.constraints import ConstraintBase, On
+from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.constraints.equations import LETTERS
 from dofkit.scene.fields import suggestion
 from dofkit.scene.ledger import MOVING
@@ -137,16 +137,16 @@ def _lowered(world: World, index: int, constraint: ConstraintBase, name: str) ->
         allowed = " or ".join(str(d) for d in constraint.dimensions)
         message = f"'{kind}' is for dimension {allowed}; this scene has dimension {world.dimension}"
         world.fault(message, "type", hint=_INSTEAD[world.dimension])
-        return Constraint(name, kind, constraint.shown, ())
+        return Constraint(name, kind, constraint.facts, constraint.shown, ())
     relations = tuple(constraint.relations(world))
-    return Constraint(name, kind, constraint.shown, relations, tuple(constraint.notes(world)))
+    return Constraint(name, kind, constraint.facts, constraint.shown, relations, tuple(constraint.notes(world)))
 
 
 def _connection(asked: Joined, index: int, constraint: Constraint) -> Connection:
     """What a constraint that has been lowered connects."""
     return Connection(
         index,
-        constraint.type,
+        constraint.facts,
         tuple(dict.fromkeys(asked.members)),
         tuple(asked.points),
         tuple(asked.places),
@@ -170,7 +170,7 @@ def _mentioned(scene: Surveyed, world: World) -> frozenset[str]:
     found: set[str] = set()
     member = within_member(world.names, LETTERS)
     for constraint in scene.constraints:
-        names = member if isinstance(constraint, On) else None
+        names = member if constraint.facts.lettered else None
         for text in constraint.texts():
             found.update(_moving_names(world.symbols_of(text, names)))
     given: list[Any] = [*scene.forces, *([scene.energies] if scene.energies else [])]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from dofkit.benchmark.trials.trial import Trial, Truth
-from dofkit.methods.table import Question
+from dofkit.methods.names import Question
 
 #: What is asked where nothing is said: all that is known.
 ALL: tuple[Question, ...] = ("dof", "integrability", "redundancy")

@@ -8,10 +8,9 @@ from itertools import product as cartesian
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.domain import within
+from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import alike, retold
 from dofkit.classification.freedom.through_reference import through_reference
-from dofkit.exact.points.field import NoPointError
 from dofkit.expressions import tree as ex
 from dofkit.integrability.modulo_others import verified
 from dofkit.relations.answer import Answer
@@ -224,8 +223,8 @@ def in_time(block: Block, setting: Setting) -> Answer:
     """The block's answer; undecided where the time is used up."""
     try:
         check()
-        return within(block, answer(block, setting), setting)
+        return restricted_to_domain(block, answer(block, setting), setting)
     except OutOfTimeError as error:
         return Answer(None, verdict="undecided", reasons=[str(error)], late=True)
-    except (ArithmeticError, NoPointError):
+    except ArithmeticError:
         return Answer(None, verdict="undecided", reasons=["an expression has no value at the points that were tried"])

@@ -9,6 +9,7 @@ from itertools import product as cartesian
 
 from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -50,7 +51,7 @@ def _folded(e: Expr, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> l
     """The arguments of absolute values that vanish at the reference."""
     try:
         return [u for u in arguments_of(e) if is_zero(ex.substitute(u, known), positive)]
-    except ZeroDivisionError:
+    except NoValueError:
         return []
 
 

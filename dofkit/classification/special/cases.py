@@ -7,8 +7,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.deadline import OutOfTimeError, expired, limited
 from dofkit.base.errors import DofkitError
 from dofkit.base.verdicts import Verdict, weakest
@@ -29,8 +27,7 @@ from dofkit.classification.special.parameters import (
     differences,
 )
 from dofkit.classification.special.wording import drop, flag, order_of, where
-from dofkit.exact.points.field import NoPointError
-from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError
+from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
@@ -50,7 +47,7 @@ MAX_VALUES, MAX_PLACES = 8, 6
 MAX_SCENE, MAX_SECONDS = 40, 10.0
 SEARCHED = "special cases by the zeros of minors and of curvature"
 
-_UNFINISHED = (TooLargeError, DomainError, ArithmeticError, ValueError, NoPointError, OutOfTimeError)
+_UNFINISHED = (ArithmeticError, ValueError, OutOfTimeError)
 
 Again = Callable[[System], Report]
 
@@ -210,19 +207,19 @@ def _places(found: SearchedBlock, told: GenericAnswer) -> Iterator[SpecialCase]:
         return
     dropped: list[Leaf] = []
     for leaf in found.candidates.ranks[:MAX_PLACES]:
-        seen = _seen(found, told, leaf, 0)
+        seen = _locus_of(found, told, leaf, 0)
         if seen is not None and seen.rank < found.rank:
             dropped.append(leaf)
             yield from _dropping(found, told, leaf, seen)
     for leaf in found.candidates.bends[:MAX_PLACES] if found.curved else ():
-        seen = None if leaf in dropped else _seen(found, told, leaf, found.rank)
+        seen = None if leaf in dropped else _locus_of(found, told, leaf, found.rank)
         if seen is not None:
             yield from _bending(found, told, leaf, seen)
     for row, below in found.candidates.poles[:MAX_PLACES]:
         yield from _pole(found, told, row, below)
 
 
-def _seen(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
+def _locus_of(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
     canon, reals = found.table.canon, found.table.reals
     left = [g for g in found.table.relations if not _holds(reals, leaf, g)]
     if len(leaf.conditions(canon)) + len(left) > len(found.block.coordinates):

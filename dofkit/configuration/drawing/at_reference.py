@@ -18,10 +18,11 @@ from dofkit.configuration.local.first_order import INDEPENDENT, WHOLE
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.reality import BALL_COLUMNS
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import rank_of, without_time
 from dofkit.exact.matrices.sparse import SparseRow, echelon, rank_of_rows, sparse
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, jacobian, precision
+from dofkit.exact.points.balls import BallPoint, jacobian, precision
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values
@@ -203,7 +204,7 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
 def _followed(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
     try:
         return numeric_dimension(manifold, rigid, time)
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return LocalDimension(
             None, "undecided", "the relations could not be followed along a curve through this configuration"
         )
@@ -217,7 +218,7 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
             return None
         present = [c for c in chart.columns if c >= 0]
         found = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return None
     place = {c: i for i, c in enumerate(present)}
     return [[row[place[c]] if c >= 0 else arb(0) for c in chart.columns] for row in found]
@@ -243,6 +244,6 @@ def _ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) ->
         constants = {v.key: arb(3) / 4 for v in ring.vars if v.kind == "symbol"}
         try:
             symbols[var.key] = values(ring, BallPoint(constants, 0))[node]
-        except (OutsideDomainError, ZeroDivisionError):
+        except NoValueError:
             return None
     return BallPoint(symbols, 0)

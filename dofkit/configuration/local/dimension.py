@@ -8,21 +8,24 @@ from dofkit.configuration.generic_points import frame_at
 from dofkit.configuration.local.criteria import decision
 from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, precision
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.points.balls import BallPoint, precision
+from dofkit.exact.points.field import FieldPoint
 from dofkit.relations.chart import Chart
 
 
+@raising_no_value
 def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: int | None = None) -> LocalDimension:
     """The local dimension at the point; ``rigid`` is the dimension of the motions that move everything as one body.
 
     ``field`` is over GF(p), where a coefficient that is not 0 proves that the function is not; ``ball`` at the
-    same point decides signs. ``time`` is the number of its column, if it is one. Raises ZeroDivisionError.
+    same point decides signs. ``time`` is the number of its column, if it is one. Raises NoValueError.
     """
     with ctx.workprec(max(ctx.prec, precision())):
         return decision(Germ(field, ball, rigid, time))[1]
 
 
+@raising_no_value
 def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> LocalDimension:
     """The same from an approximate point: where a tiny ball contains 0 it is taken for 0; the verdict is numeric."""
     return decision(Germ(None, ball, rigid, time))[1]
@@ -42,7 +45,7 @@ def local_at(
         if ball is not None:
             ball_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
         return local_dimension(field_manifold, ball_manifold, rigid, time)
-    except (ZeroDivisionError, OutsideDomainError, NoPointError):
+    except NoValueError:
         return LocalDimension(
             None, "undecided", "the relations could not be followed along a curve through this configuration"
         )

@@ -20,6 +20,7 @@ import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError, OutsideDomainError, raising_no_value
 from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part
 from dofkit.exact.matrices.singular_values import independent_part
 from dofkit.exact.ring.program import gradient, values
@@ -55,10 +56,6 @@ def precision() -> int:
 def fixed_bits() -> int | None:
     """The bits that were asked for; None where they may be raised."""
     return _bits.get()
-
-
-class OutsideDomainError(Exception):
-    """A function has no real value at the point."""
 
 
 class _RealPoint:
@@ -214,6 +211,7 @@ class RealSearch:
                 found[var.key] = given.get(var.key, value)
         return found
 
+    @raising_no_value
     def search(
         self,
         seed: int = 0,
@@ -276,7 +274,7 @@ class RealSearch:
         for halvings in range(HALVINGS):
             try:
                 return self.float_system(symbols, seed)
-            except (ValueError, ZeroDivisionError, OverflowError):
+            except (ValueError, OverflowError, NoValueError):
                 for u, s in zip(self.unknowns, step, strict=True):
                     symbols[u] = base[u] + float(s) / 2 ** (halvings + 1)
         return None
@@ -295,7 +293,10 @@ class RealSearch:
         """
         if any(symbols[p] <= 0 for p in self.positive if p in symbols):
             return None
-        ctx.prec = max(ctx.prec, precision())
+        with ctx.workprec(max(ctx.prec, precision())):
+            return self._precise(symbols, j, seed)
+
+    def _precise(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
         _, _, rows, columns = independent_part(j)
         found = self._refined(symbols, rows, columns, seed)
         if (found is not None and found.certified and found.consistent) or len(rows) == len(self.nodes):
@@ -314,7 +315,7 @@ class RealSearch:
         try:
             at = values(self.ring, point, self.upto)
             return ball_part(jacobian(self.ring, at, point, self.nodes, self.columns, arb(0)))
-        except (OutsideDomainError, ZeroDivisionError):
+        except NoValueError:
             return None
 
     def _refined(
@@ -331,7 +332,7 @@ class RealSearch:
             at = values(self.ring, point, self.upto)
             ranked = self.columns if self.ranked is None else self.ranked
             matrix = jacobian(self.ring, at, point, self.nodes, ranked, arb(0))
-        except (OutsideDomainError, ZeroDivisionError):
+        except NoValueError:
             return None
         consistent = all(at[n].contains(0) for n in self.nodes)
         return RealPoint(point, ball_part(matrix), certified, consistent, matrix)
@@ -356,7 +357,7 @@ class RealSearch:
             f, _ = self._ball_system(exact, nodes, indices, seed)
             _, j = self._ball_system(boxed, nodes, indices, seed)
             step = j.solve(f)
-        except (ZeroDivisionError, OutsideDomainError):
+        except NoValueError:
             return None
         inside = True  # [KrawczykNewton]
         for i, u in enumerate(unknowns):

@@ -18,6 +18,7 @@ from math import gcd, lcm
 from flint import fmpz, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
+from dofkit.exact.errors import NoPointError, NoValueError
 from dofkit.exact.ring.program import value_of
 from dofkit.exact.ring.ring import Ring, Scalar, Var
 from dofkit.expressions import tree as ex
@@ -40,10 +41,6 @@ def primes_of(bits: int) -> Iterator[None]:
         yield
     finally:
         _bits.reset(token)
-
-
-class NoPointError(Exception):
-    """No point was found at this draw (a radicand is no square, a division by zero)."""
 
 
 def circle_order(rings: Iterable[Ring]) -> int:
@@ -217,6 +214,6 @@ def _nested(ring: Ring, var: Var) -> bool:
 def _exists(ring: Ring, var: Var, point: FieldPoint) -> bool:
     try:
         value_of(ring, point, ring.var_node[var.index])
-    except (NoPointError, ZeroDivisionError):
+    except NoValueError:
         return False
     return True

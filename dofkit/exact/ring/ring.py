@@ -18,6 +18,7 @@ from fractions import Fraction
 from math import gcd
 from typing import Any, Protocol
 
+from dofkit.exact.errors import NoValueError, PoleError, raising_no_value
 from dofkit.exact.ring.angles import MAX_MULTIPLE, exact_turn, multiple, of_inverse, rotated, turn_of_twelfths
 from dofkit.exact.ring.inverses import inverse_function, log, over_primes, split_logs
 from dofkit.exact.ring.radicals import root, sign
@@ -94,6 +95,7 @@ class Ring:
     constraint says theta = w t, cos(theta) and cos(w t) are one generator.
     """
 
+    @raising_no_value
     def __init__(
         self,
         expressions: Iterable[Expr] = (),
@@ -128,11 +130,19 @@ class Ring:
     # -- the program ------------------------------------------------------------------------
 
     def node(self, e: Expr) -> int:
-        """The number of the instruction that computes ``e``."""
+        """The number of the instruction that computes ``e``; raises PoleError where it divides by 0."""
         found = self._memo.get(e)
         if found is None:
-            found = self._memo[e] = self._building[e.op](e)
+            found = self._memo[e] = self._written(e)
         return found
+
+    def _written(self, e: Expr) -> int:
+        try:
+            return self._building[e.op](e)
+        except NoValueError:
+            raise
+        except ZeroDivisionError as error:
+            raise PoleError(str(error)) from error
 
     def emit(self, op: int, payload: Any) -> int:
         key = (op, payload)

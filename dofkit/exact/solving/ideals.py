@@ -13,10 +13,10 @@ from math import lcm
 from typing import Any
 
 from flint import Ordering, fmpz_mpoly_ctx, fmpz_mpoly_vec
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 
 #: Relations, unknowns, degree and terms of what is looked at.
@@ -65,7 +65,7 @@ class _Polynomials:
         canon = Canon(ring)
         try:
             own = [canon.quotient(node)[0] for node in nodes]
-        except (TooLargeError, ZeroDivisionError, DomainError):
+        except NoValueError:
             return None
         used = sorted({i for p in own for i in canon.generators_in(p)})
         if any(len(p) > MAX_LENGTH or p.total_degree() > MAX_DEGREE for p in own) or sum(map(_is_curved, own)) < 2:

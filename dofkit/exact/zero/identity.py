@@ -5,13 +5,13 @@ from __future__ import annotations
 from fractions import Fraction
 
 from flint import ctx
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.engines import BOTH, Engines
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch, fixed_bits
-from dofkit.exact.points.field import NoPointError, field_point
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.balls import BallPoint, RealSearch, fixed_bits
+from dofkit.exact.points.field import field_point
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.constants import proved_zero
@@ -47,7 +47,7 @@ def told_zero(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tu
             return True, "proved"
         if independent_generators(ring):
             return False, "proved"
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         pass
     if excludes_zero(ring, node, positive):
         return False, "proved"
@@ -65,7 +65,7 @@ def _coefficients_vanish(canon: Canon, node: int) -> bool:
             moving = tuple(int(k) if shown[i].symbols else 0 for i, k in enumerate(exponents))
             fixed = [ex.power(shown[i], ex.num(int(k))) for i, k in enumerate(exponents) if k and not moving[i]]
             groups.setdefault(moving, []).append(ex.mul(ex.num(Fraction(int(value.p), int(value.q))), *fixed))
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return False
     return all(proved_zero(ex.add(*terms)) for terms in groups.values())
 
@@ -100,7 +100,7 @@ def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
 def _excluded_at(ring: Ring, node: int, point: BallPoint) -> bool:
     try:
         return not values(ring, point)[node].contains(0)
-    except (OutsideDomainError, ZeroDivisionError):
+    except NoValueError:
         return False
 
 
@@ -111,7 +111,7 @@ def _zero_at_points(ring: Ring, node: int) -> bool | None:
         try:
             if values(ring, field_point([ring], seed))[node] != 0:
                 return False
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         seen += 1
         if seen == 3:

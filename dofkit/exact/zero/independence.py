@@ -7,9 +7,9 @@ from itertools import combinations
 from typing import Any, Literal
 
 from flint import nmod_poly
-from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.errors import NoPointError, NoValueError
+from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.program import value_of
 from dofkit.exact.ring.ring import VAR, Ring, Var, reachable
 from dofkit.expressions import tree as ex
@@ -170,7 +170,7 @@ def _along(ring: Ring, var: Var, index: int, squares: bool) -> Any:
             polynomial = value_of(ring, point, var.args[0])
         except NoPointError:
             return None
-        except (ZeroDivisionError, DomainError, TypeError):
+        except (NoValueError, TypeError):
             continue
         return _odd_part(polynomial, var.degree) if squares else polynomial
     return None

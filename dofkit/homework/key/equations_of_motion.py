@@ -15,10 +15,10 @@ from itertools import permutations
 from typing import Any, NamedTuple
 
 from flint import nmod_mat
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.errors import DofkitError
-from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
@@ -98,7 +98,7 @@ def places(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
             return
         try:
             at = values(ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         yield point.p, at
         found += 1
@@ -158,7 +158,7 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
         return None
     try:
         found, verdict = told_zero(e, positive)
-    except (ArithmeticError, DomainError, NoPointError):
+    except ArithmeticError:
         return None
     return None if found and verdict not in ("proved", "probable") else found
 
@@ -340,7 +340,7 @@ def _at_points(
         rows = [[int(at[i]) for i in row] for row in right]
         try:
             solution = _solve(rows, p)
-        except ZeroDivisionError:
+        except NoValueError:
             continue
         own = [[int(at[i]) for i in row] for row in given]
         inserted = [[*row[n:-1], (row[-1] + _dot(row[:n], solution[:n])) % p] for row in own]
@@ -356,6 +356,7 @@ def _dot(a: Sequence[int], b: Sequence[int]) -> int:
     return sum(x * y for x, y in zip(a, b, strict=True))
 
 
+@raising_no_value
 def _solve(rows: list[list[int]], p: int) -> list[int]:
     """The solution of rows whose last entry is the constant term."""
     if not rows:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
 from typing import Any
 
 import networkx as nx
@@ -12,7 +11,7 @@ import networkx as nx
 from dofkit.homework.key.key import Key
 from dofkit.report import ConstraintEntry
 from dofkit.scene.lowering import lower
-from dofkit.system import System
+from dofkit.system import System, TypeFacts
 
 _STRINGS = ("string", "rope", "cable", "cord")
 _PLANE = {1: 1, 2: 3, 3: 6}
@@ -67,6 +66,11 @@ class SceneCounts:
         return list(zip(self.key.scene.constraints, self.key.report.constraints, strict=True))
 
     @cached_property
+    def types(self) -> list[TypeFacts]:
+        """What is true of each constraint's type."""
+        return [c.facts for c in self.system.constraints]
+
+    @cached_property
     def forces(self) -> list[str]:
         """The kinds of the scene's forces."""
         return [force.type for force in self.key.scene.forces]
@@ -77,9 +81,6 @@ class SceneCounts:
         graph: nx.Graph = nx.Graph()
         graph.add_nodes_from(p.name for p in self.key.scene.particles)
         graph.add_edges_from((a, b) for _, a, b in self.system.links)
-        for c, _ in self.entries:
-            if c.kind() == "rigid":
-                graph.add_edges_from(combinations(c.members, 2))
         return graph
 
     @cached_property
@@ -99,14 +100,15 @@ class SceneCounts:
         return sum(g.number_of_edges() == len(g) * (len(g) - 1) // 2 for g in parts)
 
     @cached_property
-    def touched(self) -> list[tuple[ConstraintEntry, frozenset[str | None]]]:
-        """Every finite constraint and the particles and bodies whose coordinates it mentions."""
+    def touched(self) -> list[tuple[TypeFacts, int, frozenset[str | None]]]:
+        """Of every finite constraint its type, its equations, and whose coordinates it mentions."""
         owner = {c.name: c.owner for c in self.system.coordinates}
         found = []
         for (_, entry), constraint in zip(self.entries, self.system.constraints, strict=True):
             if entry.form == "finite":
                 symbols = [s for r in constraint.relations for s in r.expr.symbols if s.args[0] == "coordinate"]
-                found.append((entry, frozenset(owner.get(str(s.args[1])) for s in symbols)))
+                owners = frozenset(owner.get(str(s.args[1])) for s in symbols)
+                found.append((constraint.facts, entry.equations, owners))
         return found
 
     @cached_property
@@ -114,12 +116,12 @@ class SceneCounts:
         """Surfaces beyond one for each particle that is held on a curve in space."""
         more = 0
         alone: dict[str | None, int] = {}
-        for entry, owners in self.touched:
-            if self.d == 3 and len(owners) == 1 and entry.type in ("equation", "on", "link"):
+        for kind, equations, owners in self.touched:
+            if self.d == 3 and len(owners) == 1 and kind.surface:
                 (owner,) = owners
-                alone[owner] = alone.get(owner, 0) + entry.equations
-            elif self.d == 3 and entry.type == "on":
-                more += entry.equations - len(owners)
+                alone[owner] = alone.get(owner, 0) + equations
+            elif self.d == 3 and kind.shared:
+                more += equations - len(owners)
         names = {p.name for p in self.key.scene.particles}
         return more + sum(count - 1 for owner, count in alone.items() if count > 1 and owner in names)
 
@@ -127,10 +129,10 @@ class SceneCounts:
     def on_curves(self) -> int:
         """Particles that one curve holds: d - 1 equations for each."""
         alone: dict[str | None, int] = {}
-        for entry, owners in self.touched:
+        for kind, equations, owners in self.touched:
             for owner in owners:
-                if len(owners) == 1 or entry.type == "on":
-                    alone[owner] = alone.get(owner, 0) + entry.equations // max(1, len(owners))
+                if len(owners) == 1 or kind.shared:
+                    alone[owner] = alone.get(owner, 0) + equations // max(1, len(owners))
         names = {p.name for p in self.key.scene.particles}
         return sum(count == self.d - 1 for owner, count in alone.items() if owner in names)
 
@@ -139,7 +141,9 @@ class SceneCounts:
         """Equations of their own that hold one coordinate at a number, z = 0."""
         found = 0
         for (_, entry), constraint in zip(self.entries, self.system.constraints, strict=True):
-            for relation in constraint.relations if (entry.type, entry.form) == ("equation", "finite") else ():
+            kind = constraint.facts
+            own = kind.written and kind.surface and not kind.shared and entry.form == "finite"
+            for relation in constraint.relations if own else ():
                 moving = [s for s in relation.expr.symbols if s.args[0] == "coordinate"]
                 found += len(moving) == 1 and relation.expr.op in ("sym", "add") and not _powers(relation.expr)
         return found
@@ -167,20 +171,21 @@ class SceneCounts:
     @cached_property
     def strings(self) -> int:
         """Strings, by type or by name."""
-        return sum(c.kind() == "string" or any(w in e.name.lower() for w in _STRINGS) for c, e in self.entries)
+        named = [any(word in e.name.lower() for word in _STRINGS) for _, e in self.entries]
+        return sum(kind.string or rope for kind, rope in zip(self.types, named, strict=True))
 
     @cached_property
     def guides(self) -> int:
         """Particles and bodies on a straight guide of their own beside which something else moves."""
         if self.particles + self.bodies < 2 and self.n < 3:
             return 0
-        named = sum(c.kind() in ("slot", "prismatic") for c, _ in self.entries)
-        return named + sum(len(o) == 1 and e.type in ("equation", "on") for e, o in self.touched)
+        named = sum(kind.slides for kind in self.types)
+        return named + sum(len(owners) == 1 and kind.written and kind.surface for kind, _, owners in self.touched)
 
     @cached_property
     def joints(self) -> int:
         """Hinges and sliders."""
-        return sum(c.kind() in ("revolute", "prismatic") for c, _ in self.entries)
+        return sum(kind.planar_pair for kind in self.types)
 
 
 def _powers(e: Any) -> bool:

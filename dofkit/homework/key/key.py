@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import Literal
 
 from dofkit.base.errors import DofkitError
-from dofkit.classification.passes import classify
 from dofkit.expressions.text import Names
 from dofkit.homework.key.equations_of_motion import Sought, sought_or_why
+from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import survey

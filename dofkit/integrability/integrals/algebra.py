@@ -6,9 +6,8 @@ from collections.abc import Callable, Iterable, Sequence
 from math import isqrt
 from typing import Any, TypeVar
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError, soon_factored
+from dofkit.exact.errors import NoValueError, TooLargeError, raising_no_value
+from dofkit.exact.ring.canonical import Canon, soon_factored
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -57,8 +56,8 @@ class Algebra:
     def attempt(self, work: Callable[[], T]) -> T | None:
         """The result of ``work``, None where an expression has no canonical form or divides by zero."""
         try:
-            return work()
-        except (TooLargeError, ZeroDivisionError, DomainError):
+            return raising_no_value(work)()
+        except NoValueError:
             return None
 
     def spend(self, expressions: Iterable[Expr]) -> None:

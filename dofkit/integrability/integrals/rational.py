@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -21,7 +22,7 @@ def linear(u: Expr, x: Expr) -> tuple[Expr, Expr] | None:
         return None
     try:
         return a, ex.substitute(u, {x: ex.ZERO})
-    except ZeroDivisionError:
+    except NoValueError:
         return None
 
 
@@ -32,7 +33,7 @@ def quadratic(u: Expr, x: Expr) -> tuple[Expr, Expr, Expr] | None:
         return None
     try:
         return found[0] / 2, found[1], ex.substitute(u, {x: ex.ZERO})
-    except ZeroDivisionError:
+    except NoValueError:
         return None
 
 

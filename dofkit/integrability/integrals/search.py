@@ -11,9 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain, count
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import TooLargeError
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.zero.identity import certainly_nonzero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
@@ -50,10 +48,11 @@ def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
     work = Algebra(positive)
     try:
         return _integrate(work, form)
-    except (GivenUpError, TooLargeError, DomainError, RecursionError, ArithmeticError):
+    except (GivenUpError, RecursionError, ArithmeticError):
         return None
 
 
+@raising_no_value
 def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
     items = {s: a for s, a in form.items() if not work.vanishes(a)}
     if not items or sum(size(a) for a in items.values()) > MAX_FORM:

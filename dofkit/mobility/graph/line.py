@@ -18,7 +18,7 @@ _PROOF = Proof("proved", "spanning forest: in one dimension a link is redundant 
 
 
 class LineGraph:
-    """A graph of links in one dimension; see `dofkit.linkage.solved.Solved`."""
+    """A graph of links in one dimension; see `dofkit.mobility.graph.answer.GraphAnswer`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:
         links = len(ends) // 2

@@ -63,7 +63,7 @@ def _leaders(engine: Engine, group: Any) -> list[int]:
 
 
 class PlaneGraph:
-    """A graph of links in two dimensions; see `dofkit.linkage.solved.Solved`."""
+    """A graph of links in two dimensions; see `dofkit.mobility.graph.answer.GraphAnswer`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:
         links = len(ends) // 2

@@ -46,7 +46,7 @@ class CorePart(Protocol):
 
 
 class SpaceGraph:
-    """A graph of links in three dimensions; see `dofkit.linkage.solved.Solved`."""
+    """A graph of links in three dimensions; see `dofkit.mobility.graph.answer.GraphAnswer`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:
         self._joints = joints

@@ -24,7 +24,7 @@ def too_large(links: Sequence[int], ends: Ends) -> bool:
 
 
 class Large:
-    """See `dofkit.linkage.space.Part`."""
+    """See `dofkit.mobility.graph.space.CorePart`."""
 
     def __init__(self, links: Sequence[int], ends: Ends) -> None:
         self._links = links

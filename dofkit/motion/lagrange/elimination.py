@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
@@ -80,6 +81,7 @@ class Eliminator:
     choose: Callable[[str, Expr, Expr, Mapping[str, Expr]], tuple[Expr, str]]
     care: Care = ELIMINATIONS[0]
 
+    @raising_no_value
     def eliminated(
         self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str]
     ) -> Elimination:
@@ -123,7 +125,7 @@ class Eliminator:
             try:
                 solved = {n: ex.substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
                 left = [relation_ for r in left for relation_ in self._rest(r, mapping)]
-            except ZeroDivisionError:
+            except NoValueError:
                 break
             constants |= relation.constants
         return Elimination(solved, frozenset(constants), tuple(notes))
@@ -156,7 +158,7 @@ class Eliminator:
         at_zero = {q: ZERO}
         try:
             start, slope = ex.substitute(g, at_zero), ex.substitute(first, at_zero)
-        except ZeroDivisionError:
+        except NoValueError:
             return None
         if second.is_zero or is_identically_zero(second, self.positive):
             if is_identically_zero(slope, self.positive) is not False:
@@ -182,7 +184,7 @@ class Eliminator:
                 return False
             try:
                 inserted = ex.substitute(relation.expr, {q: value})
-            except ZeroDivisionError:
+            except NoValueError:
                 return False
             if is_identically_zero(inserted, self.positive) is not True:
                 return False

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
 from dofkit.base.errors import Fault, SceneError
-from dofkit.classification.passes import Study, studied
+from dofkit.classification.passes import Examined, studied
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, to_text
@@ -138,7 +138,7 @@ class MotionSource:
     """What the equations of motion of a scene are derived from."""
 
     scene: Scene
-    study: Study
+    study: Examined
     energy: Energy
     names: Names
 

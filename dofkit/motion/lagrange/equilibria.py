@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import Any, NamedTuple
 
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
@@ -55,6 +56,7 @@ def still(e: Expr, place: Place) -> Expr:
     return ex.substitute(e, {**rest, **place})
 
 
+@raising_no_value
 def vanishing(e: Expr, derived: Derived) -> bool:
     """Is an expression 0 identically, sines of known angles inserted? Proved."""
     bridge = Bridge(derived.model.names, derived.model.positive)
@@ -74,11 +76,12 @@ def _at_rest(derived: Derived, place: Place) -> Equilibrium | None:
         if values is None:
             return None
         balanced = all(vanishing(ex.substitute(e, values), derived) for e in forces)
-    except ZeroDivisionError:
+    except NoValueError:
         return None
     return Equilibrium(place, values) if balanced else None
 
 
+@raising_no_value
 def _multipliers(derived: Derived, forces: list[Expr]) -> Place | None:
     """The multipliers that balance the forces, if any do: least squares, which are checked afterwards."""
     own = [ex.parameter(n) for n in derived.multipliers]
@@ -131,7 +134,7 @@ def _branches(derived: Derived) -> Iterator[Elimination]:
         relations = [EliminatedRelation(g) for g in model.holonomic]
         try:
             found = Eliminator(model.positive, choose, ALL).eliminated(relations, names, ())
-        except ZeroDivisionError:
+        except NoValueError:
             continue
         if len(found.solved) == len(relations):
             yield found
@@ -188,7 +191,7 @@ def _single(derived: Derived, q: Expr) -> Iterator[Place]:
             try:
                 value = -ex.substitute(plain, {mark: ZERO}) / slope
                 yield {q: value if back is None else ex.fn(back, value)}
-            except (ZeroDivisionError, ArithmeticError, ValueError):
+            except (ArithmeticError, ValueError):
                 continue
 
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import last_columns, sparse
-from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -107,7 +108,7 @@ def _tied(model: LagrangeModel, rows: Sequence[Sequence[Expr]]) -> tuple[int, ..
         point = field_point([ring], seed)
         try:
             found = values(ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         return last_columns(sparse([found[i] for i in row] for row in nodes), len(model.names), point.p)
     return tuple(range(len(model.names) - len(rows), len(model.names)))

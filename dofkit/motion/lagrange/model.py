@@ -8,7 +8,8 @@ from functools import cached_property
 
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
 from dofkit.classification.freedom.branches import in_time
-from dofkit.classification.passes import Study
+from dofkit.classification.passes import Examined
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.expressions import tree as ex
@@ -49,7 +50,7 @@ class LagrangeModel:
     a multiplier; ``left_out``: the constraints that are redundant.
     """
 
-    study: Study
+    study: Examined
     names: tuple[str, ...]
     energy: Energy
     whole: Energy
@@ -86,11 +87,11 @@ def in_velocities(piece: Remaining) -> Expr:
     return piece.expr
 
 
-def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
+def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
     """The system with as much eliminated as is possible in closed form, and as ``care`` allows.
 
-    Integrals of differential constraints are used where their constants do not enter the motion. Raises MotionError
-    where the system is inconsistent or was not decided.
+    Integrals of differential constraints are used where their constants do not enter the motion. Raises
+    NoEquationsError where the system is inconsistent or was not decided.
     """
     _possible(study)
     outcome = study.outcome
@@ -123,7 +124,7 @@ def _agreeing(
     return found
 
 
-def _possible(study: Study) -> None:
+def _possible(study: Examined) -> None:
     report = study.report
     own = {c.name for c in study.system.coordinates}
     if any(coordinates_of(r.piece) - own for r in study.outcome.rows):
@@ -144,16 +145,16 @@ def _possible(study: Study) -> None:
 
 
 def _built_somehow(
-    study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
+    study: Examined, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
 ) -> LagrangeModel | None:
     """The model after an elimination; None where it cannot be built, also because something has no value there."""
     try:
         return _built(study, energy, elimination, coordinates)
-    except ZeroDivisionError:
+    except NoValueError:
         return None
 
 
-def _integrals(study: Study, names: Names) -> Iterator[EliminatedRelation]:
+def _integrals(study: Examined, names: Names) -> Iterator[EliminatedRelation]:
     """The finite relations that holonomic differential constraints integrate to."""
     owners = {r.constraint for r in study.outcome.rows if isinstance(r.piece, Pfaffian)}
     for i in sorted(owners):
@@ -179,7 +180,10 @@ def _read_integral(text: str, names: Names) -> EliminatedRelation | None:
     return None
 
 
-def _built(study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]) -> LagrangeModel | None:
+@raising_no_value
+def _built(
+    study: Examined, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
+) -> LagrangeModel | None:
     """The model after an elimination; None where constants enter it, or the count of constraints does not come out."""
     kept = elimination.kept(coordinates)
     reduced = _reduced(energy, elimination, kept, study.setting)

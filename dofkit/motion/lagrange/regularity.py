@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows, sparse
-from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -20,7 +21,7 @@ SINGULAR = "The kinetic energy is degenerate: these equations do not determine a
 def degenerate(derived: Derived) -> bool:
     """Is the matrix [[M, A^T], [A, 0]] singular, as far as points show it?
 
-    Raises MotionError where an equation says that a number is 0, or nothing in the energies moves.
+    Raises NoEquationsError where an equation says that a number is 0, or nothing in the energies moves.
     """
     model = derived.model
     for name, e in derived.equations.items():
@@ -42,7 +43,7 @@ def degenerate(derived: Derived) -> bool:
         point = field_point([ring], 300 + seed)
         try:
             found = values(ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         if rank_of_rows(list(sparse([found[i] for i in row] for row in nodes)), point.p) == len(rows):
             return False

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
@@ -49,8 +48,8 @@ def _root(e: Expr, positive: frozenset[Expr]) -> Expr | None:
         if top == 0 or not bottom.is_constant():
             return None
         factors = canon.factors(top)
-        content = top.factor()[0] / bottom.leading_coefficient()
-    except (TooLargeError, DomainError, ZeroDivisionError):
+        content = divided(top.factor()[0], bottom.leading_coefficient())
+    except NoValueError:
         return None
     number = ex.sqrt(ex.num(Fraction(int(content.p), int(content.q)))) if content > 0 else ex.ZERO
     if number.op != "num" or number.is_zero or any(k % 2 for _, k in factors):

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from itertools import combinations, islice
 from typing import Any, NamedTuple
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
@@ -36,8 +37,8 @@ def linearized(derived: Derived) -> Linearized:
     """M, C and K at the reference configuration if that is an equilibrium, else at 0, else at another that is found.
 
     With E(q, qdot, qddot, lam) = 0 the equations: M = dE/dqddot, C = dE/dqdot, K = dE/dq there, all of them restricted
-    to the deviations that the constraints which kept a multiplier allow. Raises MotionError where time enters or no
-    equilibrium is known.
+    to the deviations that the constraints which kept a multiplier allow. Raises NoEquationsError where time enters or
+    no equilibrium is known.
     """
     if any(ex.TIME in e.symbols for e in (*derived.model.holonomic, *derived.model.nonholonomic)):
         raise NoEquationsError("time enters the constraints, so that the system does not rest")
@@ -115,7 +116,7 @@ def _texts(derived: Derived, bridge: Bridge, at: Equilibrium) -> dict[str, str]:
     for name, value in derived.model.elimination.solved.items():
         try:
             here = ex.substitute(value, at.place)
-        except ZeroDivisionError:
+        except NoValueError:
             continue
         found[name] = to_text(bridge.expr(bridge.sympy(here)))
     return found

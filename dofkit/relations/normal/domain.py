@@ -9,10 +9,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.balls import BallPoint, RealSearch
+from dofkit.exact.ring.canonical import Canon, lowest_terms
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import told_zero
@@ -90,9 +89,9 @@ def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
         node = ring.node(e)
         canon = Canon(ring)
         top, bottom = canon.quotient(node)
-        bottom = bottom / bottom.gcd(top)
+        _, bottom = lowest_terms(top, bottom)
         return None if bottom.is_constant() else canon.to_expr(bottom)
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return None
 
 
@@ -107,7 +106,7 @@ def holds_at(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset
     """Does a condition hold at a configuration? None where its sign there is not known."""
     try:
         sign = _sign(ex.substitute(c.expr, known), positive)
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return False
     if sign is None:
         return None

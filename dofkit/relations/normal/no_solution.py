@@ -17,12 +17,13 @@ from itertools import combinations, islice
 from typing import Any
 
 from flint import ctx, fmpq_mat, fmpz_poly
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
-from dofkit.exact.boxes.contraction import Box, BoxProgram, contract
+from dofkit.exact.boxes.box_program import Box, BoxProgram
+from dofkit.exact.boxes.contraction import contract
 from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, constant, middle
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring, Var
 from dofkit.expressions import tree as ex
@@ -65,7 +66,7 @@ def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions
             return bool(excluded or (system is not None and _algebraically(system, excluded is None)))
         except EmptyError:
             return True
-        except (TooLargeError, ZeroDivisionError, DomainError):
+        except NoValueError:
             return False
 
 
@@ -150,7 +151,7 @@ def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialS
     """
     try:
         return _polynomials(relations, positive) if _faithful(relations, positive) else None
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return None
 
 

@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -28,7 +27,7 @@ def split_quadratic(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
     """Branches of linear forms whose zeros are those of ``e``; None where it is not quadratic or does not split."""
     try:
         form = _matrix(e, velocities)
-    except ZeroDivisionError:
+    except NoValueError:
         return None
     if form is None:
         return None
@@ -61,7 +60,7 @@ def split_power(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, ...]] | 
     try:
         canon = Canon(ring)
         terms = by_velocities(canon, canon.quotient(node)[0])
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return None
     if len(terms) != 2 or any(len(moving) > 1 for moving in terms):
         return None
@@ -114,7 +113,7 @@ def _zero(e: Expr) -> bool:
     node = ring.node(e)
     try:
         return Canon(ring).is_zero(node)
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return False
 
 
@@ -125,7 +124,7 @@ def _sign(e: Expr, positive: frozenset[Expr]) -> int:
     try:
         canon = Canon(ring)
         top, bottom = canon.quotient(node)
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return 0
     signs = Signs(canon, positive)
     if not bottom.is_constant() or sum_of_even(top, signs) is None:

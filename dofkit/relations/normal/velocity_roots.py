@@ -12,9 +12,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
@@ -166,7 +165,7 @@ def _numerator(e: Expr) -> Expr | None:
         node = ring.node(e)
         canon = Canon(ring)
         top, bottom = canon.quotient(node)
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return None
     harmless = all(ring.vars[i].kind == "exp" for i in canon.generators_in(bottom)) and len(bottom) == 1
     return canon.to_expr(top) if harmless else None

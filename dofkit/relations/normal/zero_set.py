@@ -12,10 +12,9 @@ from itertools import product as cartesian
 from typing import Any
 
 from flint import fmpq, fmpq_mat
-from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.points.field import NoPointError
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
@@ -56,7 +55,7 @@ def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> 
         return ((e,),), ()
     try:
         return _Zeros(positive, variables).of(e)
-    except (TooLargeError, DomainError, TooManyBranchesError, HiddenZeroError, ZeroDivisionError):
+    except (NoValueError, TooManyBranchesError, HiddenZeroError):
         return ((e,),), ()
 
 
@@ -225,7 +224,7 @@ class _Zeros:
         point = TriangularSolver(ring, nodes[:1]).draw(1)
         try:
             return point is not None and bool(values(ring, point)[nodes[1]] == 0)
-        except (NoPointError, ZeroDivisionError):
+        except NoValueError:
             return False
 
     def _depends(self, canon: Canon, factor: Any) -> bool:
@@ -395,7 +394,7 @@ def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
         node = ring.node(e)
         canon = Canon(ring)
         top, bottom = canon.quotient(node)
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return False
     if top == 0:
         return strict

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -17,7 +17,7 @@ from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point
 from dofkit.scene.world import World
-from dofkit.system import Relation
+from dofkit.system import Relation, TypeFacts
 
 LETTERS = ("x", "y", "z")
 
@@ -29,8 +29,9 @@ class Equation(ConstraintBase):
     and second derivatives where it integrates once.
     """
 
-    type: Literal["equation"] = Field("equation", description="an equation or inequality as text")
+    type: Literal["equation"] = Field(default="equation", description="an equation or inequality as text")
     text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
+    facts: ClassVar[TypeFacts] = TypeFacts(written=True, surface=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         for e, sense in world.relations(self.text, "text"):
@@ -50,6 +51,11 @@ class Equation(ConstraintBase):
         return self.text
 
 
+def as_equation(value: object) -> object:
+    """A constraint as it may be written; a plain text is an equation."""
+    return {"type": Equation.kind(), "text": value} if isinstance(value, str) else value
+
+
 def _texts(value: object) -> object:
     return (value,) if isinstance(value, str) else value
 
@@ -66,6 +72,7 @@ class On(ConstraintBase):
     curve: Annotated[
         tuple[Text, ...] | None, Field(min_length=1), BeforeValidator(_texts, json_schema_input_type=str | list[str])
     ] = Field(None, description="equations in x, y, z: a curve in space is where two surfaces meet")
+    facts: ClassVar[TypeFacts] = TypeFacts(written=True, lettered=True, surface=True, shared=True)
 
     def texts(self) -> Iterator[str]:
         yield from () if self.surface is None else (self.surface,)
