@@ -9,8 +9,9 @@ from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import Pivots, sparse_frame
+from dofkit.exact.ring.instructions import VAR, reachable
 from dofkit.exact.ring.program import gradient, value_of, values
-from dofkit.exact.ring.ring import VAR, Ring, reachable
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart

@@ -9,7 +9,7 @@ from dofkit.configuration.generic_points import generators_of
 from dofkit.configuration.singular_points import numeric_local
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.balls import RealPoint, RealSearch
+from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.relations.chart import Chart
 

@@ -14,7 +14,8 @@ from dofkit.configuration.generic_dimension import unless_larger, variety_at
 from dofkit.configuration.generic_points import on_variety, pose_samples, samples_for
 from dofkit.configuration.reality import near_singular_point, real_point
 from dofkit.configuration.variety import Variety
-from dofkit.exact.ring.ring import VAR, Ring, reachable
+from dofkit.exact.ring.instructions import VAR, reachable
+from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import excludes_zero
 from dofkit.exact.zero.independence import independent_generators

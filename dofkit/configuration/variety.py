@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.points.balls import RealPoint
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.real_search import RealPoint
 
 
 @dataclass

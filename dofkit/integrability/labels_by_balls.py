@@ -8,8 +8,8 @@ from dofkit.base.verdicts import Verdict
 from dofkit.configuration.drawing.at_reference import CLEAR
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import sparse
-from dofkit.exact.points.balls import RealPoint
 from dofkit.exact.points.frames import pairing
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import values
 from dofkit.integrability.codistribution import Codistribution, linear_rows
 from dofkit.integrability.lie_algebra_at_points import ball_span

@@ -15,7 +15,7 @@ from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import sparse
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
-from dofkit.exact.ring.ring import Scalar
+from dofkit.exact.ring.instructions import Scalar
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.integrability.codistribution import Codistribution, linear_rows

@@ -12,7 +12,8 @@ from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.base.errors import DofkitError
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.exact.points.balls import PRECISION, RealSearch
+from dofkit.exact.points.balls import PRECISION
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.motion.sampled.continuation import STRAIGHT, Follower, Reached
@@ -206,7 +207,7 @@ def _relations(
         raise NoMotionError("motions under relations that are nonlinear in the velocities are not followed")
     finite = [*(p.expr for p in pieces if isinstance(p, Finite)), *(g for a in outcome.answers for g in a.hidden)]
     forms = [p for p in pieces if isinstance(p, Pfaffian)]
-    return PoseRelations(coordinates, system.rotations, finite, forms, setting.positive, system.size, limits)
+    return PoseRelations(system, coordinates, finite, forms, setting.positive, limits)
 
 
 def _freedom(outcome: Outcome, timed: bool) -> int:
