@@ -31,6 +31,7 @@ from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import excludes_zero
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.ambient import free_point
 from dofkit.relations.chart import Chart
@@ -121,7 +122,7 @@ def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | 
                 shown = ring.var_expr[var.index]
                 if var.index in settled or known.keys().isdisjoint(shown.symbols):
                     continue
-                settled[var.index] = ring.node(ex.substitute(ex.substitute(shown, ring.alias), known))
+                settled[var.index] = ring.node(substitute(substitute(shown, ring.alias), known))
             if len(ring.vars) == before:
                 break
     except NoValueError:

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
-from dofkit.expressions.tree import TIME, Expr, coordinate, diff, parameter, velocity
+from dofkit.expressions.tree import TIME, Expr, coordinate, parameter, velocity
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NoReturn
 
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text.arithmetic import UndefinedError, applied, inverse, product
 from dofkit.expressions.text.derivatives import by_time, over_dt, raise_order, size, total_differential
 from dofkit.expressions.text.limits import MAX_DIFFERENTIATED, MAX_ORDER
 from dofkit.expressions.text.reader import TextReader
 from dofkit.expressions.text.tokens import Token
-from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, diff, mul
+from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, mul
 
 _BARE = frozenset({"number", "value", "motion", "call", "function", "root", "frac", "|"})
 

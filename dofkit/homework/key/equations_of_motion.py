@@ -25,6 +25,7 @@ from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import told_zero
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr
 from dofkit.motion.lagrange.derivation import derive
 from dofkit.motion.lagrange.elimination import ELIMINATIONS
@@ -66,11 +67,11 @@ class Sought:
 
     def inserted(self, e: Expr) -> Expr:
         """An answer in the coordinates that are kept."""
-        return ex.substitute(e, self.motions)
+        return substitute(e, self.motions)
 
     def moved(self, e: Expr) -> Expr:
         """The same where the constraints hold."""
-        return ex.substitute(e, self.rates)
+        return substitute(e, self.rates)
 
     def zero(self, e: Expr) -> bool | None:
         """Is an expression 0 where the constraints hold? None where that was not decided."""
@@ -119,9 +120,9 @@ def sought(scene: Scene, whole: bool = False) -> Sought:
     unreduced = {}
     for c in model.study.system.coordinates:
         v = ex.velocity(c.name)
-        force = ex.diff(given.lagrangian, ex.coordinate(c.name)) - ex.diff(given.dissipation, v)
-        pair = (ex.diff(given.lagrangian, v), force + given.forces.get(c.name, ZERO))
-        unreduced[c.name] = (ex.substitute(pair[0], model.motions), ex.substitute(pair[1], model.motions))
+        force = diff(given.lagrangian, ex.coordinate(c.name)) - diff(given.dissipation, v)
+        pair = (diff(given.lagrangian, v), force + given.forces.get(c.name, ZERO))
+        unreduced[c.name] = (substitute(pair[0], model.motions), substitute(pair[1], model.motions))
     rows = [by_time(by_time(p.expr)) if isinstance(p, Finite) else by_time(in_velocities(p)) for p in model.constraints]
     return Sought(
         model.names,
@@ -142,12 +143,12 @@ def sought(scene: Scene, whole: bool = False) -> Sought:
 
 def _solved(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) -> None:
     """One more velocity by the others, from a form that is 0."""
-    form = ex.substitute(form, rates)
+    form = substitute(form, rates)
     for v in sorted((s for s in form.symbols if s.args[0] == "velocity"), key=lambda s: s.args):
-        slope = ex.diff(form, v)
+        slope = diff(form, v)
         if is_zero(slope, positive) is False:
-            value = -ex.substitute(form, {v: ZERO}) / slope
-            rates.update({w: ex.substitute(e, {v: value}) for w, e in rates.items()})
+            value = -substitute(form, {v: ZERO}) / slope
+            rates.update({w: substitute(e, {v: value}) for w, e in rates.items()})
             rates[v] = value
             return
 
@@ -165,7 +166,7 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
 
 def euler(e: Expr, name: str) -> Expr:
     """d/dt de/dqdot - de/dq."""
-    return by_time(ex.diff(e, ex.velocity(name))) - ex.diff(e, ex.coordinate(name))
+    return by_time(diff(e, ex.velocity(name))) - diff(e, ex.coordinate(name))
 
 
 def same_lagrangian(answer: Expr, right: Expr, known: Sought) -> bool | None:
@@ -387,16 +388,16 @@ def _rank_of(rows: Sequence[Sequence[int]], p: int) -> int:
 def _in_time(e: Expr) -> Expr:
     """Differentials read as velocities."""
     rates = {s: ex.velocity(str(s.args[1])) for s in e.symbols if s.args[0] == "differential"}
-    return ex.substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
+    return substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
 
 
 def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
     """The coefficients of unknowns and what is left without them; None where ``e`` is not linear as written."""
-    row = [ex.diff(e, s) for s in unknown]
+    row = [diff(e, s) for s in unknown]
     moving = {*unknown}
     if any(c.symbols & moving or any(s.args[0] == "acceleration" for s in c.symbols) for c in row):
         return None
-    rest = ex.substitute(e, dict.fromkeys(unknown, ZERO))
+    rest = substitute(e, dict.fromkeys(unknown, ZERO))
     if any(s.args[0] in ("acceleration", "differential", "dt") for s in rest.symbols):
         return None
     return [*row, rest]

@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from dofkit.base.errors import Fault
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, dot, length, minus, scaled, square
 from dofkit.motion.lagrange.rates import by_time
@@ -235,7 +236,7 @@ class EnergyReader:
             vector = self._vector(force.value, force.direction, "value", downward=False)
             for q in self.world.table.coordinates:
                 symbol = ex.coordinate(q.name)
-                work = ex.add(*(f * ex.diff(part, symbol) for f, part in zip(vector, place, strict=True)))
+                work = ex.add(*(f * diff(part, symbol) for f, part in zip(vector, place, strict=True)))
                 if not work.is_zero:
                     found[q.name] = found.get(q.name, ZERO) + work
         return found

@@ -16,6 +16,7 @@ from itertools import product as cartesian
 from dofkit.base.errors import TextError
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
@@ -117,9 +118,9 @@ def with_constants(piece: Piece, values: Mapping[str, Expr]) -> Piece:
         return piece
     mapping = {ex.coordinate(c): value for c, value in values.items()}
     if isinstance(piece, Pfaffian):
-        named = {name: ex.substitute(e, mapping) for name, e in piece.coefficients.items()}
-        return Pfaffian(named, ex.substitute(piece.dt, mapping))
-    return replace(piece, expr=ex.substitute(piece.expr, mapping))
+        named = {name: substitute(e, mapping) for name, e in piece.coefficients.items()}
+        return Pfaffian(named, substitute(piece.dt, mapping))
+    return replace(piece, expr=substitute(piece.expr, mapping))
 
 
 def velocities_of(e: Expr) -> list[Expr]:
@@ -132,12 +133,12 @@ def linear_form(e: Expr) -> Pfaffian | None:
     coefficients = {}
     velocities = velocities_of(e)
     for v in velocities:
-        coefficient = ex.diff(e, v)
+        coefficient = diff(e, v)
         if any(s.args[0] == "velocity" for s in coefficient.symbols):
             return None
         if not coefficient.is_zero:
             coefficients[str(v.args[1])] = coefficient
-    return Pfaffian(coefficients, ex.substitute(e, dict.fromkeys(velocities, ex.ZERO)))
+    return Pfaffian(coefficients, substitute(e, dict.fromkeys(velocities, ex.ZERO)))
 
 
 def cleared(e: Expr) -> Expr:
@@ -276,7 +277,7 @@ def _still(conditions: Sequence[DomainCondition], branch: Sequence[Piece]) -> li
         name = next((n for n, a in form.coefficients.items() if a.op == "num"), next(iter(form.coefficients), None))
         if name is not None:
             others = ex.add(*(a * ex.velocity(n) for n, a in form.coefficients.items() if n != name), form.dt)
-            found = [ex.substitute(c, {ex.velocity(name): -others / form.coefficients[name]}) for c in found]
+            found = [substitute(c, {ex.velocity(name): -others / form.coefficients[name]}) for c in found]
     return [DomainCondition(c, ">=") for c in found if not velocities_of(c) and _moving(c)]
 
 

@@ -8,8 +8,9 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import TextError
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.differentials import in_velocities, linear_in_accelerations
-from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, coordinate, mul, power, substitute
+from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, coordinate, mul, power
 from dofkit.scene.constraints.base import ConstraintBase
 from dofkit.scene.fields import Text
 from dofkit.scene.frames import Placed
