@@ -14,7 +14,7 @@ from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
 from dofkit.exact.errors import raising_no_value
-from dofkit.exact.zero.identity import certainly_nonzero, told_zero
+from dofkit.exact.zero.identity import certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import NOT_LINEAR, SOLVE_FOR_IT, accelerations_of, in_velocities
@@ -139,6 +139,6 @@ def _whole(exponent: Expr) -> bool:
 def _proved(e: Expr, once: Once, positive: frozenset[Expr]) -> bool:
     """dF/dt = mu E identically, and mu is not 0."""
     rate = by_time(once.integral)
-    if rate is None or told_zero(rate - once.factor * e, positive) != (True, "proved"):
+    if rate is None or zero_and_verdict(rate - once.factor * e, positive) != (True, "proved"):
         return False
     return once.factor.op == "num" or certainly_nonzero(once.factor, positive)

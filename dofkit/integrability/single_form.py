@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import told_zero
+from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.exact.zero.independence import odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -66,6 +66,6 @@ def _frobenius(items: list[tuple[Expr, Expr]]) -> bool:
         total = a * (diff(c, u) - diff(b, w))
         total += b * (diff(a, w) - diff(c, s))
         total += c * (diff(b, s) - diff(a, u))
-        if told_zero(total, frozenset()) != (True, "proved"):
+        if zero_and_verdict(total, frozenset()) != (True, "proved"):
             return False
     return True

@@ -13,7 +13,7 @@ from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import is_zero, told_zero
+from dofkit.exact.zero.identity import is_zero, zero_and_verdict
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -57,7 +57,7 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
     if ex.TIME not in g.symbols or _factors_without_time(g, positive):
         return True, "proved"
     slope = diff(g, ex.TIME)
-    still, sure = told_zero(slope, positive, engines)
+    still, sure = zero_and_verdict(slope, positive, engines)
     if still:
         return True, sure
     ring = Ring([g, slope], positive)
@@ -96,14 +96,14 @@ def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> Told:
-    still, sure = told_zero(form.dt, positive, engines)
+    still, sure = zero_and_verdict(form.dt, positive, engines)
     if not still:
         return still, sure
     coefficients = list(form.coefficients.values())
     if all(ex.TIME not in e.symbols for e in coefficients):
         return True, sure
     turning = [a * diff(b, ex.TIME) - b * diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
-    told = [told_zero(e, positive, engines) for e in turning]
+    told = [zero_and_verdict(e, positive, engines) for e in turning]
     if any(zero is False for zero, _ in told):
         return False, min((v for zero, v in told if zero is False), key=VERDICTS.index)
     if not all(zero for zero, _ in told):
@@ -139,7 +139,7 @@ def _homogeneous(e: Expr) -> bool:
 
 def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
     """No dt term."""
-    return told_zero(form.dt, positive, engines)
+    return zero_and_verdict(form.dt, positive, engines)
 
 
 def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
@@ -150,7 +150,7 @@ def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) ->
     everything = [*items, *((s, ex.ZERO) for s in others)]
     sure: Verdict = "proved"
     for (s, a), (u, b) in combinations(everything, 2):
-        closed, verdict = told_zero(diff(b, s) - diff(a, u), positive, engines)
+        closed, verdict = zero_and_verdict(diff(b, s) - diff(a, u), positive, engines)
         if not closed:
             return closed, verdict
         sure = weakest(sure, verdict)

@@ -64,7 +64,7 @@ class Way:
         )
 
 
-def reduced(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
+def ways_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
     """The rows with nonlinear ones reduced by the linear ones that share coordinates with them, and by each other.
 
     Velocities that the linear rows give are put into the nonlinear ones, which may then split into linear ones:

@@ -22,7 +22,7 @@ from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import told_zero
+from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
@@ -158,7 +158,7 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
     if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
         return None
     try:
-        found, verdict = told_zero(e, positive)
+        found, verdict = zero_and_verdict(e, positive)
     except ArithmeticError:
         return None
     return None if found and verdict not in ("proved", "probable") else found

@@ -25,7 +25,7 @@ from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
 from dofkit.relations.normal.quadratics import split_power, split_quadratic
 from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs, holds_on_a_region, squared
-from dofkit.relations.normal.velocity_roots import in_one_rate, solved
+from dofkit.relations.normal.velocity_roots import in_one_rate, velocity_branches
 from dofkit.relations.normal.zero_set import zero_set
 
 
@@ -239,7 +239,7 @@ def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
     folds = [u for u in arguments_of(e) if velocities_of(u)]
-    if 0 < len(folds) <= MAX_ARGUMENTS and solved(e, positive) is None:
+    if 0 < len(folds) <= MAX_ARGUMENTS and velocity_branches(e, positive) is None:
         return _by_signs_of_rates(e, folds, positive)
     moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
     branches, notes = zero_set(e, positive, moving)
@@ -291,7 +291,7 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     split = split_quadratic(e, velocities_of(e), positive) or split_power(e, positive)
     if split is not None:
         return [tuple(f for g in branch if (f := linear_form(g)) is not None) for branch in split], QUADRATIC_NOTE
-    found = solved(e, positive)
+    found = velocity_branches(e, positive)
     if found is None:
         return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
     forms = [(linear_form(relation), conditions) for relation, conditions in found]

@@ -47,7 +47,7 @@ def in_one_rate(e: Expr, positive: frozenset[Expr]) -> bool:
     return _in_one_rate(e, positive) is not None
 
 
-def solved(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, tuple[DomainCondition, ...]]] | None:
+def velocity_branches(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, tuple[DomainCondition, ...]]] | None:
     """The branches of ``e = 0``, each linear in the velocities, with its conditions; None where they were not found."""
     found = _in_one_rate(e, positive)
     if found is None:
