@@ -14,7 +14,7 @@ from dofkit.exact.boxes import functions
 from dofkit.exact.boxes import intervals as iv
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.enclosures import interval
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.no_solution import no_solution
@@ -146,7 +146,7 @@ def test_what_holds_at_a_point_is_not_ruled_out(seed: int) -> None:
             at = substitute(f, point)
         except (ZeroDivisionError, ValueError):
             continue
-        if f.symbols and all(interval(substitute(n, point)) is not None for n in ex.nodes(f)):
+        if f.symbols and all(interval_of(substitute(n, point)) is not None for n in ex.nodes(f)):
             relations.append(f - at)
     assert not no_solution(relations, frozenset())
 
