@@ -6,13 +6,12 @@ import os
 import platform
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -20,7 +19,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from dofkit.base.version import __version__
 from dofkit.base.workers import Job
 from dofkit.base.workers.pool import cores
-from dofkit.benchmark import runner, storing, tasks
+from dofkit.benchmark import figures, runner, storing, tasks
 from dofkit.benchmark import trial_job as asking
 from dofkit.benchmark.failures import explained
 from dofkit.benchmark.record import ChartRun, Data, Ran, ReductionCost, TrialLine
@@ -124,8 +123,6 @@ def finish(data: Data, out: Path) -> None:
 
 def draw(chart: ChartRun, out: Path) -> Iterator[Path]:
     """All figures. Raises OSError."""
-    from dofkit.benchmark import figures
-
     return figures.write(chart, out)
 
 
@@ -153,15 +150,9 @@ def _gather(
                 bar.update(shown, advance=1)
         if reduced is not None:
             shown = bar.add_task("reductions", total=None)
-            found.reductions += [_reduction(row) for row in reduced.result().value or ()]
+            found.reductions += [ReductionCost.model_validate(row) for row in reduced.result().value or ()]
             bar.update(shown, total=1, completed=1)
     found.complete = True
-
-
-def _reduction(row: Mapping[str, Any]) -> ReductionCost:
-    return ReductionCost.model_validate(
-        {name: value for name, value in row.items() if name in ReductionCost.model_fields}
-    )
 
 
 def _reduces(selection: Selection) -> bool:

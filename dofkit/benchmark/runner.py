@@ -12,7 +12,7 @@ from typing import Protocol
 
 from dofkit.base.workers import MEMORY, Job, Pool
 from dofkit.base.workers import JobOutcome as Ended
-from dofkit.base.workers.crews import Cluster, Crew, StoppedError, Threads, given_up
+from dofkit.base.workers.crews import Cluster, Crew, StoppedError, Threads
 from dofkit.base.workers.pool import cores
 from dofkit.benchmark.judging import judged
 from dofkit.benchmark.record import Outcome, TrialLine
@@ -136,17 +136,10 @@ def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
             return
         for future in wait(running, return_when=FIRST_COMPLETED).done:
             ladder, task = running.pop(future)
-            line = bench.line(task, _result(future))
+            line = bench.line(task, future.result())
             ladder.climbing -= 1
             ladder.broken = ladder.broken or line.outcome == "timed out"
             yield line
-
-
-def _result(future: Future[Ended]) -> Ended:
-    try:
-        return future.result()
-    except Exception as error:
-        raise given_up(error) from None
 
 
 @contextmanager

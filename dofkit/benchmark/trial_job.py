@@ -96,5 +96,5 @@ def ablated(quick: bool) -> Iterator[Json]:
     """What each reduction of the model saves: all rows so far, each time there is one more."""
     rows: list[Json] = []
     for row in named("dofkit.benchmark.ablation:ablation")(quick):
-        rows.append(asdict(row))
+        rows.append(row.model_dump())
         yield rows

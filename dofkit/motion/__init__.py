@@ -1,1 +1,24 @@
 """A classified system in time: Lagrange's equations, and configurations along a motion."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from dofkit.motion.lagrangian.equations import lagrange
+    from dofkit.motion.sampled.configurations import configurations
+
+__all__ = ["configurations", "lagrange"]
+
+#: What is handed on, and where it lives: imported when it is first asked for.
+_HOMES = {
+    "configurations": "dofkit.motion.sampled.configurations",
+    "lagrange": "dofkit.motion.lagrangian.equations",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    return getattr(import_module(_HOMES[name]), name)

@@ -6,7 +6,7 @@ import json
 import math
 import sys
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -17,8 +17,7 @@ from typer.testing import CliRunner
 
 from dofkit.base.workers import Pool
 from dofkit.base.workers.crews import Threads
-from dofkit.benchmark import command, runner, statistics, storing, table, tasks
-from dofkit.benchmark.ablation import AblationRow
+from dofkit.benchmark import command, figures, runner, statistics, storing, table, tasks
 from dofkit.benchmark.judging import judged
 from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, ReductionCost, Score, TrialLine
 from dofkit.benchmark.selecting import Selection
@@ -314,14 +313,8 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         storing.read(tmp_path / "none")
 
 
-def test_reductions_are_kept_as_they_are_measured() -> None:
-    assert {field.name for field in fields(AblationRow)} == set(ReductionCost.model_fields)
-
-
 @pytest.mark.skipif(find_spec("matplotlib") is None, reason="needs matplotlib")
 def test_every_figure_is_drawn(tmp_path: Path) -> None:
-    from dofkit.benchmark import figures
-
     chart = summary(DATA)
     bits = replace(SWEEPS[0], knob="bits", method="balls", value=16.0, group="1/9")
     more = [bits, replace(bits, value=64.0), replace(bits, knob="prime bits", method="field"), *SWEEPS]

@@ -22,7 +22,8 @@ from dofkit.homework.answers.sources import Handed, handed
 from dofkit.homework.answers.submission import FilePlace, of_value
 from dofkit.homework.grading import Grader
 from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.in_order import HandedIn, LocalRunner, in_order
+from dofkit.homework.runs.crew import here
+from dofkit.homework.runs.in_order import HandedIn, in_order
 from dofkit.homework.runs.journal import BusyError, Journal
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.interface import cli
@@ -325,7 +326,7 @@ def hostile(*answers: Mapping[str, str]) -> list[Handed]:
 
 
 def statuses(given: Sequence[Handed], workers: int) -> Iterator[tuple[str, list[str], list[str]]]:
-    with Keeper(orders(), workers) as keeper, LocalRunner(keeper, workers) as local:
+    with Keeper(orders(), workers) as keeper, here(keeper, workers) as local:
         for _, (line,) in in_order(local, given):
             items = json.loads(line.text)["items"]
             yield line.student, [item["status"] for item in items], [item["feedback"] for item in items]

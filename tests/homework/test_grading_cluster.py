@@ -14,8 +14,8 @@ import dofkit
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import FilePlace
 from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.cluster import GradingCluster
-from dofkit.homework.runs.in_order import LocalRunner, in_order
+from dofkit.homework.runs.crew import here, there
+from dofkit.homework.runs.in_order import in_order
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.interface import cli
 
@@ -34,24 +34,24 @@ def handed(number: int) -> list[Handed]:
 
 def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     made, given = Orders.of(dofkit.load_assignment(ASSIGNMENT)), handed(60)
-    with Keeper(made, 1) as keeper, LocalRunner(keeper, 1) as local:
-        here = [lines for _, lines in in_order(local, given)]
-    assert sum(json.loads(line.text)["items"][1]["status"] == "right" for (line,) in here) == 40
+    with Keeper(made, 1) as keeper, here(keeper, 1) as local:
+        one_by_one = [lines for _, lines in in_order(local, given)]
+    assert sum(json.loads(line.text)["items"][1]["status"] == "right" for (line,) in one_by_one) == 40
     silent = {"silence_logs": 50, "dashboard_address": None}
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, **silent) as machines:
         with distributed.Client(machines.scheduler_address, set_as_default=False) as client:
             processes = sorted(client.run(os.getpid).values())
         assert len(processes) == 2
-        there = []
-        with GradingCluster(machines.scheduler_address, made) as cluster:
+        told = []
+        with there(machines.scheduler_address, made) as cluster:
             for i, (_, lines) in enumerate(in_order(cluster, given)):
-                there.append(lines)
+                told.append(lines)
                 if i == 3:
                     os.kill(processes[0], signal.SIGKILL)
-        assert there == here
+        assert told == one_by_one
         paths = [tmp_path / "a.json", tmp_path / "s.jsonl"]
         paths[0].write_text(json.dumps(ASSIGNMENT))
         paths[1].write_text("".join(json.dumps(h.data) + "\n" for h in given[:5]))
         arguments = ["grade", *map(str, paths), "--scheduler", machines.scheduler_address]
         cli.app(arguments, standalone_mode=False)
-    assert capsys.readouterr().out.splitlines() == [line.text for (line,) in here[:5]]
+    assert capsys.readouterr().out.splitlines() == [line.text for (line,) in one_by_one[:5]]

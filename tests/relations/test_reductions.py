@@ -12,7 +12,7 @@ from typing import Any, get_args
 import pytest
 
 import dofkit
-from dofkit.benchmark.ablation import SCENES, ablated, answered, differences
+from dofkit.benchmark.ablation import SCENES, AblatedScene, ablated, answered, differences
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import rank_of_rows
@@ -57,7 +57,7 @@ def test_every_reduction_says_what_it_leaves_out_and_has_scenes() -> None:
 @pytest.mark.parametrize("name", REDUCTIONS)
 def test_what_a_reduction_leaves_out_changes_no_answer(name: ReductionName) -> None:
     n = SCENES[name].quick
-    full, without = ablated(name, name, n, SCENES[name].scene(n), (name,))
+    full, without = ablated(AblatedScene(name, name, n, SCENES[name].scene(n)), (name,))
     assert without.unchanged, without.differs
     assert not full.undecided
     study, _ = answered(SCENES[name].scene(n), ALL, 1)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
+from dofkit.benchmark.trials.construction import KnownTruth
 from dofkit.benchmark.trials.contexts import identities, near_misses
-from dofkit.benchmark.trials.making import KnownTruth
 from dofkit.benchmark.trials.rewritten import other_coordinates
 from dofkit.benchmark.trials.steps import tiny_steps
 

@@ -15,7 +15,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import ZERO, Expr, coordinate, parameter, sym, velocity
-from dofkit.motion.lagrange.equations import MotionReport
+from dofkit.motion.lagrangian.equations import MotionReport
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import survey
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from dofkit.benchmark.trials.making import KnownTruth
+from dofkit.benchmark.trials.construction import KnownTruth
 from dofkit.report import Report
 
 Outcome = Literal["right", "undecided", "wrong"]

@@ -12,7 +12,7 @@ from shared.families import FAMILIES
 from shared.trials import differences
 
 import dofkit
-from dofkit.benchmark.trials.making import KnownTruth
+from dofkit.benchmark.trials.construction import KnownTruth
 from dofkit.benchmark.trials.traps import TRAPS, Trap
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import Names, parse_expression

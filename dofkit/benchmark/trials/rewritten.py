@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from dofkit.benchmark.trials.making import KnownTruth, scene
+from dofkit.benchmark.trials.construction import KnownTruth, scene
 
 x, y, z, w, theta, phi, psi, r, a = sp.symbols("x y z w theta phi psi r a", real=True)
 Form = Mapping[sp.Symbol, sp.Expr]

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
+from dofkit.benchmark.trials.construction import KnownTruth
 from dofkit.benchmark.trials.frameworks import Framework, Position, framework, written
-from dofkit.benchmark.trials.making import KnownTruth
 
 Move = Callable[[Position], Position]
 #: (dof, instantaneous_dof); None where it was not derived.

@@ -18,8 +18,8 @@ from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.result import Result
 from dofkit.homework.runs.batch import Orders, ResultLine
-from dofkit.homework.runs.cluster import GradingCluster
-from dofkit.homework.runs.in_order import HandedIn, LocalRunner, Runner, in_order, once
+from dofkit.homework.runs.crew import GradingCrew, here, there
+from dofkit.homework.runs.in_order import HandedIn, in_order, once
 from dofkit.homework.runs.journal import Journal, fingerprint, ledger
 from dofkit.homework.runs.keeper import Keeper
 
@@ -73,8 +73,8 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     prepared = load_assignment(assignment)
     orders = Orders.of(prepared, options.check_only)
     stream = handed(sources, prepared.columns(), [assignment, *options.written])
-    with _runner(orders, options) as runner, closing(HandedIn()) as seen:
-        one = _Run(form, prepared, orders, runner, seen)
+    with _crew(orders, options) as crew, closing(HandedIn()) as seen:
+        one = _Run(form, prepared, orders, crew, seen)
         if options.out is None:
             one.to_stdout(stream)
         else:
@@ -83,16 +83,16 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
 
 
 @contextmanager
-def _runner(orders: Orders, options: GradingOptions) -> Iterator[Runner]:
+def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
     if options.scheduler is not None:
-        with GradingCluster(options.scheduler, orders) as cluster:
-            yield cluster
+        with there(options.scheduler, orders) as crew:
+            yield crew
         return
     workers = options.workers or cores()
     with Keeper(orders, workers) as keeper:
         keeper.fork()
-        with LocalRunner(keeper, workers) as local:
-            yield local
+        with here(keeper, workers) as crew:
+            yield crew
 
 
 @dataclass
@@ -102,7 +102,7 @@ class _Run:
     form: Format
     prepared: Prepared
     orders: Orders
-    runner: Runner
+    crew: GradingCrew
     seen: HandedIn
     failed: int = 0
 
@@ -133,7 +133,7 @@ class _Run:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            for one, lines in once(self.orders, in_order(self.runner, stream), self.seen):
+            for one, lines in once(self.orders, in_order(self.crew, stream), self.seen):
                 self.failed += sum(line.failed for line in lines)
                 yield one, lines
                 bar.update(task, advance=len(lines))

@@ -207,7 +207,7 @@ def _relations(
         raise NoMotionError("motions under relations that are nonlinear in the velocities are not followed")
     finite = [*(p.expr for p in pieces if isinstance(p, Finite)), *(g for a in outcome.answers for g in a.hidden)]
     forms = [p for p in pieces if isinstance(p, Pfaffian)]
-    return PoseRelations(coordinates, system.rotations, finite, forms, setting.positive, system.size, limits)
+    return PoseRelations(system, coordinates, finite, forms, setting.positive, limits)
 
 
 def _freedom(outcome: Outcome, timed: bool) -> int:

@@ -22,7 +22,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.normal_form import Pfaffian
-from dofkit.system import Coordinate, Rotation
+from dofkit.system import Coordinate, System
 
 Array = np.ndarray[Any, Any]
 #: Below this w the relations are evaluated as balls, and this is the least that is told from 0.
@@ -47,15 +47,14 @@ class PoseRelations:
 
     def __init__(
         self,
+        system: System,
         coordinates: Sequence[Coordinate],
-        rotations: Sequence[Rotation],
         finite: Sequence[Expr],
         forms: Sequence[Pfaffian],
         positive: frozenset[Expr],
-        size: float,
         limits: Sequence[Expr] = (),
     ) -> None:
-        """``limits``: expressions that are to stay at 0 or above."""
+        """``coordinates``: those that are followed; ``limits``: expressions that are to stay at 0 or above."""
         told = [e for f in forms for _, e in f.items()]
         self.ring = Ring([*finite, *told], positive)
         self.limiting = Ring(limits, positive)
@@ -63,11 +62,11 @@ class PoseRelations:
         self.finite = [self.ring.node(g) for g in finite]
         self.forms = [{s: self.ring.node(e) for s, e in f.items()} for f in forms]
         self.timed = any(ex.TIME in e.symbols for e in [*finite, *told]) or any(ex.TIME in f for f in self.forms)
-        self.rotations = [r for r in rotations if r.chart == "gibbs"]
+        self.rotations = [r for r in system.rotations if r.chart == "gibbs"]
         turning = {name for r in self.rotations for name in r.names}
         self.names = [c.name for c in coordinates if c.name not in turning]
         self.scales = np.array(
-            [size if c.role in ("x", "y", "z") else 1.0 for c in coordinates if c.name in self.names]
+            [system.size if c.role in ("x", "y", "z") else 1.0 for c in coordinates if c.name in self.names]
         )
         self.angles = np.array([c.role in ANGLES for c in coordinates if c.name in self.names], dtype=bool)
         self.plain = [ex.coordinate(n) for n in self.names]

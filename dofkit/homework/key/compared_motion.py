@@ -1,4 +1,4 @@
-"""Equations of motion to grade by: what is right as expressions, and how an answer compares with it.
+"""An answer's Lagrangian or equations of motion, compared with those that are right.
 
 Lagrangians are the same where the difference satisfies Euler's equation identically (then it is a total derivative by
 time). Equations of motion are the same where they allow the same accelerations: an answer's equation follows where the
@@ -7,161 +7,27 @@ accelerations of the scene's own equations satisfy it, and the system is complet
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
 from itertools import permutations
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from flint import nmod_mat
 
-from dofkit.base.errors import DofkitError
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.points.field import field_point
-from dofkit.exact.ring.program import values
+from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr
-from dofkit.motion.lagrange.derivation import derive
-from dofkit.motion.lagrange.elimination import ELIMINATIONS
-from dofkit.motion.lagrange.equations import derived_of, read
-from dofkit.motion.lagrange.model import in_velocities
-from dofkit.motion.lagrange.rates import by_time
-from dofkit.relations.normal.normal_form import Finite, Pfaffian
-from dofkit.scene.scene import Scene
+from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
+from dofkit.motion.lagrangian.rates import by_time
 
-#: Points over GF(p), and how many are tried for them.
-POINTS, ATTEMPTS = 3, 40
 #: Systems up to this size are solved by Cramer's rule where points alone may mislead.
 BY_CRAMER = 3
-#: Larger expressions are not compared.
-MOST_NODES = 4000
-
-
-@dataclass(frozen=True)
-class Sought:
-    """What is right: in the coordinates that are kept.
-
-    ``motions`` replaces what is eliminated, ``rates`` the velocities that constraints give by others. ``rows`` are
-    d/dt of the constraints that keep a multiplier, ``relations`` those of them that hold between coordinates.
-    """
-
-    names: tuple[str, ...]
-    lagrangian: Expr
-    total: Expr
-    momenta: Mapping[str, Expr]
-    forces: Mapping[str, Expr]
-    equations: Mapping[str, Expr]
-    multipliers: tuple[Expr, ...]
-    motions: Mapping[Expr, Expr]
-    rates: Mapping[Expr, Expr]
-    rows: tuple[Expr, ...]
-    relations: tuple[Expr, ...]
-    unreduced: Mapping[str, tuple[Expr, Expr]]
-    positive: frozenset[Expr]
-
-    def inserted(self, e: Expr) -> Expr:
-        """An answer in the coordinates that are kept."""
-        return substitute(e, self.motions)
-
-    def moved(self, e: Expr) -> Expr:
-        """The same where the constraints hold."""
-        return substitute(e, self.rates)
-
-    def zero(self, e: Expr) -> bool | None:
-        """Is an expression 0 where the constraints hold? None where that was not decided."""
-        moved = self.moved(e)
-        found = is_zero(moved, self.positive)
-        return found if found is not False or not self.relations else self._zero_there(moved)
-
-    def _zero_there(self, e: Expr) -> bool | None:
-        """At points where the finite relations hold."""
-        ring = Ring([e, *self.relations], self.positive)
-        node = ring.node(e)
-        told = [found[node] == 0 for _, found in places(ring, self.relations)]
-        if len(told) < POINTS:
-            return None
-        return all(told) if all(told) or independent_generators(ring) else None
-
-
-def places(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
-    """Random points over GF(p) where the relations hold, a few: the prime, and the values of the ring's nodes."""
-    solver = TriangularSolver(ring, [ring.node(g) for g in relations], seed=3) if relations else None
-    found = 0
-    for seed in range(ATTEMPTS):
-        point = field_point([ring], 500 + seed) if solver is None else solver.draw(500 + seed)
-        if point is None:
-            return
-        try:
-            at = values(ring, point)
-        except NoValueError:
-            continue
-        yield point.p, at
-        found += 1
-        if found == POINTS:
-            return
-
-
-def sought(scene: Scene, whole: bool = False) -> Sought:
-    """What is right of a scene; ``whole``: with nothing eliminated. Raises DofkitError without equations of motion."""
-    derived = derive(read(scene).model(ELIMINATIONS[-1])) if whole else derived_of(scene)
-    model = derived.model
-    rates: dict[Expr, Expr] = {}
-    for piece in model.constraints:
-        if isinstance(piece, (Pfaffian, Finite)):
-            form = by_time(piece.expr) if isinstance(piece, Finite) else in_velocities(piece)
-            _solved(form, rates, model.positive)
-    given = model.whole
-    unreduced = {}
-    for c in model.study.system.coordinates:
-        v = ex.velocity(c.name)
-        force = diff(given.lagrangian, ex.coordinate(c.name)) - diff(given.dissipation, v)
-        pair = (diff(given.lagrangian, v), force + given.forces.get(c.name, ZERO))
-        unreduced[c.name] = (substitute(pair[0], model.motions), substitute(pair[1], model.motions))
-    rows = [by_time(by_time(p.expr)) if isinstance(p, Finite) else by_time(in_velocities(p)) for p in model.constraints]
-    return Sought(
-        model.names,
-        derived.lagrangian,
-        model.energy.kinetic + model.energy.potential,
-        derived.momenta,
-        derived.forces,
-        derived.equations,
-        tuple(ex.parameter(n) for n in derived.multipliers),
-        model.motions,
-        rates,
-        tuple(rows),
-        tuple(model.holonomic),
-        unreduced,
-        model.positive,
-    )
-
-
-def _solved(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) -> None:
-    """One more velocity by the others, from a form that is 0."""
-    form = substitute(form, rates)
-    for v in sorted((s for s in form.symbols if s.args[0] == "velocity"), key=lambda s: s.args):
-        slope = diff(form, v)
-        if is_zero(slope, positive) is False:
-            value = -substitute(form, {v: ZERO}) / slope
-            rates.update({w: substitute(e, {v: value}) for w, e in rates.items()})
-            rates[v] = value
-            return
-
-
-def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
-    """Zero identically? None where it is too large, has no value or was told by figures only."""
-    if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
-        return None
-    try:
-        found, verdict = zero_and_verdict(e, positive)
-    except ArithmeticError:
-        return None
-    return None if found and verdict not in ("proved", "probable") else found
 
 
 def euler(e: Expr, name: str) -> Expr:
@@ -169,7 +35,7 @@ def euler(e: Expr, name: str) -> Expr:
     return by_time(diff(e, ex.velocity(name))) - diff(e, ex.coordinate(name))
 
 
-def same_lagrangian(answer: Expr, right: Expr, known: Sought) -> bool | None:
+def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | None:
     """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then.
 
     Beside finite relations it is enough that it gives no other force than the relations do, where they hold.
@@ -184,7 +50,7 @@ def same_lagrangian(answer: Expr, right: Expr, known: Sought) -> bool | None:
     return False if False in told else None if None in told else True
 
 
-def _spanned(forces: Sequence[Expr], known: Sought) -> bool | None:
+def _spanned(forces: Sequence[Expr], known: RightMotion) -> bool | None:
     """Are forces sums of those of the constraints, at every state and acceleration that these allow?"""
     columns = [ex.sym("acceleration", n) for n in known.names]
     lines = [linear(known.moved(e), columns) for e in forces]
@@ -194,14 +60,14 @@ def _spanned(forces: Sequence[Expr], known: Sought) -> bool | None:
     ring = Ring([e for row in (*lines, *held) for e in row or ()] + [*known.relations], known.positive)
     nodes = [[[ring.node(e) for e in row or ()] for row in rows] for rows in (lines, held)]
     told = []
-    for p, at in places(ring, known.relations):
+    for p, at in points(ring, known.relations):
         own, rows = ([[int(at[i]) for i in row] for row in part] for part in nodes)
         moving = _accelerations(rows, p)
         if moving is None:
             continue
         force = [(_dot(row[:-1], moving) + row[-1]) % p for row in own]
         gradients = [row[:-1] for row in rows]
-        told.append(_rank_of([*gradients, force], p) == _rank_of(gradients, p))
+        told.append(rank_of([*gradients, force], p) == rank_of(gradients, p))
     if len(told) < POINTS:
         return None
     return all(told) if all(told) or independent_generators(ring) else None
@@ -234,10 +100,10 @@ class MotionSameness(Enum):
 
 
 @dataclass(frozen=True)
-class Answered:
+class AnsweredMotion:
     """Equations of an answer (each is 0) beside those that are right; ``own``: the answer's names for multipliers."""
 
-    known: Sought
+    known: RightMotion
     equations: tuple[Expr, ...]
     own: tuple[Expr, ...] = ()
 
@@ -329,15 +195,15 @@ class PointFindings(NamedTuple):
 
     def sound_rank(self, sound: Sequence[bool], n: int) -> int:
         """The rank of the accelerations in the rows that follow everywhere, if they hold no multipliers."""
-        return _rank_of([row[:n] for row, s in zip(self.rows, sound, strict=True) if s and not any(row[n:-1])], self.p)
+        return rank_of([row[:n] for row, s in zip(self.rows, sound, strict=True) if s and not any(row[n:-1])], self.p)
 
 
 def _at_points(
-    ring: Ring, right: Sequence[Sequence[int]], given: Sequence[Sequence[int]], n: int, known: Sought
+    ring: Ring, right: Sequence[Sequence[int]], given: Sequence[Sequence[int]], n: int, known: RightMotion
 ) -> Iterator[PointFindings]:
     """At random points: which rows hold with the right accelerations, and the rank of all."""
     constraints = len(known.rows)
-    for p, at in places(ring, known.relations):
+    for p, at in points(ring, known.relations):
         rows = [[int(at[i]) for i in row] for row in right]
         try:
             solution = _solve(rows, p)
@@ -349,8 +215,8 @@ def _at_points(
         held = rows[len(rows) - constraints :] if constraints else []
         width = len(own[0]) - 1 - n if own else 0
         every = [row[:-1] for row in own] + [[*row[:n], *([0] * width)] for row in held]
-        rank = _rank_of(every, p) - _rank_of([row[n:-1] for row in own], p) if own else 0
-        yield PointFindings(sound, rank - (_rank_of([row[:n] for row in held], p) if held else 0), own, p)
+        rank = rank_of(every, p) - rank_of([row[n:-1] for row in own], p) if own else 0
+        yield PointFindings(sound, rank - (rank_of([row[:n] for row in held], p) if held else 0), own, p)
 
 
 def _dot(a: Sequence[int], b: Sequence[int]) -> int:
@@ -374,15 +240,11 @@ def _consistent(rows: list[list[int]], p: int) -> list[bool]:
     told = []
     for row in rows:
         tried = [*kept, row]
-        holds = _rank_of(tried, p) == _rank_of([r[:-1] for r in tried], p)
+        holds = rank_of(tried, p) == rank_of([r[:-1] for r in tried], p)
         told.append(holds)
         if holds:
             kept = tried
     return told
-
-
-def _rank_of(rows: Sequence[Sequence[int]], p: int) -> int:
-    return int(nmod_mat([list(row) for row in rows], p).rank()) if rows and rows[0] else 0
 
 
 def _in_time(e: Expr) -> Expr:
@@ -410,11 +272,3 @@ def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
         swaps = sum(a > b for i, a in enumerate(order) for b in order[i + 1 :])
         terms.append(ex.mul(MINUS_ONE if swaps % 2 else ONE, *(rows[i][j] for i, j in enumerate(order))))
     return ex.add(*terms)
-
-
-def sought_or_why(scene: Scene, whole: bool = False) -> Sought | DofkitError:
-    """What is right of a scene, or why it is not known."""
-    try:
-        return sought(scene, whole)
-    except DofkitError as error:
-        return error

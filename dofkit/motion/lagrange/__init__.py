@@ -1,1 +1,0 @@
-"""Lagrange's equations: energies, elimination, multipliers, small motions."""

@@ -1,0 +1,140 @@
+"""The energies of a scene: as written, or from its masses, inertias and forces.
+
+T = sum m v.v/2 + w.J w/2, every body's centre of mass at its origin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import HALF, ZERO, Expr
+from dofkit.expressions.vectors import Vec, square
+from dofkit.motion.lagrangian.forces import PARTS, ForceReader, Numbered
+from dofkit.motion.lagrangian.quantities import mass, moving
+from dofkit.scene.frames import Frame
+from dofkit.scene.scene import Scene
+from dofkit.scene.world import World
+
+
+@dataclass(frozen=True)
+class Energy:
+    """T, V and D as expressions, the non-conservative forces by coordinate, and where they are from."""
+
+    kinetic: Expr
+    potential: Expr
+    dissipation: Expr
+    forces: Mapping[str, Expr]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def lagrangian(self) -> Expr:
+        """L = T - V."""
+        return self.kinetic - self.potential
+
+
+@dataclass
+class EnergyReader:
+    """Reads the energies of a scene; faults go to its world."""
+
+    scene: Scene
+    world: World
+    notes: list[str] = field(default_factory=list)
+
+    def energy(self) -> Energy:
+        """What `energies` gives, and what it leaves out from the masses and the forces."""
+        given = self.scene.energies
+        kinetic = self._text(given and given.kinetic, "kinetic")
+        potential = self._text(given and given.potential, "potential")
+        dissipation = self._text(given and given.dissipation, "dissipation")
+        own = {} if given is None else given.forces
+        self.world.here = ("energies",)
+        forces = {name: moving(self.world, text, "forces", name) for name, text in own.items()}
+        if kinetic is None:
+            kinetic = ex.add(*self._kinetic())
+            self._assumed_centres()
+        reader = ForceReader(self.scene, self.world, self.notes)
+        springs, dampers, applied = map(reader.entering, PARTS)
+        if potential is None:
+            potential = reader.potential(springs)
+        elif springs:
+            self._as_written("the potential energy", springs)
+        if dissipation is None:
+            dissipation = reader.dissipation(dampers)
+        elif dampers:
+            self._as_written("the dissipation function", dampers)
+        if forces and applied:
+            self._as_written("the generalized forces", applied)
+        elif applied:
+            forces = reader.applied(applied)
+        return Energy(kinetic, potential, dissipation, forces, tuple(self.notes))
+
+    def _text(self, text: object, key: str) -> Expr | None:
+        self.world.here = ("energies",)
+        return None if text is None else moving(self.world, text, key)
+
+    def _as_written(self, what: str, entries: Sequence[Numbered]) -> None:
+        kinds = " and ".join(dict.fromkeys(force.type for _, force in entries))
+        self.notes.append(f"`energies` gives {what}: the {kinds} among the forces is taken to be in it already.")
+
+    def _assumed_centres(self) -> None:
+        if self.scene.bodies:
+            self.notes.append("Each body's centre of mass is taken to be at its origin, its inertia about that.")
+
+    def _kinetic(self) -> Iterator[Expr]:
+        for i, particle in enumerate(self.scene.particles):
+            self.world.here = ("particles", i)
+            m = mass(self.world, particle.mass, "mass", particle.name)
+            yield HALF * m * _speed_squared(self.world.table.particles[particle.name])
+        d = self.world.dimension
+        for i, body in enumerate(self.scene.bodies):
+            self.world.here = ("bodies", i)
+            frame = self.world.frames[body.name]
+            m = mass(self.world, body.mass, "mass", body.name)
+            yield HALF * m * _speed_squared(self.world.table.bodies[body.name][:d])
+            if d > 1:
+                yield self._turning(body.inertia, frame)
+
+    def _turning(self, inertia: object, frame: Frame) -> Expr:
+        """w.J w/2 with J in the body's axes."""
+        if frame.dimension == 2:
+            rate = ex.velocity(frame.angles[0])
+            return HALF * mass(self.world, inertia, "inertia", frame.name) * rate * rate
+        spin = body_spin(frame)
+        if not isinstance(inertia, tuple):
+            return HALF * mass(self.world, inertia, "inertia", frame.name) * square(spin)
+        if len(inertia) != 3:
+            self.world.fault("an inertia is one number, three principal moments or three rows", "inertia")
+            return ZERO
+        if all(isinstance(row, tuple) for row in inertia):
+            rows = [
+                [moving(self.world, v, "inertia", i, j) for j, v in enumerate(row)] for i, row in enumerate(inertia)
+            ]
+            if any(len(row) != 3 for row in rows):
+                self.world.fault("a row of the inertia has three entries", "inertia")
+                return ZERO
+            return HALF * ex.add(*(ex.mul(w, m, u) for w, row in zip(spin, rows, strict=True)
+                                   for m, u in zip(row, spin, strict=True)))  # fmt: skip
+        moments = [moving(self.world, v, "inertia", i) for i, v in enumerate(inertia)]
+        return HALF * ex.add(*(ex.mul(m, w, w) for m, w in zip(moments, spin, strict=True)))
+
+
+def body_spin(frame: Frame) -> Vec:
+    """The angular velocity in the axes of a spatial body, for z-x-z Euler angles.
+
+    phidot (sin theta sin psi, sin theta cos psi, cos theta) + thetadot (cos psi, -sin psi, 0) + psidot e_z.
+    """
+    theta, psi = (ex.coordinate(name) for name in frame.angles[1:])
+    precession, nutation, own = (ex.velocity(name) for name in frame.angles)
+    s, c = ex.fn("sin", psi), ex.fn("cos", psi)
+    tilt = ex.fn("sin", theta)
+    return (
+        precession * tilt * s + nutation * c,
+        precession * tilt * c - nutation * s,
+        precession * ex.fn("cos", theta) + own,
+    )
+
+
+def _speed_squared(names: tuple[str, ...]) -> Expr:
+    return ex.add(*(ex.velocity(name) ** 2 for name in names))
