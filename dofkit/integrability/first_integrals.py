@@ -28,6 +28,7 @@ from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.codistribution import Codistribution
 from dofkit.integrability.integrals.normal_shape import arranged, upright
@@ -330,7 +331,7 @@ def _identically(forms: Codistribution, f: Expr, sample: _Sample) -> bool | None
     chart = forms.chart
     if len(chart.nodes) > 1 or len(forms.rows.entries) > MAX_ROWS:
         return None
-    slopes = {i: chart.ring.node(ex.diff(f, s)) for i, s in enumerate(chart.symbols) if s in f.symbols}
+    slopes = {i: chart.ring.node(diff(f, s)) for i, s in enumerate(chart.symbols) if s in f.symbols}
     try:
         canon = Canon(chart.ring)
         relation = canon.quotient(chart.nodes[0])[0] if chart.nodes else None

@@ -10,8 +10,9 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import SceneError
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
-from dofkit.expressions.tree import TIME, Expr, coordinate, diff, parameter, velocity
+from dofkit.expressions.tree import TIME, Expr, coordinate, parameter, velocity
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene

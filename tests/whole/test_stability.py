@@ -14,7 +14,7 @@ from shared.trials import differences
 import dofkit
 from dofkit.benchmark.trials.construction import KnownTruth
 from dofkit.benchmark.trials.traps import TRAPS, Trap
-from dofkit.expressions.enclosures import interval
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import num
 
@@ -92,11 +92,11 @@ POINTS = (
 @pytest.mark.parametrize("at", POINTS, ids=("first", "second"))
 def test_a_trap_is_zero_and_its_near_misses_are_not(trap: Trap, at: dict[str, Fraction]) -> None:
     names = Names(parameters={name: num(value) for name, value in at.items()})
-    zero = interval(parse_expression(trap.zero, names))
+    zero = interval_of(parse_expression(trap.zero, names))
     assert zero is not None
     assert zero.contains(0)
     assert zero.abs_upper() < 1e-60
     for text in trap.misses:
-        near = interval(parse_expression(text, names))
+        near = interval_of(parse_expression(text, names))
         assert near is not None
         assert not near.contains(0)

@@ -21,6 +21,7 @@ from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr
 from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
 from dofkit.motion.lagrangian.rates import by_time
@@ -31,7 +32,7 @@ BY_CRAMER = 3
 
 def euler(e: Expr, name: str) -> Expr:
     """d/dt de/dqdot - de/dq."""
-    return by_time(ex.diff(e, ex.velocity(name))) - ex.diff(e, ex.coordinate(name))
+    return by_time(diff(e, ex.velocity(name))) - diff(e, ex.coordinate(name))
 
 
 def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | None:
@@ -249,16 +250,16 @@ def _consistent(rows: list[list[int]], p: int) -> list[bool]:
 def _in_time(e: Expr) -> Expr:
     """Differentials read as velocities."""
     rates = {s: ex.velocity(str(s.args[1])) for s in e.symbols if s.args[0] == "differential"}
-    return ex.substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
+    return substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
 
 
 def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
     """The coefficients of unknowns and what is left without them; None where ``e`` is not linear as written."""
-    row = [ex.diff(e, s) for s in unknown]
+    row = [diff(e, s) for s in unknown]
     moving = {*unknown}
     if any(c.symbols & moving or any(s.args[0] == "acceleration" for s in c.symbols) for c in row):
         return None
-    rest = ex.substitute(e, dict.fromkeys(unknown, ZERO))
+    rest = substitute(e, dict.fromkeys(unknown, ZERO))
     if any(s.args[0] in ("acceleration", "differential", "dt") for s in rest.symbols):
         return None
     return [*row, rest]
