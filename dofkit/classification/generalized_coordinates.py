@@ -14,7 +14,8 @@ from dofkit.configuration.local.neighbourhood import damped
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.configuration.variety import pose_point
 from dofkit.exact.engines import BOTH
-from dofkit.exact.points.balls import FloatPoint, RealSearch, jacobian
+from dofkit.exact.points.balls import FloatPoint, jacobian
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

@@ -25,7 +25,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.expressions.vectors import square_between
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.setting import Setting
 from dofkit.system import Distance, Place
 

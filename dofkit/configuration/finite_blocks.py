@@ -11,8 +11,8 @@ from dofkit.configuration.variety import Variety, field_jacobian, find
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse
-from dofkit.exact.points.balls import RealPoint
 from dofkit.exact.points.frames import sparse_frame
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.zero.independence import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

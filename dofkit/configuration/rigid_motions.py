@@ -9,8 +9,9 @@ import numpy as np
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.balls import BallPoint, RealSearch
+from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
 from dofkit.relations.ambient import free_point

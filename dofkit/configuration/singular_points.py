@@ -14,8 +14,9 @@ from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.singular_values import independent_part
-from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian
+from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.frames import Pivots
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart

@@ -15,10 +15,12 @@ from flint import arb
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.balls import BallPoint, RealPoint, RealSearch, jacobian
+from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
+from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.ring.instructions import Scalar
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import Ring, Scalar
+from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.solving.unknowns import Unit, unit_of
 from dofkit.exact.zero.independence import independent_generators

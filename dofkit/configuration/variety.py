@@ -19,11 +19,13 @@ from dofkit.configuration.singular_points import numeric_local
 from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
-from dofkit.exact.points.balls import BallPoint, RealPoint, RealSearch
+from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import Pivots, sparse_frame
+from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.ring.instructions import VAR, reachable
 from dofkit.exact.ring.program import gradient, value_of, values
-from dofkit.exact.ring.ring import VAR, Ring, reachable
+from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.ideals import complex_dimension
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import excludes_zero

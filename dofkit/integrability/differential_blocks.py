@@ -19,11 +19,12 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import sparse
-from dofkit.exact.points.balls import BallPoint, RealPoint
+from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, field_frame, pairing
+from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.ring.instructions import Scalar
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import Scalar
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

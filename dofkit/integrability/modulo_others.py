@@ -22,8 +22,9 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.ring.instructions import VAR, Scalar, reachable
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import VAR, Ring, Scalar, reachable
+from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

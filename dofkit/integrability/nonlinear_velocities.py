@@ -14,9 +14,10 @@ from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.states import States
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.points.balls import BallPoint, RealPoint
+from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, certified_rank, kernel
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.setting import Setting

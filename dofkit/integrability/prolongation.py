@@ -18,9 +18,9 @@ from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.frames import FormRows
 from dofkit.exact.ring.canonical import Canon, divided
+from dofkit.exact.ring.instructions import Point, Scalar
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import Point, Scalar
 from dofkit.expressions.tree import Expr
 
 #: Choices of columns that are looked at, and minors that are divided out of each other.

@@ -8,7 +8,7 @@ from itertools import combinations
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.balls import RealSearch
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring

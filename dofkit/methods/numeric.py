@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.exact.points.balls import FloatPoint, RealSearch
-from dofkit.exact.ring.ring import Scalar
+from dofkit.exact.points.balls import FloatPoint
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.instructions import Scalar
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.methods.ask import CONTRADICTORY

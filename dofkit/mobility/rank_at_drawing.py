@@ -56,8 +56,7 @@ def drawn_rank(system: System, positive: frozenset[Expr]) -> DrawnRank | None:
         return None
     rank = rank_of_rows(rows, placement.p)
     left = len(system.coordinates) - rank
-    still = all(TIME not in r.expr.symbols for c in system.constraints for r in c.relations)
-    if rank == len(rows) or (still and left in (0, _motions_of_the_whole(system, placement))):
+    if rank == len(rows) or (left in (0, _motions_of_the_whole(system, placement)) and _still(system)):
         return DrawnRank(rows, owners, placement.p, left, rank == len(rows), copies)
     return None
 
@@ -97,6 +96,11 @@ def _numbers(system: System) -> Iterator[Expr]:
     for c in system.connections:
         for vector in (*c.places, *c.directions, *(point.at for point in c.points)):
             yield from vector or ()
+
+
+def _still(system: System) -> bool:
+    """Does time not enter?"""
+    return all(TIME not in r.expr.symbols for c in system.constraints for r in c.relations)
 
 
 def _motions_of_the_whole(system: System, placement: Placement) -> int:

@@ -19,9 +19,10 @@ from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.errors import PoleError
 from dofkit.exact.matrices.singular_values import independent_part
 from dofkit.exact.matrices.sparse import sparse
-from dofkit.exact.points.balls import PRECISION, BallPoint, RealSearch
+from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import field_point
 from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame, field_rank
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series, SeriesPoint, series_values
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.program import gradient, values
@@ -35,7 +36,8 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.growth_vector import growth
 from dofkit.integrability.lie_algebra import lie_span
 from dofkit.relations.normal.normal_form import Finite, Nonlinear, Normal, Pfaffian, normalise
-from dofkit.relations.normal.zero_set import never_holds, never_vanishes, zero_set
+from dofkit.relations.normal.semidefinite import never_holds
+from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 from dofkit.report import Report
 
 X, Y, Z = map(ex.coordinate, "xyz")

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+import dofkit
+from dofkit.base.errors import SceneError
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME, Expr, coordinate, diff, parameter, velocity
 from dofkit.scene.constraints import TYPES
@@ -87,6 +89,7 @@ CASES: dict[tuple[str, int], tuple[dict[str, Any], int]] = {
     ("string", 2): ({"along": ["A", [0, 0], "B"], "length": 3}, 1),
     ("string", 3): ({"along": ["A", [0, 0, 0], "B"]}, 1),
     ("gear", 2): ({"between": ["b", "c"], "ratio": -2}, 1),
+    ("cam", 2): ({"point": "A", "body": "b", "curve": "x^2 + 2 y^2 = 3"}, 1),
 }
 FIXED_POINTS = [({"point": "A"}, 1), ({"point": {"on": "b", "at": [1, 2]}}, 2), ({"point": "A"}, 3)]
 JOINTS = [case for case in CASES if "at" in CASES[case][0] or "axis" in CASES[case][0]]
@@ -201,6 +204,14 @@ def test_strings_and_gears_by_hand() -> None:
     gears = {"type": "gear", "between": ["a", "b"], "ratio": -2, "carrier": "arm"}
     (text,) = texts(system(2, gears, bodies=["a", "b", "arm"]))
     assert text == "theta_b - 3*theta_arm + 2*theta_a = 0"
+
+
+def test_cams_by_hand() -> None:
+    groove = {"type": "cam", "point": "A", "body": GROUND, "curve": "x^2 + 2 y^2 = 3"}
+    assert texts(system(2, groove, particles=["A"])) == ["x_A^2 + 2*y_A^2 - 3 = 0"]
+    face = {"type": "cam", "point": [3, 0], "body": "b", "curve": "x = e(t)"}
+    (text,) = texts(system(2, face, bodies=["b"], functions={"e": ["t"]}))
+    assert text == "cos(theta_b)*(3 - x_b) - sin(theta_b)*y_b - e(t) = 0"
 
 
 def test_notes() -> None:
@@ -409,6 +420,74 @@ def test_a_slot_carried_by_a_body() -> None:
     assert max(abs(value(r.expr, at)) for r in found.constraints[0].relations) < 1e-9
     at[coordinate("y_A")] += 0.1
     assert max(abs(value(r.expr, at)) for r in found.constraints[0].relations) > 1e-3
+
+
+@pytest.mark.parametrize("start", [{}, {"x_b": 1, "y_b": "1/2", "theta_b": 2, "x_c": 3}])
+@pytest.mark.parametrize("follower", ["particle", "body", "world"])
+def test_a_profile_moves_and_turns_with_its_body(follower: str, start: dict[str, Any]) -> None:
+    """The point of the ellipse at parameter s, wherever the body's frame is, and no other."""
+    point: Any = {"particle": "A", "body": {"on": "c", "at": [1, 2]}, "world": [1, 2]}[follower]
+    cam = {"type": "cam", "point": point, "body": "b", "curve": "x^2/9 + y^2/4 = k (1 + t)^2"}
+    found = system(2, cam, particles=["A"], bodies=["b", "c"], parameters=["k"], configuration=start)
+    (relation,) = [r.expr for r in found.constraints[0].relations]
+    c_turn, c_start = 0.7, np.array([float(start.get("x_c", 0)), 0.0])
+    at: dict[Expr, float] = {TIME: 0.2, parameter("k"): 1}
+    at |= {coordinate("x_c"): -1, coordinate("y_c"): 0.3, coordinate("theta_c"): c_turn}
+    carried = turn(c_turn) @ (np.array([1, 2]) - c_start) + [-1, 0.3]
+    place = {"particle": np.array([4.0, -2.0]), "body": carried, "world": np.array([1, 2])}[follower]
+    at |= {coordinate("x_A"): place[0], coordinate("y_A"): place[1]}
+    for s, angle in ((0.4, 1.1), (2.0, -0.5)):
+        own = 1.2 * np.array([3 * math.cos(s), 2 * math.sin(s)])
+        origin = place - turn(angle) @ own
+        at |= {coordinate("x_b"): origin[0], coordinate("y_b"): origin[1], coordinate("theta_b"): angle}
+        assert abs(value(relation, at)) < 1e-12
+        assert abs(value(relation, {**at, coordinate("theta_b"): angle + 0.1})) > 1e-3
+
+
+def test_a_drawn_cam_moves_to_first_order_as_a_slot_along_its_tangent() -> None:
+    """The tangent of 2 x^2 + y^2 = 6 at (1, 2) is (-1, 1), also seen from a frame that was placed and turned."""
+    slot = {"type": "slot", "point": "A", "body": "b", "at": [1, 2], "axis": [-1, 1]}
+    given = {"particles": [{"name": "A", "at": [1, 2]}], "bodies": ["b"]}
+    poses = [("2 x^2 + y^2 = 6", {}), ("2 (1 - y)^2 + (x + 3)^2 = 6", {"x_b": 1, "y_b": 3, "theta_b": "pi/2"})]
+    for curve, pose in poses:
+        drawn = {**given, "configuration": {"x_b": 0, "y_b": 0, "theta_b": 0, **pose}}
+        cam = {"type": "cam", "point": "A", "body": "b", "curve": curve}
+        one, other = (system(2, c, **drawn).connections[0] for c in (cam, slot))
+        assert one.members == other.members
+        assert [value(x, {}) * 4 for x in one.directions[0] or ()] == pytest.approx([-16, 16])
+
+
+@pytest.mark.parametrize("curve", ["abs(x - 1) = y - 2", "(x - 1)^2 = (y - 2)^3", "h(x) = y", "x + y = p"])
+def test_no_tangent_at_a_corner_a_cusp_or_where_the_profile_is_not_known(curve: str) -> None:
+    cam = {"type": "cam", "point": "A", "body": GROUND, "curve": curve}
+    more = {"particles": [{"name": "A", "at": [1, 2]}], "functions": {"h": ["s"]}, "parameters": ["p"]}
+    found = system(2, cam, **more)
+    assert found.connections[0].directions == (None,)
+    assert (found.reference is None) == (curve == "x + y = p")
+
+
+def test_a_body_that_nothing_places_may_touch_anywhere() -> None:
+    cam = {"type": "cam", "point": [7, 0], "body": "b", "curve": "x^2 + y^2 = 1"}
+    assert system(2, cam, bodies=["b"]).reference is None
+    pin = {"type": "revolute", "between": [GROUND, "b"], "at": [0, 0]}
+    for order in ([pin, cam], [cam, pin]):
+        with pytest.raises(SceneError, match=r"off the profile of b: there `.*` fails by 48"):
+            system(2, *order, bodies=["b"])
+        measured = {**cam, "curve": "x^2 + y^2 = 49.0001"}
+        assert system(2, *[measured if c is cam else c for c in order], bodies=["b"], tolerance=0.001).reference
+
+
+def test_two_profiles_that_touch_are_not_one_contact() -> None:
+    """At the drawing both say the same of velocities; the bead can go on along neither of them."""
+    bead = {"type": "cam", "point": "A", "body": GROUND}
+    given = {"dimension": 2, "particles": [{"name": "A", "at": [0, 1]}]}
+    curves = ["x^2 + y^2 = 1", "y = 1"]
+    scene = dofkit.load({**given, "constraints": [{**bead, "curve": curve} for curve in curves]})
+    assert dofkit.ask(scene, "dof").value == 0
+    assert dofkit.ask(scene, "redundancy").value == []
+    again = dofkit.load({**given, "constraints": [{**bead, "curve": curves[0]}] * 2})
+    assert dofkit.ask(again, "dof").value == 1
+    assert dofkit.ask(again, "redundancy").value == ["c2"]
 
 
 def test_generic_joints_close_at_the_pose() -> None:

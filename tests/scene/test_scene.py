@@ -242,6 +242,7 @@ def space(constraint: Any) -> dict[str, Any]:
 
 
 C0 = ("constraints", 0)
+CAM = {"type": "cam", "point": "B", "body": "ground"}
 BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
     ({"particels": ["A"]}, ("particels",), None, "unknown key 'particels'", "'particles'"),
     ({"particles": [{"name": "A", "mas": 1}]}, ("particles", 0, "mas"), None, "unknown key 'mas'", "'mass'"),
@@ -302,6 +303,7 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
         (*C0, "axis"), None, "cannot be zero", "",
     ),
     (plane({"type": "on", "members": ["A"], "surface": "x + w"}), (*C0, "surface"), 5, "`w` is not declared", ""),
+    (plane({"type": "on", "members": ["A", [1, 0]], "curve": "x/y = 1"}), (*C0, "members", 1), None, "no value", ""),
     (plane({"type": "on", "members": ["A"]}), C0, None, "`surface` or `curve`", ""),
     (plane({"type": "rigid", "members": ["A", "A"]}), (*C0, "members", 1), None, "named twice", ""),
     (plane({"type": "fixed", "body": "ground"}), (*C0, "body"), None, "fixed already", ""),
@@ -309,6 +311,18 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
     (
         plane({"type": "slot", "point": "B", "body": "ground", "at": [0, 0], "axis": [1, 1]}),
         (*C0, "point"), None, "off the line", "",
+    ),
+    (plane({**CAM, "curve": "x^2 + w"}), (*C0, "curve"), 7, "`w` is not declared", "x, y"),
+    (plane({**CAM, "curve": "x = y_B"}), (*C0, "curve"), None, "coordinate y_B cannot stand", "x and y of the body"),
+    (plane({**CAM, "curve": "x = ydot"}), (*C0, "curve"), None, "velocity of y cannot stand", ""),
+    (plane({**CAM, "curve": "x <= 1"}), (*C0, "curve"), None, "one equation in x and y", "inequality"),
+    (plane({**CAM, "curve": "1 = 1"}), (*C0, "curve"), None, "one equation in x and y", ""),
+    (plane({**CAM, "curve": "x^2 + y^2 = 9"}), (*C0, "point"), None, "B at (1, 2), off the profile", "move"),
+    (plane({**CAM, "curve": "y/(x - 1) = 2"}), (*C0, "point"), None, "has no value", "move"),
+    (plane({**CAM, "point": [1, 2], "curve": "x = 1"}), (*C0, "point"), None, "a point of ground itself", ""),
+    (
+        space({"type": "cam", "point": [1, 0, 0], "body": "a", "curve": "x = 1"}),
+        (*C0, "type"), None, "dimension 2", "in space",
     ),
     (
         plane({"type": "coincident", "between": ["B", {"on": "crank", "at": [1, 3]}]}),

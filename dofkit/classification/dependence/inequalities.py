@@ -9,7 +9,8 @@ from flint import arb
 
 from dofkit.classification.dependence.implication import follows
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.balls import BallPoint, RealSearch
+from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr

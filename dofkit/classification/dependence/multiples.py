@@ -13,7 +13,8 @@ from flint import fmpq, fmpq_poly
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, Poly
-from dofkit.exact.ring.ring import POW, Ring
+from dofkit.exact.ring.instructions import POW
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian
 from dofkit.relations.reduced import Reduced

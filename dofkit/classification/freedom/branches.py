@@ -19,7 +19,7 @@ from dofkit.relations.beside_others import reduced as reduced_velocities
 from dofkit.relations.blocks import Block, Row, parted, split
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Still
-from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System

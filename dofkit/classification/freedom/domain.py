@@ -16,7 +16,7 @@ from dofkit.classification.freedom.block import answer
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
 from dofkit.configuration.variety import find
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.balls import RealPoint, RealSearch
+from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text

@@ -12,9 +12,10 @@ from dofkit.base.verdicts import Verdict
 from dofkit.configuration.variety import on_variety
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.balls import PRECISION, BallPoint, RealSearch
+from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame, rank_over
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex

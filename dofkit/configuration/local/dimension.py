@@ -25,7 +25,7 @@ from dofkit.configuration.local.neighbourhood import holds_away
 from dofkit.configuration.local.second_order import UNDECIDED, by_signs, decide
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.points.balls import precision
-from dofkit.exact.ring.ring import Scalar
+from dofkit.exact.ring.instructions import Scalar
 
 #: Orders to which the other relations are followed; the second where one motion is in question.
 ORDER, LONG_ORDER = 8, 16

@@ -15,7 +15,7 @@ import numpy as np
 from flint import arb, nmod, nmod_mat
 
 from dofkit.base.deadline import check
-from dofkit.exact.ring.ring import Scalar
+from dofkit.exact.ring.instructions import Scalar
 
 Form = Sequence[Sequence[Scalar]]
 #: The most linear conditions by which the complex cone is cut: their Macaulay matrix has comb(2 c, c + 1) columns.

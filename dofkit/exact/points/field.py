@@ -19,8 +19,9 @@ from flint import fmpz, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit.exact.errors import NoPointError, NoValueError
+from dofkit.exact.ring.instructions import Scalar, Var
 from dofkit.exact.ring.program import value_of
-from dofkit.exact.ring.ring import Ring, Scalar, Var
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 
 PRIME_BITS = 61

@@ -12,7 +12,8 @@ from dofkit.base.deadline import check
 from dofkit.exact.errors import PoleError, raising_no_value
 from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
 from dofkit.exact.points.series import Series
-from dofkit.exact.ring.ring import Ring, Scalar
+from dofkit.exact.ring.instructions import Scalar
+from dofkit.exact.ring.ring import Ring
 
 
 @dataclass(frozen=True)

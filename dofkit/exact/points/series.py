@@ -10,8 +10,9 @@ from typing import Any
 from flint import arb, arb_poly, nmod, nmod_poly
 
 from dofkit.exact.errors import PoleError
+from dofkit.exact.ring.instructions import Point, Scalar, Var
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import Point, Ring, Scalar, Var
+from dofkit.exact.ring.ring import Ring
 
 #: An unknown function's composition uses this many of its derivatives by several arguments at most.
 MAX_JET = 400

@@ -15,8 +15,9 @@ from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError, PoleError, TooLargeError, raising_no_value
+from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW
 from dofkit.exact.ring.program import reachable
-from dofkit.exact.ring.ring import ADD, MUL, NUM, POW, Ring
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 

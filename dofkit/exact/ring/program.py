@@ -9,7 +9,8 @@ from flint import arb
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import raising_no_value
-from dofkit.exact.ring.ring import ADD, MUL, NUM, POW, VAR, Point, Ring, Scalar, Var, reachable
+from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW, VAR, Point, Scalar, Var, reachable
+from dofkit.exact.ring.ring import Ring
 
 
 @raising_no_value

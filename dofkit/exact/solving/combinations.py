@@ -10,7 +10,8 @@ from flint import fmpq_mat
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.ring import ADD, MUL, NUM, Ring
+from dofkit.exact.ring.instructions import ADD, MUL, NUM
+from dofkit.exact.ring.ring import Ring
 
 #: Relations are combined while their coefficients fit a matrix of this many entries.
 COMBINED_ENTRIES = 20_000

@@ -16,8 +16,9 @@ from typing import Any
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoPointError, NoValueError
 from dofkit.exact.points.field import FieldPoint, field_point
+from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW
 from dofkit.exact.ring.program import reachable
-from dofkit.exact.ring.ring import ADD, MUL, NUM, POW, Ring
+from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.combinations import combined
 from dofkit.exact.solving.unknowns import Unit, is_linear, root_relations, units_in, univariate, value_along
 from dofkit.exact.zero.independence import independent_generators

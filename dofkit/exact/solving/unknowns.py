@@ -13,8 +13,9 @@ from dofkit.base.deadline import check
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.rational import Rational
+from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW, VAR
 from dofkit.exact.ring.program import reachable
-from dofkit.exact.ring.ring import ADD, MUL, NUM, POW, VAR, Ring
+from dofkit.exact.ring.ring import Ring
 
 Unit = tuple[str, int]
 

@@ -9,8 +9,9 @@ from flint import ctx
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.balls import BallPoint, RealSearch, fixed_bits
+from dofkit.exact.points.balls import BallPoint, fixed_bits
 from dofkit.exact.points.field import field_point
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring

@@ -10,8 +10,9 @@ from flint import nmod_poly
 
 from dofkit.exact.errors import NoPointError, NoValueError
 from dofkit.exact.points.field import FieldPoint, field_point
+from dofkit.exact.ring.instructions import VAR, Var, reachable
 from dofkit.exact.ring.program import value_of
-from dofkit.exact.ring.ring import VAR, Ring, Var, reachable
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 

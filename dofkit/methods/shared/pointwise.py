@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from dofkit.exact.ring.instructions import Point, Scalar
 from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.ring.ring import Point, Ring, Scalar
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.methods.shared.as_written import Written, WrittenAnswer, labelled

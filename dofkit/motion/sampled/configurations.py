@@ -12,7 +12,8 @@ from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.base.errors import DofkitError
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.exact.points.balls import PRECISION, RealSearch
+from dofkit.exact.points.balls import PRECISION
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.motion.sampled.continuation import STRAIGHT, Follower, Reached

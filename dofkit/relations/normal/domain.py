@@ -10,14 +10,16 @@ from dataclasses import dataclass
 from typing import Literal
 
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.balls import BallPoint, RealSearch
+from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon, lowest_terms
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import told_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.zero_set import never_holds, never_vanishes
+from dofkit.relations.normal.semidefinite import never_holds
+from dofkit.relations.normal.zero_set import never_vanishes
 
 Sense = Literal[">=", ">", "!="]
 

@@ -23,8 +23,9 @@ from dofkit.exact.boxes.contraction import contract
 from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, constant, middle
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.instructions import Var
 from dofkit.exact.ring.radicals import known_signs
-from dofkit.exact.ring.ring import Ring, Var
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.zero_set import never_vanishes

@@ -21,10 +21,11 @@ from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
+from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
 from dofkit.relations.normal.quadratics import split_power, split_quadratic
 from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs, holds_on_a_region, squared
 from dofkit.relations.normal.velocity_roots import in_one_rate, solved
-from dofkit.relations.normal.zero_set import PRODUCT_NOTE, Conjunction, zero_set
+from dofkit.relations.normal.zero_set import zero_set
 
 
 @dataclass(frozen=True)

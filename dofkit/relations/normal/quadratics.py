@@ -18,7 +18,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.elimination import by_velocities
-from dofkit.relations.normal.zero_set import Signs, sum_of_even
+from dofkit.relations.normal.semidefinite import Signs, sum_of_even
 
 Matrix = list[list[Expr]]
 

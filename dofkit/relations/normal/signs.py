@@ -16,7 +16,7 @@ from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.normal.semidefinite import never_holds
 
 #: Arguments whose signs are tried.
 MAX_ARGUMENTS = 4

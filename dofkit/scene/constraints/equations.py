@@ -100,7 +100,12 @@ class On(ConstraintBase):
             stands = {coordinate(letter): part for letter, part in zip(letters, _position(point), strict=True)}
             for j, (e, sense) in enumerate(read):
                 part = f"at {show_point(member)}" + (f", text {j + 1}" if len(read) > 1 else "")
-                yield Relation(substitute(e, stands), sense, part)
+                try:
+                    found = substitute(e, stands)
+                except ZeroDivisionError:
+                    world.fault(f"the text has no value at {show_point(member)}", "members", i)
+                    return
+                yield Relation(found, sense, part)
 
     def notes(self, world: World) -> Iterator[str]:
         if world.dimension != 3 or self.curve is None:
