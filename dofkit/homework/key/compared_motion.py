@@ -53,8 +53,8 @@ def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | Non
 def _spanned(forces: Sequence[Expr], known: RightMotion) -> bool | None:
     """Are forces sums of those of the constraints, at every state and acceleration that these allow?"""
     columns = [ex.sym("acceleration", n) for n in known.names]
-    lines = [linear(known.moved(e), columns) for e in forces]
-    held = [linear(known.moved(e), columns) for e in known.rows]
+    lines = [linear(known.on_constraints(e), columns) for e in forces]
+    held = [linear(known.on_constraints(e), columns) for e in known.rows]
     if None in lines or None in held:
         return None
     ring = Ring([e for row in (*lines, *held) for e in row or ()] + [*known.relations], known.positive)
@@ -118,7 +118,7 @@ class AnsweredMotion:
         found = []
         unknown = [*self.columns, *self.own]
         for e in self.equations:
-            e = self.known.moved(self.known.inserted(_in_time(e)))
+            e = self.known.on_constraints(self.known.in_kept(_in_time(e)))
             row = linear(e, unknown)
             if row is None:
                 return None
@@ -130,7 +130,7 @@ class AnsweredMotion:
         """The same of the scene's equations with their multipliers, and the constraints' accelerations."""
         unknown = [*self.columns, *self.known.multipliers]
         given = [*self.known.equations.values(), *self.known.rows]
-        return [row for e in given if (row := linear(self.known.moved(e), unknown)) is not None]
+        return [row for e in given if (row := linear(self.known.on_constraints(e), unknown)) is not None]
 
     @property
     def decidable(self) -> bool:

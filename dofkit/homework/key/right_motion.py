@@ -53,17 +53,17 @@ class RightMotion:
     unreduced: Mapping[str, tuple[Expr, Expr]]
     positive: frozenset[Expr]
 
-    def inserted(self, e: Expr) -> Expr:
+    def in_kept(self, e: Expr) -> Expr:
         """An answer in the coordinates that are kept."""
         return substitute(e, self.motions)
 
-    def moved(self, e: Expr) -> Expr:
+    def on_constraints(self, e: Expr) -> Expr:
         """The same where the constraints hold."""
         return substitute(e, self.rates)
 
     def zero(self, e: Expr) -> bool | None:
         """Is an expression 0 where the constraints hold? None where that was not decided."""
-        moved = self.moved(e)
+        moved = self.on_constraints(e)
         found = is_zero(moved, self.positive)
         return found if found is not False or not self.relations else self._zero_there(moved)
 
@@ -103,7 +103,7 @@ def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
     for piece in model.constraints:
         if isinstance(piece, (Pfaffian, Finite)):
             form = by_time(piece.expr) if isinstance(piece, Finite) else in_velocities(piece)
-            _solved(form, rates, model.positive)
+            _add_rate(form, rates, model.positive)
     given = model.whole
     unreduced = {}
     for c in model.study.system.coordinates:
@@ -129,7 +129,7 @@ def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
     )
 
 
-def _solved(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) -> None:
+def _add_rate(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) -> None:
     """One more velocity by the others, from a form that is 0."""
     form = substitute(form, rates)
     for v in sorted((s for s in form.symbols if s.args[0] == "velocity"), key=lambda s: s.args):

@@ -54,7 +54,7 @@ def linearized(derived: Derived) -> Linearized:
         told = _matrices(derived, equilibrium, bridge)
         if told is not None:
             others = [_texts(derived, bridge, e) for e in found if e is not equilibrium]
-            return _told(derived, bridge, equilibrium, told, others)
+            return _linearized(derived, bridge, equilibrium, told, others)
     raise NoEquationsError("the constraints are singular at the equilibrium")
 
 
@@ -123,7 +123,7 @@ def _texts(derived: Derived, bridge: Bridge, at: Equilibrium) -> dict[str, str]:
     return found
 
 
-def _told(
+def _linearized(
     derived: Derived, bridge: Bridge, at: Equilibrium, found: Matrices, others: list[dict[str, str]]
 ) -> Linearized:
     import sympy
