@@ -28,8 +28,9 @@ from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.differential_blocks import Codistribution
+from dofkit.integrability.codistribution import Codistribution
 from dofkit.integrability.integrals.normal_shape import arranged, upright
 from dofkit.relations.ambient import free_point
 
@@ -113,6 +114,11 @@ def shown(f: Expr) -> Expr:
 
 
 class IntegralSearch:
+    """The functions of some forms that are constant along D = ker I, looked for among products of what occurs in them.
+
+    At points over GF(p) on the finite relations the differentials of the products are held against D.
+    """
+
     def __init__(self, forms: Codistribution, seed: int) -> None:
         forms = self.forms = _with_all_symbols(forms)
         self.seed, chart = seed, forms.chart
@@ -309,7 +315,7 @@ def _simplest_first(null: nmod_mat, nullity: int, columns: int, p: int) -> Itera
 
 
 def _rational(value: int, p: int) -> Fraction | None:
-    """The fraction with small terms that is ``value`` modulo p (Wang 1981); None where there is none."""
+    """The fraction with small terms that is ``value`` modulo p [Wang1981]; None where there is none."""
     bound = isqrt(p // 2)
     r0, r1, t0, t1 = p, value % p, 0, 1
     while r1 > bound:
@@ -325,7 +331,7 @@ def _identically(forms: Codistribution, f: Expr, sample: _Sample) -> bool | None
     chart = forms.chart
     if len(chart.nodes) > 1 or len(forms.rows.entries) > MAX_ROWS:
         return None
-    slopes = {i: chart.ring.node(ex.diff(f, s)) for i, s in enumerate(chart.symbols) if s in f.symbols}
+    slopes = {i: chart.ring.node(diff(f, s)) for i, s in enumerate(chart.symbols) if s in f.symbols}
     try:
         canon = Canon(chart.ring)
         relation = canon.quotient(chart.nodes[0])[0] if chart.nodes else None

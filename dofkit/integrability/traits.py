@@ -15,10 +15,11 @@ from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import is_zero, told_zero
+from dofkit.exact.zero.identity import is_zero, zero_and_verdict
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import interval
+from dofkit.expressions.calculus import diff
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import Finite, Inequality, Pfaffian, Piece, velocities_of
@@ -68,7 +69,7 @@ def _inequality_without_time(g: Expr, positive: frozenset[Expr]) -> Told:
 def _nonlinear_without_time(e: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
     """Neither t nor a hidden dt: on e = 0 both de/dt and v . de/dv vanish (Euler: the set is a cone in v)."""
     moving = sorted(velocities_of(e), key=repr)
-    radial = ex.add(*(v * ex.diff(e, v) for v in moving))
+    radial = ex.add(*(v * diff(e, v) for v in moving))
     cone: Told = (True, "proved") if _homogeneous(e, radial) else _vanishes_on(e, radial, positive, engines)
     parts = [_finite_without_time(e, positive, engines), cone]
     if any(holds is False for holds, _ in parts):
@@ -80,12 +81,12 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
     """dg/dt = 0 on g = 0."""
     if ex.TIME not in g.symbols or _factors_without_time(g, positive):
         return True, "proved"
-    return _vanishes_on(g, ex.diff(g, ex.TIME), positive, engines)
+    return _vanishes_on(g, diff(g, ex.TIME), positive, engines)
 
 
 def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
     """Is ``slope`` = 0 wherever g = 0? A certified point where it is not is a proof that it is not."""
-    still, sure = told_zero(slope, positive, engines)
+    still, sure = zero_and_verdict(slope, positive, engines)
     if still:
         return True, sure
     ring = Ring([g, slope], positive)
@@ -110,7 +111,7 @@ def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engin
 
 def _moves(g: Expr, positive: frozenset[Expr]) -> bool:
     """Is there a certified zero of g at which dg/dt is not 0? False says nothing."""
-    slope = ex.diff(g, ex.TIME)
+    slope = diff(g, ex.TIME)
     ring = Ring([g, slope], positive)
     node, rate = ring.node(g), ring.node(slope)
     try:
@@ -136,14 +137,14 @@ def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> Told:
-    still, sure = told_zero(form.dt, positive, engines)
+    still, sure = zero_and_verdict(form.dt, positive, engines)
     if not still:
         return still, sure
     coefficients = list(form.coefficients.values())
     if all(ex.TIME not in e.symbols for e in coefficients):
         return True, sure
-    turning = [a * ex.diff(b, ex.TIME) - b * ex.diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
-    told = [told_zero(e, positive, engines) for e in turning]
+    turning = [a * diff(b, ex.TIME) - b * diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
+    told = [zero_and_verdict(e, positive, engines) for e in turning]
     if any(zero is False for zero, _ in told):
         return False, min((v for zero, v in told if zero is False), key=VERDICTS.index)
     if not all(zero for zero, _ in told):
@@ -192,7 +193,7 @@ def _ratio(a: Expr, b: Expr) -> Fraction | None:
     rng = random.Random("dofkit degree")
     for _ in range(DRAWS):
         point = {s: Fraction(rng.randrange(64, 257), 97) for s in symbols}
-        above, below = interval(a, point), interval(b, point)
+        above, below = interval_of(a, point), interval_of(b, point)
         if above is None or below is None or below.contains(0):
             continue
         value = float((above / below).mid())
@@ -203,7 +204,7 @@ def _ratio(a: Expr, b: Expr) -> Fraction | None:
 
 def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
     """No dt term."""
-    return told_zero(form.dt, positive, engines)
+    return zero_and_verdict(form.dt, positive, engines)
 
 
 def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
@@ -214,7 +215,7 @@ def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) ->
     everything = [*items, *((s, ex.ZERO) for s in others)]
     sure: Verdict = "proved"
     for (s, a), (u, b) in combinations(everything, 2):
-        closed, verdict = told_zero(ex.diff(b, s) - ex.diff(a, u), positive, engines)
+        closed, verdict = zero_and_verdict(diff(b, s) - diff(a, u), positive, engines)
         if not closed:
             return closed, verdict
         sure = weakest(sure, verdict)

@@ -13,8 +13,9 @@ from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate, differs_from_zero
-from dofkit.expressions.tree import ONE, TIME, ZERO, Expr, coordinate, parameter, substitute
+from dofkit.expressions.tree import ONE, TIME, ZERO, Expr, coordinate, parameter
 from dofkit.expressions.vectors import Vec, across
 from dofkit.scene.fields import Vector
 from dofkit.scene.frames import Chart, Frame, Placed

@@ -12,8 +12,9 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.text import Names, parse_expression, parse_relations
-from dofkit.expressions.tree import ZERO, Expr, coordinate, diff, parameter, substitute, sym, velocity
+from dofkit.expressions.tree import ZERO, Expr, coordinate, parameter, sym, velocity
 from dofkit.motion.lagrangian.equations import MotionReport
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import survey

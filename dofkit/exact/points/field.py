@@ -1,4 +1,4 @@
-"""Random points over GF(p): zero here is zero of the function, with error at most degree/p a point.
+"""Random points over GF(p): zero here is zero of the function, with error at most degree/p a point [SchwartzZippel].
 
 Primes have 61 bits and are drawn at random (a fixed prime is a trap: x^(p-1) - 1), with p = 1 modulo the
 orders of the roots of unity that the scene mentions. sin and cos of a basic angle are a random point of
@@ -19,6 +19,7 @@ from flint import fmpz, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit.exact.errors import NoPointError, NoValueError
+from dofkit.exact.points.characters import Character
 from dofkit.exact.ring.instructions import Scalar, Var
 from dofkit.exact.ring.program import value_of
 from dofkit.exact.ring.ring import Ring
@@ -82,10 +83,6 @@ def _has_root(value: int, degree: int, p: int) -> bool:
     return pow(value, (p - 1) // gcd(degree, p - 1), p) == 1
 
 
-#: Of exp(u) = v and u = log(v) each gives the other.
-_INVERSE = {"exp": "log", "log": "exp"}
-
-
 class FieldPoint:
     """Values in GF(p) for every generator; those not ``given`` are drawn at random and kept."""
 
@@ -95,6 +92,7 @@ class FieldPoint:
         self.order = order
         self.given: dict[tuple[str, object], Scalar] = {}
         self._taken: dict[tuple[object, ...], Scalar] = {}
+        self._exponentials, self._turns = Character(p), Character(p)
         self._agreed: set[tuple[str, object]] = set()
         self._zeta: Scalar = None
         self._imaginary: Scalar = None
@@ -108,6 +106,7 @@ class FieldPoint:
         other = FieldPoint(self.p, self.rng, self.order)
         other.given = dict(self.given)
         other._taken, other._agreed = dict(self._taken), set(self._agreed)
+        other._exponentials, other._turns = self._exponentials.copy(), self._turns.copy()
         other._zeta, other._imaginary = self._zeta, self._imaginary
         return other
 
@@ -124,11 +123,22 @@ class FieldPoint:
         found = self.given.get(name)
         if found is None:
             found = self.given[name] = self._draw(var, args)
-        elif args and name not in self._agreed and var.kind not in ("cos", "sin"):
+        elif args and name not in self._agreed:
             self._agreed.add(name)
-            if self._of_arguments(var, args, lambda: found) != found:
-                raise NoPointError("a function with two values at one place")
+            self._agree(var, args, found)
         return found
+
+    def _agree(self, var: Var, args: Sequence[Scalar], value: Scalar) -> None:
+        """Take the value that a generator was given. Raises NoPointError where its function has another one there."""
+        if var.kind == "exp":
+            self._exponentials.agree(args[0], value)
+        elif var.kind in ("cos", "sin"):
+            if var.key[0] != ex.PI and ("sin" if var.kind == "cos" else "cos", var.key) in self.given:
+                self._setup_unity()
+                cos, sin = self.given["cos", var.key], self.given["sin", var.key]
+                self._turns.agree(args[0], cos + self._imaginary * sin)
+        elif self._of_arguments(var, args, lambda: value) != value:
+            raise NoPointError("a function with two values at one place")
 
     def _of_arguments(self, var: Var, args: Sequence[Scalar], draw: Callable[[], Scalar]) -> Scalar:
         """The value that this function has taken at these arguments, however they are written; else a new one.
@@ -138,15 +148,15 @@ class FieldPoint:
         head = var.key[:2] if var.kind == "call" else ()
         key = (var.kind, *head, var.degree, *map(int, args))
         if key not in self._taken:
-            self._taken[key] = value = draw()
-            if var.kind in _INVERSE:
-                self._taken.setdefault((_INVERSE[var.kind], 1, int(value)), args[0])
+            self._taken[key] = draw()
         return self._taken[key]
 
     def _draw(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         if var.kind in ("cos", "sin"):
             self._draw_angle(var, args)
             return self.given[var.kind, var.key]
+        if var.kind == "exp" and args:
+            return self._exponentials.at(args[0], self.random)
         return self._of_arguments(var, args, partial(self._draw_value, var, args)) if args else self.random()
 
     def _draw_value(self, var: Var, args: Sequence[Scalar]) -> Scalar:
@@ -154,9 +164,22 @@ class FieldPoint:
             return self._root(var, args[0])
         if var.kind == "sign":
             return nmod(self.rng.choice((1, self.p - 1)), self.p)
-        if args and var.kind != "call" and args[0] == (1 if var.kind == "log" else 0):
-            return nmod(1 if var.kind == "exp" else 0, self.p)
+        if var.kind == "log":
+            return self._logarithm(args[0])
+        if args and var.kind != "call" and args[0] == 0:
+            return nmod(0, self.p)
         return self.random()
+
+    def _logarithm(self, value: Scalar) -> Scalar:
+        """u where v = exp(u) was taken before; else at random, and then exp(u) = v."""
+        if value == 1:
+            return nmod(0, self.p)
+        for u, v in self._exponentials.values.items():
+            if v == value:
+                return nmod(u, self.p)
+        drawn = self.random()
+        self._exponentials.agree(drawn, value)
+        return drawn
 
     def _draw_angle(self, var: Var, args: Sequence[Scalar]) -> None:
         rest, denominator = var.key
@@ -165,13 +188,16 @@ class FieldPoint:
         elif args[0] == 0:
             cos, sin = nmod(1, self.p), nmod(0, self.p)
         else:
-            opposite = int(args[0]) > self.p // 2
-            w = self._of_arguments(Var(-1, "angle", (), var.args), [-args[0] if opposite else args[0]], self.random)
-            w = -w if opposite else w
-            below = 1 + w * w
-            cos, sin = (1 - w * w) / below, 2 * w / below
+            self._setup_unity()
+            z = self._turns.at(args[0], self._turn)
+            cos, sin = (z + 1 / z) / 2, (z - 1 / z) / (2 * self._imaginary)
         self.given["cos", var.key] = cos
         self.given["sin", var.key] = sin
+
+    def _turn(self) -> Scalar:
+        """z = cos + i sin of a random angle, which is 1 + i w over 1 - i w."""
+        w = self._imaginary * self.random()
+        return (1 + w) / (1 - w)
 
     def _setup_unity(self) -> None:
         if self._zeta is None:
@@ -208,7 +234,7 @@ class FieldPoint:
         return self.rng.choice(roots)[0]
 
     def _root_in_circle(self, prime: int) -> Scalar | None:
-        """sqrt(prime) through the roots of unity, where those contain it (Gauss's quadratic sum)."""
+        """sqrt(prime) through the roots of unity, where those contain it (Gauss's quadratic sum [GaussSum])."""
         if prime == 2 and self.order % 4 == 0:
             self._setup_unity()
             eighth = self._zeta ** (self.order // 4)

@@ -59,7 +59,7 @@ def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None)
     try:
         with limited(DEFAULT_SECONDS if budget is None else budget):
             derived = derived_of(scene)
-            return _told(derived, *(_small(scene, derived) if linearize else (None, ())))
+            return _report(derived, *(_small(scene, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
 
@@ -161,7 +161,7 @@ def read(scene: Scene) -> MotionSource:
     energy = EnergyReader(scene, found.world).energy()
     if found.world.faults:
         raise SceneError(tuple(found.world.faults), scene.name)
-    if not _given(scene):
+    if not _tells_of_motion(scene):
         message = (
             "the scene has neither a kinetic energy in `energies` nor masses: there is nothing to derive motion from"
         )
@@ -170,7 +170,7 @@ def read(scene: Scene) -> MotionSource:
     return MotionSource(scene, studied(system_of(scene, found)), energy, found.world.names)
 
 
-def _given(scene: Scene) -> bool:
+def _tells_of_motion(scene: Scene) -> bool:
     """Does anything of the scene tell of its motion?"""
     if scene.energies is not None and scene.energies.kinetic is not None:
         return True
@@ -196,7 +196,7 @@ def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str
         return None, (why,)
 
 
-def _told(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -> MotionReport:
+def _report(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -> MotionReport:
     model = derived.model
     more = (*((SINGULAR,) if degenerate(derived) else ()), *more)
     report = MotionReport(

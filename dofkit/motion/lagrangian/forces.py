@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, dot, length, minus, scaled, square
 from dofkit.motion.lagrangian.quantities import mass, moving
@@ -70,7 +71,7 @@ class ForceReader:
             vector = self._vector(force.value, force.direction, "value", downward=False)
             for q in self.world.table.coordinates:
                 symbol = ex.coordinate(q.name)
-                power = ex.add(*(f * ex.diff(part, symbol) for f, part in zip(vector, place, strict=True)))
+                power = ex.add(*(f * diff(part, symbol) for f, part in zip(vector, place, strict=True)))
                 if not power.is_zero:
                     work[q.name] = work.get(q.name, ZERO) + power
         return work

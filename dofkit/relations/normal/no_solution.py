@@ -1,9 +1,10 @@
 """Relations without a real solution: a proof by exclusion.
 
-All of space is cut into boxes; a box goes where the relations, run over it in intervals, leave nothing. Where every box
-goes there is no solution. Three descriptions of the same set are tried, all of which only forget: the relations as
-written; polynomials in their generators, with their linear combinations and resultants; and those in projective
-charts, x = 1/w and x_j = u_j/w, which are compact, so that a form that is definite at infinity is seen to be so.
+All of space is cut into boxes; a box goes where the relations, run over it in intervals, leave nothing [Moore1966].
+Where every box goes there is no solution. Three descriptions of the same set are tried, all of which only forget: the
+relations as written; polynomials in their generators, with their linear combinations and resultants; and those in
+projective charts, x = 1/w and x_j = u_j/w, which are compact, so that a form that is definite at infinity is seen to be
+so.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ from flint import ctx, fmpq_mat, fmpz_poly
 from dofkit.base.deadline import check
 from dofkit.exact.boxes.box_program import Box, BoxProgram
 from dofkit.exact.boxes.contraction import contract
-from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, constant, middle
+from dofkit.exact.boxes.functions import constant
+from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, middle
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.instructions import Var

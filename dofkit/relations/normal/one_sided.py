@@ -16,7 +16,8 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import interval
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.semidefinite import never_holds
@@ -73,8 +74,8 @@ def _points(e: Expr, positive: frozenset[Expr]) -> Iterator[dict[Expr, Expr]]:
 def _holds_at(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
     check()
     try:
-        there = ex.substitute(e, point)
-        value = interval(there)
+        there = substitute(e, point)
+        value = interval_of(there)
         if value is None:
             return False
         return bool(value > 0) or (not strict and is_zero(there, frozenset()))

@@ -8,8 +8,10 @@ from typing import ClassVar, Literal, NamedTuple
 
 from pydantic import Field
 
+from dofkit.base.errors import NoValueError
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate, differs_from_zero, has_call
-from dofkit.expressions.tree import MINUS_ONE, TIME, ZERO, Expr, coordinate, diff, fn, mul, substitute
+from dofkit.expressions.tree import MINUS_ONE, TIME, ZERO, Expr, coordinate, fn, mul
 from dofkit.expressions.vectors import Matrix, Vec, apply, minus, square, transposed
 from dofkit.scene.constraints.base import ConstraintBase, figures, root
 from dofkit.scene.constraints.places import across_a_line
@@ -137,10 +139,10 @@ def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
     at = {**dict(zip((X, Y), own, strict=True)), TIME: ZERO}
     try:
         gap = substitute(profile, at)
-    except ZeroDivisionError:
+    except NoValueError:
         return DrawnContact(None, (ZERO, ZERO))
     try:
         slope = tuple(substitute(diff(profile, letter), at) for letter in (X, Y))
-    except ZeroDivisionError:
+    except NoValueError:
         slope = (ZERO, ZERO)
     return DrawnContact(gap, slope if turn is None else apply(turn, slope))

@@ -9,8 +9,9 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from dofkit.exact.matrices.rows import along, less
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt, substitute
+from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
 from dofkit.expressions.vectors import Vec, difference, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase, root
 from dofkit.scene.fields import Value, as_written

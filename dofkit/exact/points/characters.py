@@ -1,0 +1,85 @@
+"""Exponentials and angles over GF(p): homomorphisms from sums to products, which are free but for that.
+
+exp(u + v) = exp(u) exp(v), and z(u) = cos(u) + i sin(u) likewise. At a point of a set arguments may be related that are
+not as written (x = 2 t, or (x + y)^2 beside x^2 + 2 x y + y^2): small integer relations among the arguments there are
+looked for, and the values of related ones follow from each other. Everything else is drawn at random.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import combinations
+from math import prod
+from typing import Any
+
+from flint import fmpz_mat, nmod
+
+from dofkit.exact.errors import NoPointError
+
+#: Arguments among which relations are looked for by reduction of a lattice; among more of them only short ones are.
+MOST_REDUCED = 7
+#: A relation that is found is there by chance with a probability of 2 to the minus this.
+SURENESS = 30
+
+
+class Character:
+    """The values of one homomorphism at a point: each argument that was asked for with its value."""
+
+    def __init__(self, p: int, known: dict[int, Any] | None = None) -> None:
+        self.p = p
+        self.values: dict[int, Any] = {} if known is None else known
+
+    def copy(self) -> Character:
+        """The same values so far."""
+        return Character(self.p, dict(self.values))
+
+    def at(self, argument: Any, draw: Callable[[], Any]) -> Any:
+        """The value at an argument: what relations give, else one that is drawn. Raises NoPointError for a root."""
+        u = int(argument)
+        if u == 0:
+            return nmod(1, self.p)
+        if u not in self.values:
+            related = self._related(u)
+            self.values[u] = draw() if related is None else related
+        return self.values[u]
+
+    def agree(self, argument: Any, value: Any) -> None:
+        """Take a value that was settled elsewhere. Raises NoPointError where another one is known."""
+        if self.at(argument, lambda: value) != value:
+            raise NoPointError("an exponential or an angle with two values at one place")
+
+    def _related(self, u: int) -> Any | None:
+        if self.p - u in self.values:
+            return 1 / self.values[self.p - u]
+        relation = self._reduced(u) if len(self.values) <= MOST_REDUCED else self._of_two(u)
+        if relation is None:
+            return None
+        own = relation.pop(u)
+        others = prod((self.values[v] ** -k for v, k in relation.items()), start=nmod(1, self.p))
+        if abs(own) > 1:
+            raise NoPointError("an argument that is a fraction of others")
+        return others if own == 1 else 1 / others
+
+    def _reduced(self, u: int) -> dict[int, int] | None:
+        """A short integer relation among the arguments and ``u``, by Lenstra, Lenstra and Lovasz's reduction."""
+        args = [u, *self.values]
+        n = len(args)
+        if n < 2:
+            return None
+        most = 2.0 ** ((self.p.bit_length() - SURENESS) / n - 1)
+        weight = 1 << (self.p.bit_length() + n)
+        rows = [[int(i == j) for j in range(n)] + [a * weight] for i, a in enumerate(args)]
+        reduced = fmpz_mat([*rows, [0] * n + [self.p * weight]]).lll()
+        for i in range(reduced.nrows()):
+            row = [int(reduced[i, j]) for j in range(n)]
+            if int(reduced[i, n]) == 0 and row[0] and max(map(abs, row)) <= most:
+                return {v: k for v, k in zip(args, row, strict=True) if k}
+        return None
+
+    def _of_two(self, u: int) -> dict[int, int] | None:
+        """u as the sum or the difference of two arguments, or twice one."""
+        for a, b in combinations([*self.values, *self.values], 2):
+            for k in (1, -1):
+                if (a + k * b - u) % self.p == 0:
+                    return {u: 1, a: -2} if a == b else {u: 1, a: -1, b: -k}
+        return None
