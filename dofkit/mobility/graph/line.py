@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.mobility.graph import forest
+from dofkit.mobility.graph import forest, net
 from dofkit.mobility.graph.answer import Proof, Question
 from dofkit.mobility.graph.compiled import engine_for
 from dofkit.mobility.graph.grouping import gathered
@@ -39,7 +39,7 @@ class LineGraph:
         e, n = self._engine, self._joints
         up, depth = e.filled(n, -1), e.filled(n, -1)
         start, at = e.filled(n + 1, 0), e.filled(len(self._ends), 0)
-        e.kernels.incidence(self._ends, self._dependent, start, at, e.filled(n, 0))
+        e.running(net).incidence(self._ends, self._dependent, start, at, e.filled(n, 0))
         e.kernels.root(self._ends, start, at, up, depth, e.filled(n, 0))
         return up, depth
 

@@ -11,6 +11,7 @@ import numpy as np
 from dofkit.mobility.graph import net as nets
 from dofkit.mobility.graph import pebbles, rigid_clusters
 from dofkit.mobility.graph.answer import Proof, Question
+from dofkit.mobility.graph.circuits import circuits, rooted
 from dofkit.mobility.graph.compiled import Engine, engine_for
 from dofkit.mobility.graph.grouping import ascending, gathered
 from dofkit.mobility.graph.net import Net
@@ -53,7 +54,7 @@ def _net(engine: Engine, ends: Any, joints: int, left_out: Any) -> tuple[Net, in
         gone=engine.filled(links, 0),
     )
     kernels = engine.running(nets)
-    kernels.incidence(net, left_out)
+    kernels.incidence(net.ends, left_out, net.start, net.at, net.degree)
     return net, kernels.peel(net)
 
 
@@ -98,8 +99,6 @@ class PlaneGraph:
 
     def _in_words(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
         """Group by group: every circuit lies in one, and its independent links are isostatic."""
-        from dofkit.mobility.graph.circuits import circuits, rooted
-
         asked, plain = set(links), Engine(pebbles, False)
         for group in self.groups():
             pairs = [i for i in group if i in asked]
