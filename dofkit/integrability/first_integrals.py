@@ -69,11 +69,11 @@ def first_integrals(forms: Codistribution, number: int, seed: int = 0) -> list[F
             if len(found) < number and search.adds(f, found):
                 sure = _identically(search.forms, f, search.points[0])
                 if sure or (sure is None and search.holds(f)):
-                    found.append(FirstIntegral(shown(f), bool(sure)))
+                    found.append(FirstIntegral(readable(f), bool(sure)))
     return found
 
 
-def assigned(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[int, FirstIntegral]:
+def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[int, FirstIntegral]:
     """An integral for every row that it can stand for: with the other rows it says what the row says.
 
     f can stand for a row where df is not in the span of the others; different rows get different ones while they last.
@@ -86,11 +86,13 @@ def assigned(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[
     for row in range(forms.finite, len(forms.rows.entries)):
         across = sample.across(row)
         usable[row] = [k for k, f in enumerate(integrals) if across and search.slope(f.expr, sample, across) != 0]
-    chosen = _likest(forms, integrals, {row: few for row, few in usable.items() if few})
+    chosen = _likest_integral_by_row(forms, integrals, {row: few for row, few in usable.items() if few})
     return {row: integrals[k] for row, k in chosen.items()}
 
 
-def _likest(forms: Codistribution, integrals: Sequence[FirstIntegral], usable: dict[int, list[int]]) -> dict[int, int]:
+def _likest_integral_by_row(
+    forms: Codistribution, integrals: Sequence[FirstIntegral], usable: dict[int, list[int]]
+) -> dict[int, int]:
     """One integral a row, different ones where there are enough, such that they mention what the rows mention."""
     moving = frozenset(forms.chart.symbols)
     own = {row: {forms.chart.symbols[c] for c in forms.rows.entries[row]} for row in usable}
@@ -107,7 +109,7 @@ def _likest(forms: Codistribution, integrals: Sequence[FirstIntegral], usable: d
     return best[1] if best is not None else {row: few[0] for row, few in usable.items()}
 
 
-def shown(f: Expr) -> Expr:
+def readable(f: Expr) -> Expr:
     """An integral times the number that makes its coefficients whole, in a fixed order."""
     return arranged(upright(f))
 

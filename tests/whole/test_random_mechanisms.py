@@ -10,7 +10,7 @@ import pytest
 import dofkit
 from dofkit.base.errors import SceneError
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.mobility.placement import drawn
+from dofkit.mobility.placement import drawn_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.scene.lowering import lower
 
@@ -73,7 +73,7 @@ def test_counts_of_a_mechanism_agree(seed: int) -> None:
     except SceneError:
         pytest.skip("this draw is no scene")
     report, system = dofkit.classify(scene), lower(scene)
-    placement = drawn(system, frozenset())
+    placement = drawn_placement(system, frozenset())
     if system.reference is None or placement is None or report.instantaneous_dof is None:
         pytest.skip("not drawn, or not decided")
     p, n = placement.p, len(system.coordinates)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 
-def gathered(labels: Sequence[int]) -> list[list[int]]:
+def places_by_label(labels: Sequence[int]) -> list[list[int]]:
     """The places of each label, in the order in which the labels first occur.
 
     >>> gathered([5, 3, 5])
@@ -27,7 +27,7 @@ def ascending(numbers: Any) -> list[int]:
     return found
 
 
-def connected(sets: Iterable[Sequence[int]]) -> list[list[int]]:
+def components(sets: Iterable[Sequence[int]]) -> list[list[int]]:
     """Sets that share a member are one; members ascending, sets by their first.
 
     >>> connected([[1, 4], [2, 3], [4, 0]])
