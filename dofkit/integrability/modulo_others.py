@@ -29,9 +29,9 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.codistribution import Codistribution, codistribution
 from dofkit.integrability.lie_algebra import Span
 from dofkit.integrability.lie_algebra_at_points import ball_span, span_at
+from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.beside_others import RewrittenRow
 from dofkit.relations.blocks import Block, coordinates_of

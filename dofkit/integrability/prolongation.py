@@ -27,7 +27,7 @@ from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.codistribution import Codistribution
+from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 from dofkit.relations.setting import Setting
 

@@ -11,7 +11,7 @@ from dofkit.exact.zero.independence import odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.search import integrate
-from dofkit.integrability.traits import exact
+from dofkit.integrability.piece_traits import exact
 from dofkit.relations.normal.normal_form import Pfaffian
 
 

@@ -17,11 +17,11 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.codistribution import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.labels_by_balls import ball_labels
 from dofkit.integrability.labels_by_field import field_labels
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, span_at
 from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
+from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.prolongation import confinements, prolong
 from dofkit.mobility.frameworks import framework_answer
 from dofkit.relations.answer import Answer, Size

@@ -29,8 +29,8 @@ from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.codistribution import Codistribution
 from dofkit.integrability.integrals.normal_shape import arranged, upright
+from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.ambient import free_point
 
 #: Products of up to so many functions, and so many products at most.
