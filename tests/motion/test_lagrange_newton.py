@@ -13,7 +13,7 @@ import dofkit
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import parse_expression
 from dofkit.expressions.tree import TIME, Expr, coordinate, diff, num, parameter, substitute, sym, velocity
-from dofkit.motion.lagrangian.rates import by_time
+from dofkit.motion.lagrange.rates import by_time
 
 VALUES = {"m": 1.25, "g": 2.0, "l": 1.5, "k": 0.625, "c": 0.375, "w": 0.75, "b": 0.875}
 SPACE = f"{PLANE} + m zdot^2/2"

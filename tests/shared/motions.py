@@ -14,7 +14,7 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import ZERO, Expr, coordinate, diff, parameter, substitute, sym, velocity
-from dofkit.motion.lagrangian.equations import MotionReport
+from dofkit.motion.lagrange.equations import MotionReport
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import survey
 

@@ -12,7 +12,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import HALF, Expr
-from dofkit.motion.lagrangian.term_order import ordered
+from dofkit.motion.lagrange.term_order import ordered
 
 
 def without_roots(

@@ -12,8 +12,8 @@ from typing import Literal
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, dot, length, minus, scaled, square
-from dofkit.motion.lagrangian.quantities import mass, moving
-from dofkit.motion.lagrangian.rates import by_time
+from dofkit.motion.lagrange.quantities import mass, moving
+from dofkit.motion.lagrange.rates import by_time
 from dofkit.scene.frames import Placed
 from dofkit.scene.parts import Force
 from dofkit.scene.scene import Scene

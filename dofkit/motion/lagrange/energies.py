@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, square
-from dofkit.motion.lagrangian.forces import PARTS, ForceReader, Numbered
-from dofkit.motion.lagrangian.quantities import mass, moving
+from dofkit.motion.lagrange.forces import PARTS, ForceReader, Numbered
+from dofkit.motion.lagrange.quantities import mass, moving
 from dofkit.scene.frames import Frame
 from dofkit.scene.scene import Scene
 from dofkit.scene.world import World
