@@ -8,8 +8,8 @@ from fractions import Fraction
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.report import FORMS, ConstraintEntry, Count, ForceEntry, Form, Report
+from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.scene import Scene
-from dofkit.scene.survey import names_by_position
 from dofkit.system import BODY_ROLES, Constraint, Relation, System
 
 
