@@ -20,7 +20,7 @@ from dofkit.motion.lagrange.angles import compound
 from dofkit.motion.lagrange.conserved import conserved, cyclic
 from dofkit.motion.lagrange.derivation import Derived, derive
 from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
-from dofkit.motion.lagrange.energies import Energy, EnergyReader
+from dofkit.motion.lagrange.energies import Energy, energy_of
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
 from dofkit.motion.lagrange.quantities import missing
 from dofkit.motion.lagrange.regularity import SINGULAR, degenerate
@@ -156,18 +156,18 @@ class MotionSource:
 def read(scene: Scene) -> MotionSource:
     """The scene's energies and what is known of its constraints. Raises SceneError with all its faults."""
     found = survey(scene, euler=True)
-    if found.world.faults:
-        raise SceneError(tuple(found.world.faults), scene.name)
-    energy = EnergyReader(scene, found.world).energy()
-    if found.world.faults:
-        raise SceneError(tuple(found.world.faults), scene.name)
+    if found.faults:
+        raise SceneError(found.faults, scene.name)
+    energy, faults = energy_of(scene, found.drawing)
+    if faults:
+        raise SceneError(faults, scene.name)
     if not _given(scene):
         message = (
             "the scene has neither a kinetic energy in `energies` nor masses: there is nothing to derive motion from"
         )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
-    return MotionSource(scene, studied(system_of(scene, found)), energy, found.world.names)
+    return MotionSource(scene, studied(system_of(scene, found)), energy, found.names)
 
 
 def _given(scene: Scene) -> bool:
