@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, WrapValidator
+from pydantic import BeforeValidator, Field, PrivateAttr, WrapValidator
 
 from dofkit.base.errors import Fault
 from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
@@ -25,7 +25,7 @@ from dofkit.scene.fields import (
     faults_of,
 )
 from dofkit.scene.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, Force, Particle
-from dofkit.scene.survey import checked
+from dofkit.scene.survey import KeptSurvey, Survey
 from dofkit.scene.tagged_union import TaggedUnion
 
 __all__ = ["Body", "BodyPoint", "Energies", "Force", "Particle", "Scene", "check", "faults_of"]
@@ -140,6 +140,8 @@ class Scene(WrittenModel):
         default_factory=dict, description="what the report must say, by report key"
     )
 
+    _kept: KeptSurvey = PrivateAttr(default_factory=KeptSurvey)
+
     @classmethod
     def called(cls) -> str:
         return "a scene"
@@ -147,4 +149,9 @@ class Scene(WrittenModel):
 
 def check(scene: Scene) -> tuple[Fault, ...]:
     """Every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
-    return checked(scene)
+    return surveyed(scene).faults
+
+
+def surveyed(scene: Scene) -> Survey:
+    """All that is known of a scene, found out when it is first asked for."""
+    return scene._kept.of(scene)
