@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from dofkit.methods.ask import ask
     from dofkit.methods.classify import classify, derived_flag
     from dofkit.mobility.graph.answers import Linkage, linkage, redundant_links
-    from dofkit.motion.lagrangian.equations import lagrange
+    from dofkit.motion.lagrange.equations import lagrange
     from dofkit.motion.sampled.configurations import configurations
     from dofkit.report import Report
     from dofkit.scene.catalog import catalog_names, catalog_text
@@ -63,7 +63,7 @@ _HOMES = {
     "configurations": "dofkit.motion.sampled.configurations",
     "derived_flag": "dofkit.methods.classify",
     "grade": "dofkit.homework.grading",
-    "lagrange": "dofkit.motion.lagrangian.equations",
+    "lagrange": "dofkit.motion.lagrange.equations",
     "linkage": "dofkit.mobility.graph.answers",
     "load": "dofkit.scene.reading",
     "load_assignment": "dofkit.homework.assignment",

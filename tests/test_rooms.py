@@ -33,7 +33,7 @@ def test_the_three_rooms_of_mechanics_hand_on_names() -> None:
 @pytest.mark.parametrize("room", ROOMS)
 def test_a_surface_is_what_lives_where_it_says(room: str) -> None:
     package = import_module(room)
-    assert list(package.__all__) == sorted(package._HOMES)
+    assert sorted(package.__all__) == sorted(package._HOMES)
     for name, home in package._HOMES.items():
         assert getattr(package, name) is getattr(import_module(home), name)
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):

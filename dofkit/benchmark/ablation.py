@@ -51,22 +51,22 @@ def ablation(quick: bool = False) -> Iterator[ReductionCost]:
     """A row for every scene and every reduction that may matter to it: its own family's, all for the catalog."""
     for family, made in SCENES.items():
         for size in (made.quick,) if quick else made.whole:
-            yield from ablated(AblatedScene(f"{family}-{size}", family, size, made.scene(size)), (family,))
+            yield from costs(AblatedScene(f"{family}-{size}", family, size, made.scene(size)), (family,))
     for name in catalog_names()[:: 6 if quick else 1]:
-        yield from ablated(AblatedScene(name, "catalog", 1, name), tuple(REDUCTIONS), 1)
+        yield from costs(AblatedScene(name, "catalog", 1, name), tuple(REDUCTIONS), 1)
 
 
-def ablated(scene: AblatedScene, without: tuple[ReductionName, ...], repeats: int = REPEATS) -> Iterator[ReductionCost]:
+def costs(scene: AblatedScene, without: tuple[ReductionName, ...], repeats: int = REPEATS) -> Iterator[ReductionCost]:
     """The scene answered with all reductions, then without each of some."""
-    full, seconds = answered(scene.source, ALL, repeats)
+    full, seconds = timed_study(scene.source, ALL, repeats)
     yield _cost(scene, "", full, seconds, [])
     for off in without:
-        study, seconds = answered(scene.source, ALL - {off}, repeats)
+        study, seconds = timed_study(scene.source, ALL - {off}, repeats)
         changed = [] if study is None or full is None else differences(full.report, study.report)
         yield _cost(scene, off, study, seconds, changed)
 
 
-def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Examined | None, float]:
+def timed_study(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Examined | None, float]:
     """The answer and its processor time; None where there was no time for it."""
     best = float("inf")
     for _ in range(repeats):

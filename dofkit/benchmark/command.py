@@ -76,9 +76,9 @@ def run(options: ChartOptions) -> bool:
         return True
     started, found = time.monotonic(), ChartFiles()
     date = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
-    chosen = options.selection.chosen(FAMILIES)
+    chosen = options.selection.with_names(FAMILIES)
     trials = chosen.thinned(chosen.trials(FAMILIES))
-    work = list(tasks.crossed(trials, chosen.methods))
+    work = list(tasks.trial_tasks(trials, chosen.methods))
     swept = list(tasks.sweeps(chosen.swept(FAMILIES), chosen.methods, chosen.quick))
     try:
         _gather(options, work, swept, found)
@@ -141,7 +141,7 @@ def _gather(
 ) -> None:
     """Reductions are measured beside the trials: each of their runs needs the one before."""
     with _bench(options) as bench, _bar() as bar:
-        job = Job(asking.ablated, options.selection.quick, REDUCTION_SECONDS)
+        job = Job(asking.ablation_rows, options.selection.quick, REDUCTION_SECONDS)
         reduced = bench.crew.submit(bench.ask, job) if _reduces(options.selection) else None
         for name, some, lines in (("trials", work, found.lines), ("sweeps", swept, found.sweeps)):
             shown = bar.add_task(name, total=len(some))
@@ -163,10 +163,10 @@ def _reduces(selection: Selection) -> bool:
 @contextmanager
 def _bench(options: ChartOptions) -> Iterator[runner.Bench]:
     if options.scheduler is not None:
-        with runner.there(options.scheduler, options.seconds, explained) as bench:
+        with runner.cluster_bench(options.scheduler, options.seconds, explained) as bench:
             yield bench
         return
-    with runner.here(options.workers or cores(), options.seconds, explained) as bench:
+    with runner.local_bench(options.workers or cores(), options.seconds, explained) as bench:
         yield bench
 
 

@@ -30,7 +30,7 @@ class Selection:
     quick: bool = False
     most: int | None = None
 
-    def chosen(self, families: Families) -> Selection:
+    def with_names(self, families: Families) -> Selection:
         """With all names written out. Raises ChartError with the nearest one for a name that is none."""
         return Selection(
             _known(self.questions, get_args(Question), "question"),

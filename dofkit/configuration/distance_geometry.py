@@ -20,7 +20,7 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import interval
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.vectors import square_between
 from dofkit.relations.answer import Answer
@@ -91,7 +91,7 @@ class _Web:
             self._add(_node(first), _node(second), square_between(first.reference or (), second.reference or ()), None)
 
     def _add(self, a: Node, b: Node, squared: Expr, owner: int | None, at_most: bool = False) -> None:
-        about = interval(squared, self.values, BITS[0])
+        about = interval_of(squared, self.values, BITS[0])
         if about is None or not about >= 0:
             about = arb(0) if squared.is_zero else None
         if about is None or a == b:
@@ -116,7 +116,7 @@ class _Web:
         if gap.symbols:
             return never_holds(ex.mul(ex.MINUS_ONE, gap), False, self.positive)
         for bits in BITS:
-            found = interval(gap, None, bits)
+            found = interval_of(gap, None, bits)
             if found is not None and not found.contains(0):
                 return bool(found > 0)
         return False
@@ -165,7 +165,7 @@ class _Web:
     def _unembeddable(self, clique: Sequence[Node], dimension: int) -> bool:
         base, *rest = clique
         exact = {p: self.exact[frozenset(p)].squared for p in combinations(clique, 2)}
-        squares = {p: interval(squared, None, BITS[1]) for p, squared in exact.items()}
+        squares = {p: interval_of(squared, None, BITS[1]) for p, squared in exact.items()}
 
         def square(u: Node, v: Node) -> Any:
             return arb(0) if u == v else squares.get((u, v), squares.get((v, u)))

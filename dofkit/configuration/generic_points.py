@@ -13,6 +13,7 @@ from dofkit.exact.ring.instructions import VAR, reachable
 from dofkit.exact.ring.program import gradient, value_of, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 
@@ -78,7 +79,7 @@ def _values_of_generators(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[
                 shown = ring.var_expr[var.index]
                 if var.index in settled or known.keys().isdisjoint(shown.symbols):
                     continue
-                settled[var.index] = ring.node(ex.substitute(ex.substitute(shown, ring.alias), known))
+                settled[var.index] = ring.node(substitute(substitute(shown, ring.alias), known))
             if len(ring.vars) == before:
                 break
     except NoValueError:

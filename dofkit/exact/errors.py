@@ -38,7 +38,7 @@ def raising_no_value(work: Callable[P, T]) -> Callable[P, T]:
     """``work``, whose divisions by zero are PoleErrors, and FLINT's errors about a domain NoValueErrors."""
 
     @wraps(work)
-    def turned(*args: P.args, **kwargs: P.kwargs) -> T:
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
         try:
             return work(*args, **kwargs)
         except NoValueError:
@@ -48,4 +48,4 @@ def raising_no_value(work: Callable[P, T]) -> Callable[P, T]:
         except DomainError as error:
             raise NoValueError(str(error)) from error
 
-    return turned
+    return wrapper

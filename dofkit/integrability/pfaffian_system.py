@@ -16,6 +16,7 @@ from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points.frames import FormRows
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, uses_time
 from dofkit.relations.chart import Chart
@@ -43,7 +44,7 @@ def codistribution(block: Block, setting: Setting, extra: Sequence[Expr], more: 
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(extra)
     timed = uses_time(block) or any(ex.TIME in e.symbols for e in extra)
     symbols = [ex.coordinate(c) for c in block.coordinates] + ([ex.TIME] if timed else [])
-    gradients = [{i: ex.diff(g, s) for i, s in enumerate(symbols) if s in g.symbols} for g in finite]
+    gradients = [{i: diff(g, s) for i, s in enumerate(symbols) if s in g.symbols} for g in finite]
     place = {s: i for i, s in enumerate(symbols)}
     forms = [{place[s]: e for s, e in r.piece.items()} for r in block.forms if isinstance(r.piece, Pfaffian)]
     chart = make_chart(block, setting, extra, [*(e for g in gradients for e in g.values()), *more])

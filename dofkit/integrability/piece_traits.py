@@ -13,9 +13,10 @@ from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import is_zero, told_zero
+from dofkit.exact.zero.identity import is_zero, zero_and_verdict
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.normal_form import Finite, Inequality, Pfaffian, Piece, velocities_of
 from dofkit.relations.normal.zero_set import never_vanishes
@@ -55,8 +56,8 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
     """dg/dt = 0 on g = 0."""
     if ex.TIME not in g.symbols or _factors_without_time(g, positive):
         return True, "proved"
-    slope = ex.diff(g, ex.TIME)
-    still, sure = told_zero(slope, positive, engines)
+    slope = diff(g, ex.TIME)
+    still, sure = zero_and_verdict(slope, positive, engines)
     if still:
         return True, sure
     ring = Ring([g, slope], positive)
@@ -95,14 +96,14 @@ def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
-    still, sure = told_zero(form.dt, positive, engines)
+    still, sure = zero_and_verdict(form.dt, positive, engines)
     if not still:
         return still, sure
     coefficients = list(form.coefficients.values())
     if all(ex.TIME not in e.symbols for e in coefficients):
         return True, sure
-    turning = [a * ex.diff(b, ex.TIME) - b * ex.diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
-    told = [told_zero(e, positive, engines) for e in turning]
+    turning = [a * diff(b, ex.TIME) - b * diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
+    told = [zero_and_verdict(e, positive, engines) for e in turning]
     if any(zero is False for zero, _ in told):
         return False, min((v for zero, v in told if zero is False), key=VERDICTS.index)
     if not all(zero for zero, _ in told):
@@ -132,13 +133,13 @@ def _of_time_alone(e: Expr) -> bool:
 
 def _homogeneous(e: Expr) -> bool:
     """Homogeneous in the velocities (Euler's relation, of a degree up to 6): no dt is hidden in it."""
-    radial = ex.add(*(v * ex.diff(e, v) for v in velocities_of(e)))
+    radial = ex.add(*(v * diff(e, v) for v in velocities_of(e)))
     return any(is_zero(radial - degree * e, frozenset()) for degree in range(7))
 
 
 def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
     """No dt term."""
-    return told_zero(form.dt, positive, engines)
+    return zero_and_verdict(form.dt, positive, engines)
 
 
 def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
@@ -149,7 +150,7 @@ def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) ->
     everything = [*items, *((s, ex.ZERO) for s in others)]
     sure: Verdict = "proved"
     for (s, a), (u, b) in combinations(everything, 2):
-        closed, verdict = told_zero(ex.diff(b, s) - ex.diff(a, u), positive, engines)
+        closed, verdict = zero_and_verdict(diff(b, s) - diff(a, u), positive, engines)
         if not closed:
             return closed, verdict
         sure = weakest(sure, verdict)

@@ -7,7 +7,7 @@ from dofkit.base.workers import Json
 from dofkit.interface.classify_file import faults_of_error, line, printed, unread
 from dofkit.interface.show.motion import as_lines
 from dofkit.interface.supervised import Given
-from dofkit.motion.lagrangian.equations import lagrange
+from dofkit.motion.lagrange.equations import lagrange
 from dofkit.scene.reading import SceneFile, find
 
 

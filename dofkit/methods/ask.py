@@ -32,8 +32,8 @@ from dofkit.relations.normal.normal_form import Finite
 from dofkit.relations.reduced import Reduced
 from dofkit.scene.added_equations import read_equations, with_equations
 from dofkit.scene.lowering import lower
+from dofkit.scene.names import vocabulary_of
 from dofkit.scene.scene import Scene
-from dofkit.scene.survey import survey
 from dofkit.system import System
 
 CONTRADICTORY = -1
@@ -175,7 +175,7 @@ def _redundancy(known: Study) -> Reply:
 
 
 def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:
-    read = read_equations(answer["text"], survey(scene).world.names, constants=False)
+    read = read_equations(answer["text"], vocabulary_of(scene).names, constants=False)
     system = lower(with_equations(scene, read, ANSWER))
     answered_by, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
     found = compare(system, answered_by, own, read.constants, engines).sameness

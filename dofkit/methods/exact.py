@@ -14,6 +14,7 @@ from dofkit.exact.ring.program import value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.methods.ask import CONTRADICTORY
 from dofkit.methods.shared.as_written import Written, as_written, posed
@@ -175,7 +176,7 @@ def solvable(written: Written) -> list[tuple[int, Expr]] | None:
     movable = {*written.coordinates, *(ex.parameter(p) for p in written.system.generic)}
     found: list[tuple[int, Expr]] = []
     while left:
-        ready = ((i, s) for i, g in left.items() for s in _own(i, left, movable) if s not in ex.diff(g, s).symbols)
+        ready = ((i, s) for i, g in left.items() for s in _own(i, left, movable) if s not in diff(g, s).symbols)
         step = next(ready, None)
         if step is None:
             return None
@@ -195,10 +196,10 @@ def solved(written: Written, ring: Ring, order: Sequence[tuple[int, Expr]], poin
     """Give values to the symbols that are solved for; raises PoleError where one cannot be."""
     relations = [g for _, g in written.finite]
     for i, symbol in order:
-        slope = Ring([ex.diff(relations[i], symbol)], written.positive)
+        slope = Ring([diff(relations[i], symbol)], written.positive)
         point.given[symbol] = fmpq(0)
         start = value_of(ring, point, ring.node(relations[i]))
-        below = value_of(slope, point, slope.node(ex.diff(relations[i], symbol)))
+        below = value_of(slope, point, slope.node(diff(relations[i], symbol)))
         if below == 0:
             raise PoleError
         point.given[symbol] = -start / below
@@ -207,7 +208,7 @@ def solved(written: Written, ring: Ring, order: Sequence[tuple[int, Expr]], poin
 def _linear(written: Written) -> bool:
     """Are the finite equations linear in the coordinates together?"""
     movable = set(written.coordinates)
-    slopes = (ex.diff(g, s) for _, g in written.finite for s in written.coordinates if s in g.symbols)
+    slopes = (diff(g, s) for _, g in written.finite for s in written.coordinates if s in g.symbols)
     return all(movable.isdisjoint(slope.symbols) for slope in slopes)
 
 
@@ -219,7 +220,7 @@ def solved_together(written: Written, point: RationalPoint) -> None:
         point.given[s] = fmpq(0)
     rows = []
     for _, g in written.finite:
-        slopes = [ex.diff(g, s) for s in columns]
+        slopes = [diff(g, s) for s in columns]
         ring = Ring([g, *slopes], written.positive)
         rows.append([value_of(ring, point, ring.node(e)) for e in (*slopes, g)])
     reduced, rank = fmpq_mat(rows).rref()

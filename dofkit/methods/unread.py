@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dofkit.classification.undecided import open_entry, open_report, why_nothing
 from dofkit.report import Count, ForceEntry, Report
+from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.scene import Scene
-from dofkit.scene.survey import names_by_position
 from dofkit.system import BODY_ROLES, Constraint
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, ValidationError, ValidatorFunctionWrapHandler, WrapValidator
+from pydantic import BeforeValidator, Field, PrivateAttr, WrapValidator
 
 from dofkit.base.errors import Fault
 from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
@@ -23,30 +23,24 @@ from dofkit.scene.fields import (
     fault_at,
     fault_error,
     faults_of,
-    retold,
-    suggestion,
 )
 from dofkit.scene.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, Force, Particle
-from dofkit.scene.survey import checked
+from dofkit.scene.survey import KeptSurvey, Survey
+from dofkit.scene.tagged_union import TaggedUnion
 
 __all__ = ["Body", "BodyPoint", "Energies", "Force", "Particle", "Scene", "check", "faults_of"]
 
 
-def _told(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
-    """A constraint, its faults at paths free of the type's tag."""
-    if isinstance(value, Mapping):
-        given = value.get("type")
-        if given is None:
-            raise fault_error("a constraint needs its `type`", "the types are " + ", ".join(TYPES))
-        if not isinstance(given, str) or given not in TYPES:
-            hint = suggestion(given, list(TYPES), "types")
-            raise fault_at(("type",), f"there is no constraint type '{given}'", hint)
-    elif not isinstance(value, ConstraintBase):
-        raise fault_error("a constraint is a text or a mapping with a `type`")
-    try:
-        return handler(value)
-    except ValidationError as error:
-        raise retold(error, "a constraint", (), lambda loc: loc[1:]) from None
+_CONSTRAINT = TaggedUnion(
+    base=ConstraintBase,
+    called="a constraint",
+    key="type",
+    known=TYPES,
+    names="types",
+    listing="the types are ",
+    unknown="there is no constraint type '{}'",
+    otherwise=("a constraint is a text or a mapping with a `type`", None),
+)
 
 
 def _parameters(value: object) -> object:
@@ -99,7 +93,9 @@ def _tolerance(value: object) -> object:
 
 _Mapping = BeforeValidator(_mapping)
 _AnyConstraint = Annotated[
-    AnyConstraint, WrapValidator(_told), BeforeValidator(as_equation, json_schema_input_type=str | AnyConstraint)
+    AnyConstraint,
+    WrapValidator(_CONSTRAINT.validated),
+    BeforeValidator(as_equation, json_schema_input_type=str | AnyConstraint),
 ]
 
 
@@ -144,6 +140,8 @@ class Scene(WrittenModel):
         default_factory=dict, description="what the report must say, by report key"
     )
 
+    _kept: KeptSurvey = PrivateAttr(default_factory=KeptSurvey)
+
     @classmethod
     def called(cls) -> str:
         return "a scene"
@@ -151,4 +149,9 @@ class Scene(WrittenModel):
 
 def check(scene: Scene) -> tuple[Fault, ...]:
     """Every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
-    return checked(scene)
+    return surveyed(scene).faults
+
+
+def surveyed(scene: Scene) -> Survey:
+    """All that is known of a scene, found out when it is first asked for."""
+    return scene._kept.of(scene)

@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 from dofkit.base.workers import Pool
 from dofkit.base.workers.crews import Threads
 from dofkit.benchmark import command, figures, runner, statistics, storing, table, tasks
-from dofkit.benchmark.judging import judged
+from dofkit.benchmark.judging import outcome_of
 from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, ReductionCost, Score, TrialLine
 from dofkit.benchmark.selecting import Selection
 from dofkit.benchmark.summary import summary
@@ -57,7 +57,7 @@ def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
         Threads(2, pool.close) as threads,
     ):
         bench = runner.Bench(threads, pool.run, limit, said, "shared.chart_methods:answered")
-        return list(runner.run(tasks.crossed(chart_methods.family(False), methods), bench))
+        return list(runner.run(tasks.trial_tasks(chart_methods.family(False), methods), bench))
 
 
 # -- running ---------------------------------------------------------------------------------------
@@ -129,7 +129,7 @@ def test_ladders_climb_by_size_and_other_ladders_go_on() -> None:
     ],
 )
 def test_answers_are_judged(truth: Any, told: Any, outcome: Outcome) -> None:
-    assert judged(truth, told) == outcome
+    assert outcome_of(truth, told) == outcome
 
 
 def test_sweeps_turn_what_the_trials_sweep() -> None:

@@ -18,11 +18,11 @@ from shared.grading_jobs import orders
 from shared.homework_cases import FILES, document
 
 import dofkit
-from dofkit.homework.answers.sources import Handed, handed
+from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, of_value
 from dofkit.homework.grading import Grader
 from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.crew import here
+from dofkit.homework.runs.crew import local_crew
 from dofkit.homework.runs.in_order import HandedIn, in_order
 from dofkit.homework.runs.journal import BusyError, Journal
 from dofkit.homework.runs.keeper import Keeper
@@ -59,7 +59,7 @@ def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, li
 def read(path: Path, data: str | bytes) -> list[tuple[str, Any]]:
     """Every submission in a file: its student with its answers, or with its error."""
     path.write_bytes(data if isinstance(data, bytes) else data.encode())
-    found = [one for h in handed([str(path)], KNOWN) for one in h.submissions()]
+    found = [one for h in hand_ins([str(path)], KNOWN) for one in h.submissions()]
     return [(s.student, s.error.removeprefix(f"{path}") if s.error else dict(s.answers)) for s in found]
 
 
@@ -161,7 +161,7 @@ def test_a_folder_is_read_in_order_and_nobody_in_it_is_lost(tmp_path: Path) -> N
     (tmp_path / "d.pdf").write_bytes(b"%PDF")
     (tmp_path / "e.yaml").symlink_to("/etc/hostname")
     (tmp_path / ".DS_Store").write_text("")
-    found = [one for h in handed([str(tmp_path), str(tmp_path / "no.csv")], KNOWN) for one in h.submissions()]
+    found = [one for h in hand_ins([str(tmp_path), str(tmp_path / "no.csv")], KNOWN) for one in h.submissions()]
     assert [(s.student, s.error is None) for s in found] == [
         ("one", True), ("two", True), ("three", True), ("d", False), ("e", False), ("no", False),
     ]  # fmt: skip
@@ -326,7 +326,7 @@ def hostile(*answers: Mapping[str, str]) -> list[Handed]:
 
 
 def statuses(given: Sequence[Handed], workers: int) -> Iterator[tuple[str, list[str], list[str]]]:
-    with Keeper(orders(), workers) as keeper, here(keeper, workers) as local:
+    with Keeper(orders(), workers) as keeper, local_crew(keeper, workers) as local:
         for _, (line,) in in_order(local, given):
             items = json.loads(line.text)["items"]
             yield line.student, [item["status"] for item in items], [item["feedback"] for item in items]
@@ -460,14 +460,14 @@ def test_only_what_fits_is_taken_over(tmp_path: Path) -> None:
 
     def left(mark: str = "m", new: Sequence[Handed] = given) -> str:
         one = journal(path, mark)
-        found = "".join(h.name for h in one.taken_over(iter(new), HandedIn()))
+        found = "".join(h.name for h in one.remaining(iter(new), HandedIn()))
         one.close()
         return found
 
     def write() -> None:
         path.unlink(missing_ok=True)
         one = journal(path)
-        list(one.taken_over(iter(given), HandedIn()))
+        list(one.remaining(iter(given), HandedIn()))
         for h in given:
             one.write(h, [made.refused(h.name, h.error)])
         one.close()

@@ -14,7 +14,7 @@ import dofkit
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import FilePlace
 from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.crew import here, there
+from dofkit.homework.runs.crew import cluster_crew, local_crew
 from dofkit.homework.runs.in_order import in_order
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.interface import cli
@@ -34,7 +34,7 @@ def handed(number: int) -> list[Handed]:
 
 def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     made, given = Orders.of(dofkit.load_assignment(ASSIGNMENT)), handed(60)
-    with Keeper(made, 1) as keeper, here(keeper, 1) as local:
+    with Keeper(made, 1) as keeper, local_crew(keeper, 1) as local:
         one_by_one = [lines for _, lines in in_order(local, given)]
     assert sum(json.loads(line.text)["items"][1]["status"] == "right" for (line,) in one_by_one) == 40
     silent = {"silence_logs": 50, "dashboard_address": None}
@@ -43,7 +43,7 @@ def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFix
             processes = sorted(client.run(os.getpid).values())
         assert len(processes) == 2
         told = []
-        with there(machines.scheduler_address, made) as cluster:
+        with cluster_crew(machines.scheduler_address, made) as cluster:
             for i, (_, lines) in enumerate(in_order(cluster, given)):
                 told.append(lines)
                 if i == 3:

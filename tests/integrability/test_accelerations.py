@@ -8,7 +8,7 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import TextError
-from dofkit.exact.zero.identity import told_zero
+from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.text.derivatives import by_time
@@ -178,7 +178,7 @@ def test_a_rate_is_integrated_back(text: str) -> None:
     once = integrated_once(rate, frozenset())
     again = by_time(once.integral)
     assert again is not None
-    assert told_zero(again - once.factor * rate, frozenset()) == (True, "proved")
+    assert zero_and_verdict(again - once.factor * rate, frozenset()) == (True, "proved")
 
 
 def test_the_reason_of_a_refusal_is_an_error_of_the_text() -> None:

@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from shared.work import calls_of, counted
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.search import Integral, integrate
@@ -338,9 +339,9 @@ SMALL = st.recursive(LEAVES, _grow, max_leaves=5)
 @given(f=SMALL, mu=SMALL)
 def test_the_law_for_any_potential_and_factor(f: Expr, mu: Expr) -> None:
     """Whatever is found of mu df is proportional to it; without a factor it is found."""
-    coefficients = {s.args[1]: ex.diff(f, s) for s in (x, y, z, theta)}
+    coefficients = {s.args[1]: diff(f, s) for s in (x, y, z, theta)}
     moving = any(not a.is_zero for a in coefficients.values())
-    closed = Pfaffian({n: a for n, a in coefficients.items() if not a.is_zero}, ex.diff(f, ex.TIME))
+    closed = Pfaffian({n: a for n, a in coefficients.items() if not a.is_zero}, diff(f, ex.TIME))
     form = Pfaffian({n: mu * a for n, a in closed.coefficients.items() if not (mu * a).is_zero}, mu * closed.dt)
     for given_form in (closed, form):
         found = integrate(given_form, frozenset())

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
-from shared.known_scenes import SCENES, report_of, scene_of, stem
+from shared.known_scenes import SCENES, few, report_of, scene_of
 from typer.testing import CliRunner
 
 import dofkit
@@ -79,15 +79,19 @@ def disagreements(told: Report, auto: Report) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("path", SCENES, ids=stem)
-@pytest.mark.parametrize("method", ALONE)
+#: Every method on one scene in four, each on others; on all of them where they are swept.
+BY_EACH = [pytest.param(method, *case.values, marks=case.marks, id=f"{method}-{case.values[0].stem}")
+           for method in ALONE for case in few(method, SCENES, 4)]  # fmt: skip
+by_each = pytest.mark.parametrize(("method", "path"), BY_EACH)
+
+
+@by_each
 def test_one_engine_alone_agrees_wherever_it_answers(method: MethodName, path: Path) -> None:
     known, _ = KNOWN.get((path.stem, method), ((), ""))
     assert disagreements(report_by(method, path), report_of(path)) == list(known)
 
 
-@pytest.mark.parametrize("path", SCENES, ids=stem)
-@pytest.mark.parametrize("method", ALONE)
+@by_each
 def test_one_engine_alone_is_no_surer_than_it_can_be(method: MethodName, path: Path) -> None:
     told = report_by(method, path)
     best = VERDICTS.index(METHODS[method].best)
@@ -96,8 +100,7 @@ def test_one_engine_alone_is_no_surer_than_it_can_be(method: MethodName, path: P
     assert METHODS[method].cannot in told.method
 
 
-@pytest.mark.parametrize("path", SCENES, ids=stem)
-@pytest.mark.parametrize("method", ALONE)
+@by_each
 def test_one_engine_alone_finds_the_freedom_that_is_known(method: MethodName, path: Path) -> None:
     known = report_of(path).dof is not None
     assert not known or report_by(method, path).dof is not None or path.stem in OPEN[method].split()

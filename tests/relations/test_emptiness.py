@@ -10,9 +10,11 @@ import mpmath
 import pytest
 
 import dofkit
+from dofkit.exact.boxes import functions
 from dofkit.exact.boxes import intervals as iv
 from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import interval
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.no_solution import no_solution
@@ -141,10 +143,10 @@ def test_what_holds_at_a_point_is_not_ruled_out(seed: int) -> None:
     while len(relations) < 2:
         try:
             f = drawn(rng, rng.randint(1, 3), symbols)
-            at = ex.substitute(f, point)
+            at = substitute(f, point)
         except (ZeroDivisionError, ValueError):
             continue
-        if f.symbols and all(interval(ex.substitute(n, point)) is not None for n in ex.nodes(f)):
+        if f.symbols and all(interval_of(substitute(n, point)) is not None for n in ex.nodes(f)):
             relations.append(f - at)
     assert not no_solution(relations, frozenset())
 
@@ -167,10 +169,10 @@ def test_intervals_hold_true_values(seed: int) -> None:
                 if (name == "log" and x <= 0) or (name in ("asin", "acos") and abs(x) > 1):
                     continue
                 value = f(mpmath.mpf(x))
-                low, high = iv.function(name, (a[0], a[1]))
+                low, high = functions.function(name, (a[0], a[1]))
                 assert low <= value <= high, (name, a, x)
                 near = float(value)
-                low, high = iv.solve_function(name, (a[0], a[1]), (iv.down(iv.down(near)), iv.up(iv.up(near))))
+                low, high = functions.solve_function(name, (a[0], a[1]), (iv.down(iv.down(near)), iv.up(iv.up(near))))
                 assert low <= x <= high, (name, a, x)
 
 

@@ -12,7 +12,7 @@ from typing import Any, get_args
 import pytest
 
 import dofkit
-from dofkit.benchmark.ablation import SCENES, AblatedScene, ablated, answered, differences
+from dofkit.benchmark.ablation import SCENES, AblatedScene, costs, differences, timed_study
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import rank_of_rows
@@ -57,10 +57,10 @@ def test_every_reduction_says_what_it_leaves_out_and_has_scenes() -> None:
 @pytest.mark.parametrize("name", REDUCTIONS)
 def test_what_a_reduction_leaves_out_changes_no_answer(name: ReductionName) -> None:
     n = SCENES[name].quick
-    full, without = ablated(AblatedScene(name, name, n, SCENES[name].scene(n)), (name,))
+    full, without = costs(AblatedScene(name, name, n, SCENES[name].scene(n)), (name,))
     assert without.unchanged, without.differs
     assert not full.undecided
-    study, _ = answered(SCENES[name].scene(n), ALL, 1)
+    study, _ = timed_study(SCENES[name].scene(n), ALL, 1)
     assert study is not None
     assert study.report.dof == FREEDOM[name](n)
     if name in LESS:
@@ -71,8 +71,8 @@ def test_what_a_reduction_leaves_out_changes_no_answer(name: ReductionName) -> N
 @pytest.mark.parametrize("path", CATALOG, ids=lambda path: path.stem)
 def test_the_catalog_is_answered_alike_without_any_reduction(path: Path) -> None:
     scene = dofkit.load(path).model_dump(mode="json", exclude_unset=True)
-    full, _ = answered(scene, ALL, 1)
-    without, _ = answered(scene, frozenset(), 1)
+    full, _ = timed_study(scene, ALL, 1)
+    without, _ = timed_study(scene, frozenset(), 1)
     assert full is not None
     assert without is not None
     assert differences(full.report, without.report) == []
@@ -91,8 +91,8 @@ def scenes_of_families() -> Iterator[Any]:
 
 @pytest.mark.parametrize("scene", list(islice(scenes_of_families(), 0, None, 3)))
 def test_the_families_are_answered_alike_without_any_reduction(scene: dict[str, Any]) -> None:
-    full, _ = answered(scene, ALL, 1)
-    without, _ = answered(scene, frozenset(), 1)
+    full, _ = timed_study(scene, ALL, 1)
+    without, _ = timed_study(scene, frozenset(), 1)
     assert full is not None
     assert without is not None
     assert differences(full.report, without.report) == []

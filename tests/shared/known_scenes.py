@@ -5,10 +5,13 @@ Tests that have the parameter ``path`` run where the others of that scene do: se
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import cache
 from pathlib import Path
+from typing import Any
 from zlib import crc32
+
+import pytest
 
 import dofkit
 from dofkit.report import Report
@@ -33,6 +36,17 @@ def scene_of(path: Path) -> Scene:
 @cache
 def report_of(path: Path) -> Report:
     return dofkit.classify(scene_of(path))
+
+
+def few(what: str, paths: Sequence[Path], of: int, always: Collection[str] = ()) -> list[Any]:
+    """One in so many of the scenes for ``what``, the same in every run, and ``always`` those; the others are swept."""
+    chosen = dealt(what, paths, of)[0]
+    return [pytest.param(path) if path in chosen or path.stem in always else swept(path) for path in paths]
+
+
+def swept(*values: Any) -> Any:
+    """A case for `pytest -m sweep`."""
+    return pytest.param(*values, marks=pytest.mark.sweep)
 
 
 def dealt(what: str, paths: Sequence[Path], hands: int) -> list[list[Path]]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import json
 from collections.abc import Mapping
+from contextlib import redirect_stderr, redirect_stdout
 from functools import cache
 from itertools import combinations, count, islice
 from pathlib import Path
@@ -254,14 +256,22 @@ def test_a_bad_file_is_told_where_and_why(name: str) -> None:
     assert matching, [str(fault) for fault in faults]
 
 
+@cache
+def printed() -> tuple[object, str, dict[str, str]]:
+    """The status, the standard error and the line of each bad file, all of them in one run."""
+    out, err = io.StringIO(), io.StringIO()
+    with redirect_stdout(out), redirect_stderr(err), pytest.raises(SystemExit) as stop:
+        cli.app(["classify", "--json", *(str(BAD / name) for name in EXPECTED)])
+    return stop.value.code, err.getvalue(), dict(zip(EXPECTED, out.getvalue().splitlines(), strict=True))
+
+
+@pytest.mark.xdist_group("bad")
 @pytest.mark.parametrize("name", EXPECTED)
-def test_a_bad_file_is_one_line_of_json(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as stop:
-        cli.app(["classify", "--json", str(BAD / name)])
-    told = capsys.readouterr()
-    (line,) = told.out.splitlines()
+def test_a_bad_file_is_one_line_of_json(name: str) -> None:
+    status, err, lines = printed()
+    line = lines[name]
     found = json.loads(line)
-    assert (stop.value.code, told.err, found["scene"]) == (2, "", Path(name).stem)
+    assert (status, err, found["scene"]) == (2, "", Path(name).stem)
     error = found["error"]
     assert "Traceback" not in line
     assert error["message"]

@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.base.errors import SceneError
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.mobility.placement import drawn_placement
 from dofkit.mobility.twists import rows_of
@@ -66,16 +65,18 @@ def mechanism(seed: int) -> dict[str, Any]:
     return {"dimension": d, "bodies": bodies, "constraints": joints}
 
 
-@pytest.mark.parametrize("seed", range(40))
+#: Draws that contradict their own drawing.
+LEFT_OUT = frozenset({8, 23, 26, 29})
+
+
+@pytest.mark.parametrize("seed", sorted(set(range(40)) - LEFT_OUT))
 def test_counts_of_a_mechanism_agree(seed: int) -> None:
-    try:
-        scene = dofkit.load(mechanism(seed))
-    except SceneError:
-        pytest.skip("this draw is no scene")
+    scene = dofkit.load(mechanism(seed))
     report, system = dofkit.classify(scene), lower(scene)
     placement = drawn_placement(system, frozenset())
-    if system.reference is None or placement is None or report.instantaneous_dof is None:
-        pytest.skip("not drawn, or not decided")
+    assert system.reference is not None
+    assert placement is not None
+    assert report.instantaneous_dof is not None
     p, n = placement.p, len(system.coordinates)
     rows = [row for found in placement.located for row in rows_of(found) or []]
     rank = rank_of_rows([{c: v % p for c, v in row.items() if v % p} for row in rows], p)

@@ -34,7 +34,7 @@ class CostPanel(NamedTuple):
 
 def draw(chart: ChartRun) -> Figure | None:
     """The families that grow most."""
-    panels = [_panel(chart, *key) for key in chosen(chart)]
+    panels = [_panel(chart, *key) for key in steepest(chart)]
     if not panels:
         return None
     look = looks(dict.fromkeys(score.method for score in chart.scores))
@@ -62,7 +62,7 @@ def _panel(chart: ChartRun, family: str, question: str) -> CostPanel:
     return CostPanel(f"{family}: {question}", points, fits)
 
 
-def chosen(chart: ChartRun) -> list[tuple[str, str]]:
+def steepest(chart: ChartRun) -> list[tuple[str, str]]:
     """Families and one question of each: those whose largest member is the most times the smallest."""
     sizes: dict[tuple[str, str], list[int]] = {}
     for point in chart.points:

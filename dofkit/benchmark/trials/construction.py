@@ -82,10 +82,10 @@ class Construction:
     def _trial(
         self, family: str, name: str, question: Question, truth: Truth, answer: Mapping[str, str] | None = None
     ) -> Trial:
-        about = (self.because, tuple(self.traits), self.size, self._varied())
+        about = (self.because, tuple(self.traits), self.size, self._variation())
         return Trial(family, name, question, self.scene, truth, *about, answer)
 
-    def _varied(self) -> dict[str, Any]:
+    def _variation(self) -> dict[str, Any]:
         """What is varied; where only the size is, the member of the family that grows: its name with n for the size."""
         member, sizes = re.subn(rf"\b{self.size} by {self.size}\b|\b{self.size}\b", "n", self.name, count=1)
         return dict(self.swept) if self.swept else {"member": member} if sizes else {}

@@ -50,11 +50,11 @@ class AskedConstraint:
 
     def scene(self, text: str = "") -> dict[str, Any]:
         """The scene, with another text for the constraint where one is given."""
-        rows = (*self.others, _asked(text or f"{self.u} = 0"))
+        rows = (*self.others, _asked_equation(text or f"{self.u} = 0"))
         return scene(self.coordinates.split(), *rows, parameters=dict(self.parameters or {}))
 
 
-def _asked(text: str) -> dict[str, str]:
+def _asked_equation(text: str) -> dict[str, str]:
     return {"name": "asked", "type": "equation", "text": text}
 
 
@@ -246,13 +246,13 @@ def large_answers(quick: bool) -> Iterator[Construction]:
     for n in (3,) if quick else (3, 6, 12, 24):
         x = [f"x{k}" for k in range(n)]
         square = " + ".join(f"{q}^2" for q in x)
-        sphere = scene(x, _asked(f"{square} = 1"))
+        sphere = scene(x, _asked_equation(f"{square} = 1"))
         rows = [f"x{k} = {k} x0" for k in range(1, n)]
-        chain = scene([*x, "y"], *rows, _asked("y = x0^2"))
+        chain = scene([*x, "y"], *rows, _asked_equation("y = x0^2"))
         total = " + ".join(f"{k + 2}*(x{k} - {k} x0)" for k in range(1, n))
         forms = [f"dx{k} = y{k} dx0" for k in range(1, n)]
         names = [*x, *(f"y{k}" for k in range(1, n)), "z", "w"]
-        moving = scene(names, *forms, _asked("dz = w dx0"))
+        moving = scene(names, *forms, _asked_equation("dz = w dx0"))
         summed = " + ".join(f"w*dx{k}" for k in range(1, n)), " + ".join(f"w*y{k}*dx0" for k in range(1, n))
         members = (
             (f"sphere in {n}, in exp", sphere, f"exp({square}) = E", True, "rewritten"),
@@ -274,8 +274,8 @@ def tiny_answers(quick: bool) -> Iterator[Construction]:
     """A difference of 10^-k, in a finite relation and in a form, beside a factor of the same size."""
     for k in (6, 30) if quick else (3, 6, 9, 12, 15, 18, 24, 30, 60):
         e = f"1e-{k}"
-        circle = scene(["x", "y"], _asked("x^2 + y^2 = 4"))
-        form = scene(["x", "y", "z"], _asked("dz = y dx"))
+        circle = scene(["x", "y"], _asked_equation("x^2 + y^2 = 4"))
+        form = scene(["x", "y", "z"], _asked_equation("dz = y dx"))
         rows: tuple[tuple[str, dict[str, Any], str, bool], ...] = (
             ("radius", circle, f"x^2 + y^2 = 4 + {e}", False),
             ("ellipse", circle, f"x^2 + (1 + {e}) y^2 = 4", False),

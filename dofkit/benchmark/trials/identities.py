@@ -22,7 +22,7 @@ def identities(quick: bool) -> Iterator[Construction]:
     """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
     seen = set()
     for trap, text, zero, trait, number in _traps(9 if quick else 1):
-        known = _turned(trap, text, zero, number)
+        known = _in_context(trap, text, zero, number)
         if known is not None and known.name not in seen:
             seen.add(known.name)
             because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
@@ -42,7 +42,7 @@ def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
             yield Trap(name, text, None, names, "^" not in text), text, False, "near-identity", number + STRIDE * turn
 
 
-def _turned(trap: Trap, text: str, zero: bool, number: int) -> KnownTruth | None:
+def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownTruth | None:
     """The trap in the first context from this on in which it can stand."""
     for turn in range(len(CONTEXTS)):
         found = CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero)
@@ -77,7 +77,7 @@ def bases(quick: bool) -> Iterator[Construction]:
     for number, (name, zero) in enumerate(BASES[:: 4 if quick else 1]):
         trap = Trap(name, zero, None, "w")
         for turn, (text, is_zero) in enumerate(((zero, True), (f"{zero} + 1e-12", False), (f"{zero} + 1", False))):
-            known = _turned(trap, text, is_zero, 2 * number + turn)
+            known = _in_context(trap, text, is_zero, 2 * number + turn)
             if known is not None:
                 because = "one function, written to two bases" if is_zero else "off by a constant"
                 yield Construction.of(known, because, ("mixed-bases" if is_zero else "near-identity",))

@@ -21,6 +21,7 @@ from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian
 from dofkit.relations.reduced import Reduced
@@ -265,5 +266,5 @@ def _finite(normals: Sequence[Normal]) -> list[Expr]:
 def _differential(g: Expr) -> Normal:
     """dg as a Pfaffian form."""
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
-    slopes = {str(s.args[1]): ex.diff(g, s) for s in moving}
-    return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, ex.diff(g, ex.TIME)),),))
+    slopes = {str(s.args[1]): diff(g, s) for s in moving}
+    return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, diff(g, ex.TIME)),),))

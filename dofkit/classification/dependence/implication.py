@@ -19,7 +19,7 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, reduced
+from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, ways_of
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
@@ -49,7 +49,7 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
     told: list[bool | None] = []
     for choice in choices:
         rows = [Row(k, p) for k, b in enumerate(choice) for p in b if not isinstance(p, Inequality)]
-        ways = reduced(rows, setting.positive)
+        ways = ways_of(rows, setting.positive)
         if len(ways) >= MAX_WAYS:
             return None
         for way in ways:

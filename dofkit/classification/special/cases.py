@@ -29,6 +29,7 @@ from dofkit.classification.special.parameters import (
 from dofkit.classification.special.wording import drop, flag, order_of, where
 from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, expressions
@@ -67,7 +68,7 @@ class GenericAnswer:
         values = {canon.ring.var_expr[i]: canon.to_expr(v) for i, v in leaf.solved}
         known = {s: v for s, v in values.items() if s.op == "sym"}
         positive = self.setting.positive
-        return not any(never_holds(ex.substitute(q.expr, known), q.strict, positive) for q in self.inequalities)
+        return not any(never_holds(substitute(q.expr, known), q.strict, positive) for q in self.inequalities)
 
     def names(self, constraints: Sequence[int]) -> list[str]:
         return [self.system.constraints[i].name for i in constraints]

@@ -19,6 +19,7 @@ from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import AdmissibleCurve, columns_of
 from dofkit.relations.answer import Answer
@@ -122,7 +123,7 @@ def _rows(
     if uses_time(block) or any(ex.TIME in g.symbols for g in (*finite, *conditions)):
         symbols.append(ex.TIME)
     place_of = {s: i for i, s in enumerate(symbols)}
-    entries = [{place_of[s]: ex.diff(g, s) for s in symbols if s in g.symbols} for g in finite]
+    entries = [{place_of[s]: diff(g, s) for s in symbols if s in g.symbols} for g in finite]
     entries += [{place_of[s]: e for s, e in r.piece.items()} for r in block.forms if isinstance(r.piece, Pfaffian)]
     chart = _chart(block, setting, [*relations, *conditions], [e for row in entries for e in row.values()])
     if len(chart.symbols) < len(symbols):

@@ -10,6 +10,7 @@ from dofkit.classification.special.common_zeros import Leaf, Reals
 from dofkit.classification.special.wording import tuple_of
 from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Report
 from dofkit.system import Sign, System
@@ -107,7 +108,7 @@ def at_values(system: System, values: Values) -> System:
     """The system with parameters replaced. Raises PoleError where it has no meaning for them."""
 
     def put(e: Expr) -> Expr:
-        return ex.substitute(e, values)
+        return substitute(e, values)
 
     constraints = tuple(
         replace(c, relations=tuple(replace(r, expr=put(r.expr)) for r in c.relations)) for c in system.constraints

@@ -20,6 +20,7 @@ from typing import NamedTuple
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.graph.answers import linkage
 from dofkit.relations.chart import Chart
@@ -98,7 +99,7 @@ def _without_explicit(chart: Chart, said: Sequence[ReducibleRelation]) -> tuple[
         for k in users.pop(q) - {i}:
             if k not in left:
                 continue
-            changed = ex.substitute(left[k].relation, {q: value})
+            changed = substitute(left[k].relation, {q: value})
             for symbol in changed.symbols & own:
                 users.setdefault(symbol, set()).add(k)
             left[k] = left[k]._replace(relation=changed)

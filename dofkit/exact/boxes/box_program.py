@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from dofkit.exact.boxes import functions
 from dofkit.exact.boxes import intervals as iv
 from dofkit.exact.boxes.intervals import Interval
 from dofkit.exact.errors import raising_no_value
@@ -65,7 +66,7 @@ class BoxProgram:
         if e.op == "num":
             return self._emit("num", (), iv.number(e.args[0]))
         if e.op == "const":
-            return self._emit("num", (), iv.constant(e.args[0]))
+            return self._emit("num", (), functions.constant(e.args[0]))
         if e.op in ("sym", "call"):
             return self._variable(e)
         if e.op in ("add", "mul"):
@@ -146,7 +147,7 @@ class BoxProgram:
         if node.op == "root":
             allowed = result if node.data % 2 else iv.meet(result, iv.NON_NEGATIVE)
             return iv.meet(x, iv.integer_power(allowed, node.data))
-        return iv.solve_function(node.data, x, result)
+        return functions.solve_function(node.data, x, result)
 
     def _backward_many(self, node: Node, at: list[Interval], result: Interval) -> None:
         """Each term or factor from the result and the others."""
@@ -208,7 +209,7 @@ def _of_one(node: Node, x: Interval) -> Interval:
         return iv.integer_power(x, node.data)
     if node.op == "inverse":
         return iv.hull(iv.inverse(x))
-    return iv.root(x, node.data) if node.op == "root" else iv.function(node.data, x)
+    return iv.root(x, node.data) if node.op == "root" else functions.function(node.data, x)
 
 
 def _defined(node: Node, x: Interval) -> bool:
@@ -219,7 +220,7 @@ def _defined(node: Node, x: Interval) -> bool:
     if node.op == "fn" and node.data in ("asin", "acos"):
         return x[0] >= -1.0 and x[1] <= 1.0
     if node.op == "fn" and node.data == "tan":
-        return iv.function("tan", x) != iv.WHOLE
+        return functions.function("tan", x) != iv.WHOLE
     return node.op != "fn" or node.data != "log" or x[0] > 0.0
 
 
@@ -246,10 +247,10 @@ def _function_slope(name: str, x: Interval, value: Interval) -> Interval:
     if name == "exp":
         return value
     if name in ("sin", "cos"):
-        other = iv.function("cos" if name == "sin" else "sin", x)
+        other = functions.function("cos" if name == "sin" else "sin", x)
         return other if name == "sin" else iv.negative(other)
     if name in ("sinh", "cosh"):
-        return iv.function("cosh" if name == "sinh" else "sinh", x)
+        return functions.function("cosh" if name == "sinh" else "sinh", x)
     if name == "tan":
         return iv.add((1.0, 1.0), iv.integer_power(value, 2))
     if name == "tanh":

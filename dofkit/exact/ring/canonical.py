@@ -19,6 +19,7 @@ from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW
 from dofkit.exact.ring.program import reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 
 MAX_TERMS = 3000
@@ -210,5 +211,5 @@ def is_identically_zero(expression: Expr, positive: frozenset[Expr] = frozenset(
 
 def substitute_all(expressions: Mapping[str, Expr], mapping: Mapping[Expr, Expr]) -> dict[str, Expr]:
     """A substitution in every value of a mapping, zeros left out."""
-    replaced = {name: ex.substitute(e, mapping) for name, e in expressions.items()}
+    replaced = {name: substitute(e, mapping) for name, e in expressions.items()}
     return {name: e for name, e in replaced.items() if not e.is_zero}

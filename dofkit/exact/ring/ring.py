@@ -19,6 +19,7 @@ from dofkit.exact.ring.instructions import ADD, MUL, NUM, Instructions, Var
 from dofkit.exact.ring.inverses import inverse_function, log, over_primes, split_logs
 from dofkit.exact.ring.radicals import root, sign
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.terms import linear_terms, sorted_sum
 from dofkit.expressions.tree import Expr
 
@@ -35,7 +36,7 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
             family = _family(node)
             if family:
                 argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
-                for rest, factor in linear_terms(over_primes(ex.substitute(argument, alias))).items():
+                for rest, factor in linear_terms(over_primes(substitute(argument, alias))).items():
                     factor = exact_turn(factor)[1] if rest == ex.PI and family == "cis" else factor
                     old = denominators.get((family, rest), 1)
                     denominators[family, rest] = old * factor.denominator // gcd(old, factor.denominator)
@@ -135,7 +136,7 @@ class Ring(Instructions):
 
     def _exp(self, u: Expr) -> int:
         """exp of a sum as the product of powers of the basic exponentials; exp(r log x) = x^r."""
-        u = over_primes(ex.substitute(u, self.alias))
+        u = over_primes(substitute(u, self.alias))
         parts = []
         for rest, factor in linear_terms(u).items():
             if rest.op == "fn" and rest.args[0] == "log":
@@ -153,7 +154,7 @@ class Ring(Instructions):
 
     def _cis(self, u: Expr) -> tuple[int, int]:
         """(cos u, sin u) as polynomials in those of the basic angles."""
-        u = ex.substitute(u, self.alias)
+        u = substitute(u, self.alias)
         total = (self.number(1), self.number(0))
         for rest, factor in linear_terms(u).items():
             if rest == ex.PI:

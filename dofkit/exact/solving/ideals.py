@@ -73,7 +73,7 @@ class _Polynomials:
         kept = _unknowns(ring, used, moving)
         if kept is None or len(kept) > MAX_UNKNOWNS:
             return None
-        seen, pairs = _seen(ring, kept)
+        seen, pairs = _coordinates_and_pairs(ring, kept)
         rng = random.Random("dofkit ideals")
         values = {i: Fraction(rng.randint(2, LARGEST)) for i in used if i not in kept}
         place = {i: k for k, i in enumerate(kept)}
@@ -108,7 +108,7 @@ def _angle(ring: Ring, index: int) -> int | None:
     return ring.var_index(ring.vars[index].key[0])
 
 
-def _seen(ring: Ring, kept: Sequence[int]) -> tuple[set[int | None], list[tuple[int, int]]]:
+def _coordinates_and_pairs(ring: Ring, kept: Sequence[int]) -> tuple[set[int | None], list[tuple[int, int]]]:
     """The coordinates that are seen, and the pairs of cosine and sine."""
     pairs = [(i, ring.vars[i].partner) for i in kept if ring.vars[i].kind == "cos"]
     seen = {i if ring.vars[i].kind == "symbol" else _angle(ring, i) for i in kept}

@@ -101,7 +101,7 @@ class Planner:
         self.rng = random.Random(f"dofkit plan {seed}")
         self.plan = Plan()
 
-    def made_for(self, relations: Sequence[int]) -> Plan:
+    def plan_for(self, relations: Sequence[int]) -> Plan:
         """The plan for relations, those of the roots among them."""
         if self.degrees.probe is None:
             self.plan.stuck = True
@@ -270,4 +270,4 @@ def plan_for(ring: Ring, relations: Sequence[int], fixed: frozenset[Unit], seed:
     """The plan for relations and for those of the roots in them, and the degrees by which it was found."""
     whole = [*relations, *root_relations(ring, list(relations))]
     degrees = Degrees(ring, seed)
-    return Planner(degrees, fixed, seed).made_for(whole), degrees
+    return Planner(degrees, fixed, seed).plan_for(whole), degrees

@@ -25,11 +25,11 @@ PRECISIONS = (256, 1024)
 
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Is the expression zero identically, as far as can be told? See `told_zero` for how sure that is."""
-    return bool(told_zero(e, positive)[0])
+    """Is the expression zero identically, as far as can be told? See `zero_and_verdict` for how sure that is."""
+    return bool(zero_and_verdict(e, positive)[0])
 
 
-def told_zero(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
+def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
     """(zero?, how sure); None only where one engine alone cannot tell.
 
     Zero in the canonical ring is a proof, and so is zero of every coefficient there (`proved_zero`); so is not zero
@@ -41,7 +41,7 @@ def told_zero(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tu
     ring = Ring([e], positive)
     node = ring.node(e)
     if engines != BOTH:
-        return _told_by_one(ring, node, positive, engines)
+        return _by_one_engine(ring, node, positive, engines)
     canon = Canon(ring)
     try:
         if canon.is_zero(node):
@@ -71,7 +71,7 @@ def _coefficients_vanish(canon: Canon, node: int) -> bool:
     return all(proved_zero(ex.add(*terms)) for terms in groups.values())
 
 
-def _told_by_one(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
+def _by_one_engine(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
     """Zero over GF(p) is probable, non-zero only for independent generators; a ball proves non-zero only."""
     if "balls" in engines:
         return (False, "proved") if excludes_zero(ring, node, positive) else (True, "numeric")

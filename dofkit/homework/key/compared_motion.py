@@ -21,9 +21,10 @@ from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr
 from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
-from dofkit.motion.lagrangian.rates import by_time
+from dofkit.motion.lagrange.rates import by_time
 
 #: Systems up to this size are solved by Cramer's rule where points alone may mislead.
 BY_CRAMER = 3
@@ -31,7 +32,7 @@ BY_CRAMER = 3
 
 def euler(e: Expr, name: str) -> Expr:
     """d/dt de/dqdot - de/dq."""
-    return by_time(ex.diff(e, ex.velocity(name))) - ex.diff(e, ex.coordinate(name))
+    return by_time(diff(e, ex.velocity(name))) - diff(e, ex.coordinate(name))
 
 
 def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | None:
@@ -52,8 +53,8 @@ def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | Non
 def _spanned(forces: Sequence[Expr], known: RightMotion) -> bool | None:
     """Are forces sums of those of the constraints, at every state and acceleration that these allow?"""
     columns = [ex.sym("acceleration", n) for n in known.names]
-    lines = [linear(known.moved(e), columns) for e in forces]
-    held = [linear(known.moved(e), columns) for e in known.rows]
+    lines = [linear(known.on_constraints(e), columns) for e in forces]
+    held = [linear(known.on_constraints(e), columns) for e in known.rows]
     if None in lines or None in held:
         return None
     ring = Ring([e for row in (*lines, *held) for e in row or ()] + [*known.relations], known.positive)
@@ -117,7 +118,7 @@ class AnsweredMotion:
         found = []
         unknown = [*self.columns, *self.own]
         for e in self.equations:
-            e = self.known.moved(self.known.inserted(_in_time(e)))
+            e = self.known.on_constraints(self.known.in_kept(_in_time(e)))
             row = linear(e, unknown)
             if row is None:
                 return None
@@ -129,7 +130,7 @@ class AnsweredMotion:
         """The same of the scene's equations with their multipliers, and the constraints' accelerations."""
         unknown = [*self.columns, *self.known.multipliers]
         given = [*self.known.equations.values(), *self.known.rows]
-        return [row for e in given if (row := linear(self.known.moved(e), unknown)) is not None]
+        return [row for e in given if (row := linear(self.known.on_constraints(e), unknown)) is not None]
 
     @property
     def decidable(self) -> bool:
@@ -249,16 +250,16 @@ def _consistent(rows: list[list[int]], p: int) -> list[bool]:
 def _in_time(e: Expr) -> Expr:
     """Differentials read as velocities."""
     rates = {s: ex.velocity(str(s.args[1])) for s in e.symbols if s.args[0] == "differential"}
-    return ex.substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
+    return substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
 
 
 def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
     """The coefficients of unknowns and what is left without them; None where ``e`` is not linear as written."""
-    row = [ex.diff(e, s) for s in unknown]
+    row = [diff(e, s) for s in unknown]
     moving = {*unknown}
     if any(c.symbols & moving or any(s.args[0] == "acceleration" for s in c.symbols) for c in row):
         return None
-    rest = ex.substitute(e, dict.fromkeys(unknown, ZERO))
+    rest = substitute(e, dict.fromkeys(unknown, ZERO))
     if any(s.args[0] in ("acceleration", "differential", "dt") for s in rest.symbols):
         return None
     return [*row, rest]

@@ -12,15 +12,16 @@ from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import told_zero
+from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.motion.lagrangian.derivation import derive
-from dofkit.motion.lagrangian.elimination import ELIMINATIONS
-from dofkit.motion.lagrangian.equations import derived_of, read
-from dofkit.motion.lagrangian.model import in_velocities
-from dofkit.motion.lagrangian.rates import by_time
+from dofkit.motion.lagrange.derivation import derive
+from dofkit.motion.lagrange.elimination import ELIMINATIONS
+from dofkit.motion.lagrange.equations import derived_of, read
+from dofkit.motion.lagrange.model import in_velocities
+from dofkit.motion.lagrange.rates import by_time
 from dofkit.relations.normal.normal_form import Finite, Pfaffian
 from dofkit.scene.scene import Scene
 
@@ -52,17 +53,17 @@ class RightMotion:
     unreduced: Mapping[str, tuple[Expr, Expr]]
     positive: frozenset[Expr]
 
-    def inserted(self, e: Expr) -> Expr:
+    def in_kept(self, e: Expr) -> Expr:
         """An answer in the coordinates that are kept."""
-        return ex.substitute(e, self.motions)
+        return substitute(e, self.motions)
 
-    def moved(self, e: Expr) -> Expr:
+    def on_constraints(self, e: Expr) -> Expr:
         """The same where the constraints hold."""
-        return ex.substitute(e, self.rates)
+        return substitute(e, self.rates)
 
     def zero(self, e: Expr) -> bool | None:
         """Is an expression 0 where the constraints hold? None where that was not decided."""
-        moved = self.moved(e)
+        moved = self.on_constraints(e)
         found = is_zero(moved, self.positive)
         return found if found is not False or not self.relations else self._zero_there(moved)
 
@@ -102,14 +103,14 @@ def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
     for piece in model.constraints:
         if isinstance(piece, (Pfaffian, Finite)):
             form = by_time(piece.expr) if isinstance(piece, Finite) else in_velocities(piece)
-            _solved(form, rates, model.positive)
+            _add_rate(form, rates, model.positive)
     given = model.whole
     unreduced = {}
     for c in model.study.system.coordinates:
         v = ex.velocity(c.name)
-        force = ex.diff(given.lagrangian, ex.coordinate(c.name)) - ex.diff(given.dissipation, v)
-        pair = (ex.diff(given.lagrangian, v), force + given.forces.get(c.name, ZERO))
-        unreduced[c.name] = (ex.substitute(pair[0], model.motions), ex.substitute(pair[1], model.motions))
+        force = diff(given.lagrangian, ex.coordinate(c.name)) - diff(given.dissipation, v)
+        pair = (diff(given.lagrangian, v), force + given.forces.get(c.name, ZERO))
+        unreduced[c.name] = (substitute(pair[0], model.motions), substitute(pair[1], model.motions))
     rows = [by_time(by_time(p.expr)) if isinstance(p, Finite) else by_time(in_velocities(p)) for p in model.constraints]
     return RightMotion(
         model.names,
@@ -128,14 +129,14 @@ def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
     )
 
 
-def _solved(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) -> None:
+def _add_rate(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) -> None:
     """One more velocity by the others, from a form that is 0."""
-    form = ex.substitute(form, rates)
+    form = substitute(form, rates)
     for v in sorted((s for s in form.symbols if s.args[0] == "velocity"), key=lambda s: s.args):
-        slope = ex.diff(form, v)
+        slope = diff(form, v)
         if is_zero(slope, positive) is False:
-            value = -ex.substitute(form, {v: ZERO}) / slope
-            rates.update({w: ex.substitute(e, {v: value}) for w, e in rates.items()})
+            value = -substitute(form, {v: ZERO}) / slope
+            rates.update({w: substitute(e, {v: value}) for w, e in rates.items()})
             rates[v] = value
             return
 
@@ -145,7 +146,7 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
     if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
         return None
     try:
-        found, verdict = told_zero(e, positive)
+        found, verdict = zero_and_verdict(e, positive)
     except ArithmeticError:
         return None
     return None if found and verdict not in ("proved", "probable") else found

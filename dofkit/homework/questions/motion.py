@@ -45,9 +45,9 @@ class _MotionQuestion(QuestionBase):
         shown = self.read(answer, key)
         if isinstance(key.motion, DofkitError):
             return needs_review(shown, f"dofkit has no equations of motion here ({key.motion}).")
-        return self._judged(answer, key, key.motion, shown)
+        return self._judgement(answer, key, key.motion, shown)
 
-    def _judged(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
+    def _judgement(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
         raise NotImplementedError
 
     def solution(self, key: Key) -> str:
@@ -63,10 +63,10 @@ class _Value(_MotionQuestion):
     def read(self, answer: Given, key: Key) -> str:
         return to_text(_value(answer, key))
 
-    def _judged(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
-        return self._compared(known.inserted(_value(answer, key)), known, shown)
+    def _judgement(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
+        return self._comparison(known.in_kept(_value(answer, key)), known, shown)
 
-    def _compared(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
+    def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
         raise NotImplementedError
 
 
@@ -83,7 +83,7 @@ class Lagrangian(_Value):
 
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
 
-    def _compared(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
+    def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
         same = same_lagrangian(given, known.lagrangian, known)
         if same:
             return right(shown)
@@ -112,7 +112,7 @@ class _OfCoordinate(_Value):
     def _unreduced(self, known: RightMotion) -> Expr:
         raise NotImplementedError
 
-    def _compared(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
+    def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
         wanted = self._right(known)
         reduced = known.motions and wanted is not None
         if wanted is None:
@@ -184,7 +184,7 @@ class MotionQuestion(_MotionQuestion):
     def read(self, answer: Given, key: Key) -> str:
         return "; ".join(as_text(c) for c in _equations(answer, key)[0])
 
-    def _judged(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
+    def _judgement(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
         relations, own = _equations(answer, key)
         if any(c.relation != "=" for c in relations):
             return wrong(shown, "An equation of motion is an equation, not an inequality.", "INEQUALITY")

@@ -33,22 +33,22 @@ class GradingCrew:
 
 
 @contextmanager
-def here(keeper: Keeper, workers: int) -> Iterator[GradingCrew]:
+def local_crew(keeper: Keeper, workers: int) -> Iterator[GradingCrew]:
     """Workers on this machine."""
     with Threads(workers, keeper.close) as threads:
-        yield GradingCrew(threads, keeper.graded)
+        yield GradingCrew(threads, keeper.grade)
 
 
 @contextmanager
-def there(address: str, orders: Orders) -> Iterator[GradingCrew]:
+def cluster_crew(address: str, orders: Orders) -> Iterator[GradingCrew]:
     """The machines of a Dask scheduler, each with workers of its own. Raises StoppedError."""
     with Cluster(address) as cluster:
-        yield GradingCrew(cluster, partial(graded_there, orders))
+        yield GradingCrew(cluster, partial(grade_there, orders))
 
 
-def graded_there(orders: Orders, handed: Sequence[Handed]) -> Graded:
+def grade_there(orders: Orders, handed: Sequence[Handed]) -> Graded:
     """A batch, on a machine of the cluster."""
-    return _keeper(orders).graded(handed)
+    return _keeper(orders).grade(handed)
 
 
 @lru_cache(maxsize=1)

@@ -50,7 +50,7 @@ def _batch(stream: Iterator[Handed], size: int) -> list[Handed]:
     return found
 
 
-def once(
+def without_repeats(
     orders: Orders, graded: Iterable[tuple[Handed, list[ResultLine]]], seen: HandedIn
 ) -> Iterator[tuple[Handed, list[ResultLine]]]:
     """The same, but a student's second submission is refused, and both places are named."""

@@ -10,6 +10,7 @@ from dofkit.exact.errors import NoValueError, TooLargeError, raising_no_value
 from dofkit.exact.ring.canonical import Canon, soon_factored
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 
 Poly = Any
@@ -117,9 +118,7 @@ class Algebra:
     def closed(self, form: dict[Expr, Expr]) -> bool:
         """True where d(omega) = 0 is proved."""
         items = list(form.items())
-        return all(
-            self.vanishes(ex.diff(b, s) - ex.diff(a, u)) for i, (s, a) in enumerate(items) for u, b in items[i + 1 :]
-        )
+        return all(self.vanishes(diff(b, s) - diff(a, u)) for i, (s, a) in enumerate(items) for u, b in items[i + 1 :])
 
 
 def bounded(poly: Poly) -> bool:

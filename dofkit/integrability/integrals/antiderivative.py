@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, replace
@@ -127,7 +128,7 @@ def _inverse_by_parts(work: Algebra, monomial: Expr, e: Expr, x: Expr, depth: in
     raised = None if exponent.denominator != 1 else antiderivative(work, monomial, x, depth + 1)
     if raised is None or as_power(monomial) == (x, Fraction(-1)):
         return None
-    rest = antiderivative(work, work.tidy(raised * ex.diff(e, x)), x, depth + 1)
+    rest = antiderivative(work, work.tidy(raised * diff(e, x)), x, depth + 1)
     return None if rest is None else raised * e - rest
 
 
@@ -141,7 +142,7 @@ def _by_parts(work: Algebra, monomial: Expr, other: Expr, x: Expr, depth: int) -
     raised = _by_terms(work, expand(other), x, depth + 1)
     if raised is None:
         return None
-    rest = _by_terms(work, expand(ex.diff(monomial, x) * raised), x, depth + 1)
+    rest = _by_terms(work, expand(diff(monomial, x) * raised), x, depth + 1)
     return None if rest is None else monomial * raised - rest
 
 
@@ -149,10 +150,10 @@ def _shifted(work: Algebra, e: Expr, x: Expr, straight: tuple[Expr, Expr], depth
     """x^n (a x + b)^r by powers of a x + b."""
     a, b = straight
     base = a * x + b
-    inside = expand(ex.substitute(e, {x: (_FRESH - b) / a}) / a)
-    inside = replace(inside, expand(ex.substitute(base, {x: (_FRESH - b) / a})), _FRESH)
+    inside = expand(substitute(e, {x: (_FRESH - b) / a}) / a)
+    inside = replace(inside, expand(substitute(base, {x: (_FRESH - b) / a})), _FRESH)
     found = antiderivative(work, work.tidy(inside), _FRESH, depth + 1)
-    return None if found is None else ex.substitute(found, {_FRESH: base})
+    return None if found is None else substitute(found, {_FRESH: base})
 
 
 # -- whole sums ------------------------------------------------------------------------------------
@@ -169,15 +170,15 @@ def _total_derivative(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | Non
     if place is None or any(x in u.symbols for i, u in enumerate(arguments) if i != place):
         return None
     lower = ex.call(name, arguments, tuple(k - (i == place) for i, k in enumerate(orders)))
-    coefficient = ex.diff(replace(e, highest, _FRESH), _FRESH)
+    coefficient = diff(replace(e, highest, _FRESH), _FRESH)
     if _FRESH in coefficient.symbols:
         return None
-    coefficient = replace(work.tidy(coefficient / ex.diff(arguments[place], x)), lower, _FRESH)
+    coefficient = replace(work.tidy(coefficient / diff(arguments[place], x)), lower, _FRESH)
     part = antiderivative(work, coefficient, _FRESH, depth + 1)
     if part is None:
         return None
     part = replace(part, _FRESH, lower)
-    rest = antiderivative(work, work.tidy(e - ex.diff(part, x)), x, depth + 1)
+    rest = antiderivative(work, work.tidy(e - diff(part, x)), x, depth + 1)
     return None if rest is None else part + rest
 
 
@@ -187,7 +188,7 @@ def _under_exponential(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     if node is None:
         return None
     marked = replace(e, node, _FRESH)
-    inside = ex.diff(marked, _FRESH)
+    inside = diff(marked, _FRESH)
     (constant, powers_of_x), terms = collected_powers(node.args[1], x), _coefficients(inside, x)
     base, m = as_power(powers_of_x[0])
     if len(powers_of_x) != 1 or base != x or m.denominator != 1 or not 2 <= m <= 4 or terms is None:
@@ -221,13 +222,13 @@ def _sum_by_parts(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
     inverse = [n for n in ex.nodes(e) if n.op == "fn" and n.args[0] in _INVERSE and x in n.symbols]
     for node in inverse[:2]:
         marked = replace(e, node, _FRESH)
-        coefficient = ex.diff(marked, _FRESH)
+        coefficient = diff(marked, _FRESH)
         if _FRESH in coefficient.symbols or coefficient == ex.ONE:
             continue
         raised = antiderivative(work, work.tidy(coefficient), x, depth + 2)
         if raised is None:
             continue
-        rest = work.tidy(ex.substitute(marked, {_FRESH: ex.ZERO}) - raised * ex.diff(node, x))
+        rest = work.tidy(substitute(marked, {_FRESH: ex.ZERO}) - raised * diff(node, x))
         found = antiderivative(work, rest, x, depth + 2)
         if found is not None:
             return raised * node + found
@@ -239,7 +240,7 @@ def _by_substitution(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None
     inner = [n for n in ex.nodes(e) if x in n.symbols and n != e and n.op in ("fn", "call")]
     inner += [ex.fn("sin", n.args[1]) for n in inner if n.op == "fn" and n.args[0] == "cos"]
     for u in dict.fromkeys(inner[:MAX_CANDIDATES]):
-        slope = ex.diff(u, x)
+        slope = diff(u, x)
         if x not in slope.symbols:
             continue
         inside = replace(work.tidy(e / slope), u, _FRESH)
@@ -251,7 +252,7 @@ def _by_substitution(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None
                 return replace(found, _FRESH, u)
     for k in (2, 3):
         inside = work.tidy(e / (k * x ** (k - 1)))
-        inside = work.tidy(ex.substitute(inside, {x: ex.power(_FRESH, ex.num(Fraction(1, k)))}))
+        inside = work.tidy(substitute(inside, {x: ex.power(_FRESH, ex.num(Fraction(1, k)))}))
         if not any(n.op == "pow" and n.args == (_FRESH, ex.num(Fraction(1, k))) for n in ex.nodes(inside)):
             found = antiderivative(work, inside, _FRESH, depth + 3)
             if found is not None:
@@ -264,4 +265,4 @@ def _power_for_fresh(e: Expr, x: Expr, k: int) -> Expr:
     for node in list(ex.nodes(e)):
         if node.op == "pow" and node.args[0] == _FRESH and node.args[1].op == "num":
             e = replace(e, node, ex.power(x, k * node.args[1]))
-    return ex.substitute(e, {_FRESH: x**k})
+    return substitute(e, {_FRESH: x**k})

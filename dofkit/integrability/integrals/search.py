@@ -14,6 +14,7 @@ from itertools import chain, count
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.zero.identity import certainly_nonzero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, GivenUpError, size
@@ -115,5 +116,5 @@ def _integral(work: Algebra, form: Form, mu: Expr) -> Pair | None:
 def _proved(work: Algebra, form: Form, pair: Pair) -> bool:
     """df = mu omega identically, and mu is not zero."""
     integral, mu = pair
-    holds = all(work.vanishes(ex.diff(integral, s) - mu * a) for s, a in form.items())
+    holds = all(work.vanishes(diff(integral, s) - mu * a) for s, a in form.items())
     return holds and (mu.op == "num" or certainly_nonzero(mu, work.positive))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dofkit.interface.show.faults import safe
-from dofkit.motion.lagrangian.report import Linearized, MotionReport
+from dofkit.motion.lagrange.report import Linearized, MotionReport
 
 
 def as_lines(report: MotionReport, title: str | None = None) -> str:

@@ -11,6 +11,7 @@ from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.undecided import sketch
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.methods.names import MethodName
 from dofkit.methods.shared.reply import MethodFindings, MethodLabel
@@ -95,7 +96,7 @@ def _without_time(e: Expr) -> bool:
     moving = [s for s in e.symbols if s.args[0] in ("velocity", "differential")]
     if "acceleration" in kinds:
         return False
-    return not moving or ex.substitute(e, dict.fromkeys(moving, ex.ZERO)).is_zero
+    return not moving or substitute(e, dict.fromkeys(moving, ex.ZERO)).is_zero
 
 
 def many(number: int, what: str) -> str:

@@ -89,7 +89,7 @@ class _Sampled:
         if along is not None and along not in names:
             raise NoMotionError(f"'{along}' is no coordinate of the scene")
         self.system, self.setting, self.along, self.names = system, setting, along, list(names)
-        self.given = _given(system, given)
+        self.given = _known_symbols(system, given)
         self.relations = _relations(system, outcome, setting, coordinates, _limits(reduced, outcome))
         self.relations.constants |= {s: v for s, v in self.given.items() if s.args[0] == "parameter"}
         self.follower = Follower(self.relations, _freedom(outcome, self.relations.timed))
@@ -135,8 +135,8 @@ class _Sampled:
         backward = self._way(back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:
             raise NoMotionError("no motion was followed that leaves the first configuration")
-        middle = self._told(self.start, {})
-        return [*reversed(self._all_told(backward, middle)), middle, *self._all_told(forward, middle)]
+        middle = self._values(self.start, {})
+        return [*reversed(self._values_along(backward, middle)), middle, *self._values_along(forward, middle)]
 
     def _way(self, start: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
         """The poses of one way, and whether it closes up."""
@@ -159,21 +159,21 @@ class _Sampled:
         pairs = zip(self.relations.margins(self.start), self.relations.margins(pose), strict=False)
         return any(now < -STILL <= before for before, now in pairs)
 
-    def _all_told(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
+    def _values_along(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
         found = []
         for pose in poses:
-            last = self._told(pose, last)
+            last = self._values(pose, last)
             found.append(last)
         return found
 
-    def _told(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
-        told = self.relations.told(pose, last)
+    def _values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+        told = self.relations.coordinate_values(pose, last)
         chosen = {str(s.args[1]): v for s, v in self.relations.constants.items() if not str(s.args[1]).startswith("_")}
         timed = {"t": told["t"]} if self.relations.timed else {}
         return {**{n: told[n] for n in self.names}, **timed, **chosen}
 
 
-def _given(system: System, given: Mapping[str, float]) -> dict[Expr, float]:
+def _known_symbols(system: System, given: Mapping[str, float]) -> dict[Expr, float]:
     """Numbers for parameters and coordinates, by their symbols."""
     places = {c.name for c in system.coordinates}
     known = places | set(system.parameters)

@@ -204,7 +204,7 @@ class PoseRelations:
             found += [_middle(v) for v in _by_turn(line[n + 3 * k : n + 3 * k + 3], g)]
         return np.array(found)
 
-    def told(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+    def coordinate_values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
         """The values of all coordinates (Euler angles near those told ``last``), and of time where it occurs."""
         found = {str(s.args[1]): float(v) for s, v in zip(self.plain, pose.plain, strict=True) if s != ex.TIME}
         for r, q in zip(self.rotations, pose.turns, strict=True):

@@ -21,7 +21,8 @@ from flint import ctx, fmpq_mat, fmpz_poly
 from dofkit.base.deadline import check
 from dofkit.exact.boxes.box_program import Box, BoxProgram
 from dofkit.exact.boxes.contraction import contract
-from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, constant, middle
+from dofkit.exact.boxes.functions import constant
+from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, middle
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.instructions import Var

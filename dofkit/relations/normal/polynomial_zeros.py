@@ -13,7 +13,7 @@ from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import told_zero
+from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.extremes import EXTREME_NOTE, apart
@@ -67,7 +67,7 @@ def vanishes(constant: Expr, positive: frozenset[Expr]) -> bool:
     """Is a constant 0? Raises HiddenZeroError where neither that nor the contrary is certain."""
     if constant.op == "sym":
         return False
-    zero, sure = told_zero(constant, positive)
+    zero, sure = zero_and_verdict(constant, positive)
     if zero and sure != "proved":
         raise HiddenZeroError
     return bool(zero)

@@ -16,6 +16,7 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.elimination import by_velocities
 from dofkit.relations.normal.semidefinite import Signs, sum_of_even
@@ -85,14 +86,14 @@ def _matrix(e: Expr, velocities: Sequence[Expr]) -> Matrix | None:
     n = len(velocities)
     form: Matrix = [[ex.ZERO] * (n + 1) for _ in range(n + 1)]
     for i, v in enumerate(velocities):
-        slope = ex.diff(e, v)
-        form[i][n] = form[n][i] = ex.HALF * ex.substitute(slope, zeros)
+        slope = diff(e, v)
+        form[i][n] = form[n][i] = ex.HALF * substitute(slope, zeros)
         for j, w in enumerate(velocities):
-            second = ex.HALF * ex.diff(slope, w)
+            second = ex.HALF * diff(slope, w)
             if any(s.args[0] == "velocity" for s in second.symbols):
                 return None
             form[i][j] = second
-    form[n][n] = ex.substitute(e, zeros)
+    form[n][n] = substitute(e, zeros)
     return form
 
 

@@ -74,13 +74,9 @@ def meet(world: World, first: Placed, second: Placed, *where: str | int) -> None
     if not world.any_differs(gap):
         return
     told = f"{figures(first.reference)} and {figures(second.reference)}"
-
-    def look(size: float) -> None:
-        if not world.within(root(square(gap)), size):
-            message = f"the drawing puts {first.label} and {second.label} apart, at {told}"
-            world.fault(message, *where, hint="give them the same place, or set `tolerance` if it is measured")
-
-    world.check_later(look)
+    message = f"the drawing puts {first.label} and {second.label} apart, at {told}"
+    hint = "give them the same place, or set `tolerance` if it is measured"
+    world.misfit(root(square(gap)), message, *where, hint=hint)
 
 
 def figures(position: Vec | None) -> str:

@@ -9,8 +9,9 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from dofkit.exact.matrices.rows import along, less
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt, substitute
+from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
 from dofkit.expressions.vectors import Vec, difference, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase, root
 from dofkit.scene.fields import Value, as_written
@@ -48,8 +49,7 @@ class Link(ConstraintBase):
         if given is not None:
             _check_length(world, first, second, given, "length")
         if first.frame is None and second.frame is None and (given is None or not _moves(given)):
-            index = world.here[-1]
-            world.links.append((int(index), first.label, second.label))
+            world.links.append((first.label, second.label))
         yield Relation(distance(world, first, second, given))
 
     def texts(self) -> Iterator[str]:
@@ -105,14 +105,18 @@ def _check_length(world: World, first: Placed, second: Placed, given: Expr, *whe
     if not world.differs(difference(power(start, TWO), drawn)):
         return
     measured = root(drawn)
+    message = f"the length {_figure(shown)} contradicts the drawing, where {first.label} and {second.label} are "
+    hint = "leave `length` out to take the drawing's, or set `tolerance` if it is measured"
+    world.misfit(_less(shown, measured), f"{message}{_figure(measured)} apart", *where, hint=hint)
 
-    def look(size: float) -> None:
-        if shown is None or measured is None or not world.within(shown - measured, size):
-            message = f"the length {shown:.12g} contradicts the drawing, where {first.label} and {second.label} are "
-            hint = "leave `length` out to take the drawing's, or set `tolerance` if it is measured"
-            world.fault(f"{message}{measured:.12g} apart", *where, hint=hint)
 
-    world.check_later(look)
+def _less(a: float | None, b: float | None) -> float | None:
+    """a - b, where both are numbers."""
+    return None if a is None or b is None else a - b
+
+
+def _figure(number: float | None) -> str:
+    return "?" if number is None else f"{number:.12g}"
 
 
 class Rigid(ConstraintBase):
@@ -132,7 +136,7 @@ class Rigid(ConstraintBase):
             seen.add(member)
             placed.append(world.particle(member, "members", i))
         for first, second in combinations(placed, 2):
-            world.links.append((int(world.here[-1]), first.label, second.label))
+            world.links.append((first.label, second.label))
             yield Relation(distance(world, first, second, None), part=f"length {first.label}-{second.label}")
 
     def notes(self, world: World) -> Iterator[str]:
@@ -204,10 +208,5 @@ def _check_string(world: World, given: Expr, drawn: Expr) -> None:
     if not world.differs(gap):
         return
     a, b = approximate(substitute(given, {TIME: ZERO})), approximate(drawn)
-
-    def look(size: float) -> None:
-        if a is None or b is None or not world.within(a - b, size):
-            message = f"the length {a:.12g} contradicts the drawing, where the string is {b:.12g} long"
-            world.fault(message, "length", hint="leave `length` out to take the drawing's")
-
-    world.check_later(look)
+    message = f"the length {_figure(a)} contradicts the drawing, where the string is {_figure(b)} long"
+    world.misfit(_less(a, b), message, "length", hint="leave `length` out to take the drawing's")

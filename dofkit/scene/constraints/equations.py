@@ -7,9 +7,10 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
-from dofkit.base.errors import TextError
+from dofkit.base.errors import NoValueError, TextError
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.differentials import in_velocities, linear_in_accelerations
-from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, coordinate, mul, power, substitute
+from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, coordinate, mul, power
 from dofkit.scene.constraints.base import ConstraintBase
 from dofkit.scene.fields import Text
 from dofkit.scene.frames import Placed
@@ -102,7 +103,7 @@ class On(ConstraintBase):
                 part = f"at {show_point(member)}" + (f", text {j + 1}" if len(read) > 1 else "")
                 try:
                     found = substitute(e, stands)
-                except ZeroDivisionError:
+                except NoValueError:
                     world.fault(f"the text has no value at {show_point(member)}", "members", i)
                     return
                 yield Relation(found, sense, part)

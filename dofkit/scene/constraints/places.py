@@ -157,13 +157,9 @@ def _check_on_line(world: World, point: Placed, place: Vec, axis: Direction) -> 
     offsets = [dot(u, minus(stands, place)) for u in axis.across]
     if not world.any_differs(offsets):
         return
-
-    def look(size: float) -> None:
-        if not world.within(_apart(minus(stands, place), axis.vector), size):
-            message = f"the drawing puts {point.label} at {figures(stands)}, off the line through {figures(place)}"
-            world.fault(message, "point", hint="move the point or the line, or set `tolerance` if it is measured")
-
-    world.check_later(look)
+    message = f"the drawing puts {point.label} at {figures(stands)}, off the line through {figures(place)}"
+    hint = "move the point or the line, or set `tolerance` if it is measured"
+    world.misfit(_apart(minus(stands, place), axis.vector), message, "point", hint=hint)
 
 
 def _apart(arm: Vec, axis: Vec) -> float | None:

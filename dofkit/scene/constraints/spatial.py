@@ -28,7 +28,7 @@ from dofkit.scene.constraints.joints import (
 from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
 from dofkit.scene.parts import show_vector
-from dofkit.scene.world import Direction, World
+from dofkit.scene.world import Direction, World, within
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
 
@@ -82,7 +82,7 @@ class Screw(Driven):
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         place, axis = world.place(self.at, "at"), self.directed(world)
-        pitch = world.asked.number = world.fixed(self.pitch, "pitch")
+        pitch = world.mentioned.number = world.fixed(self.pitch, "pitch")
         yield from coaxial(first, second, place, axis)
         moved, under = slide(first, second, place, axis.vector)
         advance = mul(pitch, angle_of(first, second, axis)) / (2 * PI)
@@ -132,7 +132,7 @@ class Universal(LocatedJoint):
         cosine = dot(one.vector, other.vector)
         if world.differs(cosine):
             size = approximate(fn("abs", cosine / (length(one.vector) * length(other.vector))))
-            if not (size is not None and world.within(size, 1.0)):
+            if not (size is not None and within(size, world.tolerance, 1.0)):
                 shown = f"{show_vector(self.axes[0])} and {show_vector(self.axes[1])}"
                 world.fault(f"the axes {shown} are not perpendicular", "axes", hint="their dot product must be 0")
         return one.vector, other.vector

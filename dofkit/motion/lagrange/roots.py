@@ -9,10 +9,11 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import HALF, Expr
-from dofkit.motion.lagrangian.term_order import ordered
+from dofkit.motion.lagrange.term_order import ordered
 
 
 def without_roots(
@@ -30,7 +31,7 @@ def without_roots(
         new = ex.rebuild(node, tuple(memo[child] for child in ex.children(node)))
         if new.op == "pow" and new.args[1] == HALF and any(s.args[0] == "coordinate" for s in new.symbols):
             root = _root(new.args[0], positive)
-            here = None if root is None else _figure(ex.substitute(root, {**reference, ex.TIME: ex.ZERO}))
+            here = None if root is None else _figure(substitute(root, {**reference, ex.TIME: ex.ZERO}))
             if root is not None and here:
                 new = ordered(root if here > 0 else -root)
                 notes.append(f"The equations hold while {to_text(new)} > 0, as it is in the drawing.")

@@ -13,9 +13,10 @@ from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.text import Names, UnknownNameError, parse_relations
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.motion.lagrangian.elimination import (
+from dofkit.motion.lagrange.elimination import (
     ELIMINATIONS,
     Care,
     EliminatedRelation,
@@ -26,9 +27,9 @@ from dofkit.motion.lagrangian.elimination import (
     inserted,
     vanishes,
 )
-from dofkit.motion.lagrangian.energies import Energy
-from dofkit.motion.lagrangian.rates import motions
-from dofkit.motion.lagrangian.roots import without_roots
+from dofkit.motion.lagrange.energies import Energy
+from dofkit.motion.lagrange.rates import motions
+from dofkit.motion.lagrange.roots import without_roots
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
@@ -233,17 +234,17 @@ def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], sett
     mapping = motions(solved)
 
     def insert(e: Expr) -> Expr:
-        return ex.substitute(e, mapping)
+        return substitute(e, mapping)
 
     potential, kinetic = insert(energy.potential), insert(energy.kinetic)
     for constant in elimination.constants:
-        if not any(s.args[0] in ("coordinate", "velocity") for s in ex.diff(potential, constant).symbols):
-            potential = ex.substitute(potential, {constant: ZERO})
+        if not any(s.args[0] in ("coordinate", "velocity") for s in diff(potential, constant).symbols):
+            potential = substitute(potential, {constant: ZERO})
     forces: dict[str, Expr] = {n: insert(f) for n, f in energy.forces.items() if n not in solved}
     for name, force in energy.forces.items():
         if name in solved:
             for j in kept:
-                slope = ex.diff(solved[name], ex.coordinate(j))
+                slope = diff(solved[name], ex.coordinate(j))
                 if not slope.is_zero:
                     forces[j] = forces.get(j, ZERO) + insert(force) * slope
     potential, notes = without_roots(potential, setting.positive, setting.reference)

@@ -16,18 +16,18 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, to_text
 from dofkit.expressions.text.limits import MAX_CHARACTERS
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrangian.angles import compound
-from dofkit.motion.lagrangian.conserved import conserved, cyclic
-from dofkit.motion.lagrangian.derivation import Derived, derive
-from dofkit.motion.lagrangian.elimination import ELIMINATIONS, Care
-from dofkit.motion.lagrangian.energies import Energy, EnergyReader
-from dofkit.motion.lagrangian.model import LagrangeModel, NoEquationsError, modelled
-from dofkit.motion.lagrangian.quantities import missing
-from dofkit.motion.lagrangian.regularity import SINGULAR, degenerate
-from dofkit.motion.lagrangian.report import Conserved, Linearized, MotionReport
-from dofkit.motion.lagrangian.small_motions import linearized
-from dofkit.motion.lagrangian.term_order import ordered
-from dofkit.motion.lagrangian.tidying import by_rates, length
+from dofkit.motion.lagrange.angles import compound
+from dofkit.motion.lagrange.conserved import conserved, cyclic
+from dofkit.motion.lagrange.derivation import Derived, derive
+from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
+from dofkit.motion.lagrange.energies import Energy, energy_of
+from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
+from dofkit.motion.lagrange.quantities import missing
+from dofkit.motion.lagrange.regularity import SINGULAR, degenerate
+from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
+from dofkit.motion.lagrange.small_motions import linearized
+from dofkit.motion.lagrange.term_order import ordered
+from dofkit.motion.lagrange.tidying import by_rates, length
 from dofkit.scene.lowering import system_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import survey
@@ -59,7 +59,7 @@ def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None)
     try:
         with limited(DEFAULT_SECONDS if budget is None else budget):
             derived = derived_of(scene)
-            return _told(derived, *(_small(scene, derived) if linearize else (None, ())))
+            return _report(derived, *(_small(scene, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
 
@@ -156,21 +156,21 @@ class MotionSource:
 def read(scene: Scene) -> MotionSource:
     """The scene's energies and what is known of its constraints. Raises SceneError with all its faults."""
     found = survey(scene, euler=True)
-    if found.world.faults:
-        raise SceneError(tuple(found.world.faults), scene.name)
-    energy = EnergyReader(scene, found.world).energy()
-    if found.world.faults:
-        raise SceneError(tuple(found.world.faults), scene.name)
-    if not _given(scene):
+    if found.faults:
+        raise SceneError(found.faults, scene.name)
+    energy, faults = energy_of(scene, found.drawing)
+    if faults:
+        raise SceneError(faults, scene.name)
+    if not _tells_of_motion(scene):
         message = (
             "the scene has neither a kinetic energy in `energies` nor masses: there is nothing to derive motion from"
         )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
-    return MotionSource(scene, studied(system_of(scene, found)), energy, found.world.names)
+    return MotionSource(scene, studied(system_of(scene, found)), energy, found.names)
 
 
-def _given(scene: Scene) -> bool:
+def _tells_of_motion(scene: Scene) -> bool:
     """Does anything of the scene tell of its motion?"""
     if scene.energies is not None and scene.energies.kinetic is not None:
         return True
@@ -196,7 +196,7 @@ def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str
         return None, (why,)
 
 
-def _told(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -> MotionReport:
+def _report(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -> MotionReport:
     model = derived.model
     more = (*((SINGULAR,) if degenerate(derived) else ()), *more)
     report = MotionReport(

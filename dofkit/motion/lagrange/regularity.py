@@ -8,10 +8,11 @@ from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.motion.lagrangian.derivation import Derived
-from dofkit.motion.lagrangian.model import NoEquationsError
+from dofkit.motion.lagrange.derivation import Derived
+from dofkit.motion.lagrange.model import NoEquationsError
 
 #: Points of GF(p) at which the rank is looked at, and how many are tried for them.
 POINTS, ATTEMPTS = 3, 20
@@ -58,8 +59,8 @@ def _rows(derived: Derived) -> list[list[Expr]]:
     model = derived.model
     moving = [ex.sym("acceleration", n) for n in model.names]
     own = [ex.parameter(n) for n in derived.multipliers]
-    rows = [[ex.diff(e, s) for s in (*moving, *own)] for e in derived.equations.values()]
+    rows = [[diff(e, s) for s in (*moving, *own)] for e in derived.equations.values()]
     nothing = [ZERO for _ in own]
-    rows += [[*(ex.diff(g, ex.coordinate(n)) for n in model.names), *nothing] for g in model.holonomic]
-    rows += [[*(ex.diff(r, ex.velocity(n)) for n in model.names), *nothing] for r in model.nonholonomic]
+    rows += [[*(diff(g, ex.coordinate(n)) for n in model.names), *nothing] for g in model.holonomic]
+    rows += [[*(diff(r, ex.velocity(n)) for n in model.names), *nothing] for r in model.nonholonomic]
     return rows
