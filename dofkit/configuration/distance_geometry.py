@@ -2,7 +2,7 @@
 
 A distance is at most the length of any way between its ends (the triangle inequality), and the Gram matrix of points
 all of whose distances are known, G_ij = (d_0i^2 + d_0j^2 - d_ij^2) / 2, is positive semidefinite and of rank at most d
-(Menger 1928, Schoenberg 1935; its determinants are those of Cayley and Menger). Floating point proposes, intervals
+[Schoenberg1935]; its determinants are those of Cayley and Menger [Menger1928]. Floating point proposes, intervals
 decide; where they do not tell two sides apart, as in a triangle drawn out to a line, nothing is contradicted.
 """
 

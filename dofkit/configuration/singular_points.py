@@ -73,8 +73,8 @@ def _look(chart: Chart, real: RealPoint) -> LocalDimension | None:
 def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
     """A point with f = 0, J^T l = 0 for as many independent l as rows are dependent, in high precision.
 
-    These equations are regular where the dependent relations are Morse-Bott (deflation, Leykin, Verschelde and Zhao
-    2006). None where they are not, and where the point is a regular one, on something very small.
+    These equations are regular where the dependent relations are Morse-Bott (deflation [LeykinVerscheldeZhao2006]).
+    None where they are not, and where the point is a regular one, on something very small.
     """
     symbols: dict[Any, arb] = {s: arb(v.mid()) if isinstance(v, arb) else arb(v) for s, v in real.point.symbols.items()}
     moved = [s for s in chart.unknowns if chart.ring.var_index(s) is not None]

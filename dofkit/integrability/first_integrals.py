@@ -30,7 +30,7 @@ from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.differential_blocks import Codistribution
+from dofkit.integrability.codistribution import Codistribution
 from dofkit.integrability.integrals.normal_shape import arranged, upright
 from dofkit.relations.ambient import free_point
 
@@ -114,6 +114,11 @@ def shown(f: Expr) -> Expr:
 
 
 class IntegralSearch:
+    """The functions of some forms that are constant along D = ker I, looked for among products of what occurs in them.
+
+    At points over GF(p) on the finite relations the differentials of the products are held against D.
+    """
+
     def __init__(self, forms: Codistribution, seed: int) -> None:
         forms = self.forms = _with_all_symbols(forms)
         self.seed, chart = seed, forms.chart
@@ -310,7 +315,7 @@ def _simplest_first(null: nmod_mat, nullity: int, columns: int, p: int) -> Itera
 
 
 def _rational(value: int, p: int) -> Fraction | None:
-    """The fraction with small terms that is ``value`` modulo p (Wang 1981); None where there is none."""
+    """The fraction with small terms that is ``value`` modulo p [Wang1981]; None where there is none."""
     bound = isqrt(p // 2)
     r0, r1, t0, t1 = p, value % p, 0, 1
     while r1 > bound:

@@ -3,7 +3,7 @@
 Beside the others such a relation f(q, qdot, t) = 0 reads as a linear form, and may be integrable then; but it follows
 from finite relations only where it holds for all velocities that those leave. With I^(inf) the largest integrable part,
 f is holonomic in the system iff it vanishes on every velocity (dt = 1) in the kernel of I^(inf) at a generic
-configuration, which is the Lie algebra of the admissible velocities (Frobenius, Hermann-Nagano); for a linear f that
+configuration, which is the Lie algebra of the admissible velocities [HermannNagano]; for a linear f that
 says that its form lies in I^(inf).
 """
 
@@ -16,8 +16,9 @@ from flint import arb
 
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import weakest
+from dofkit.configuration.search import find
 from dofkit.configuration.states import States, moves, value_at, vanishes
-from dofkit.configuration.variety import Variety, find
+from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
@@ -28,8 +29,9 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.differential_blocks import Codistribution, ball_span, codistribution, span_at
+from dofkit.integrability.codistribution import Codistribution, codistribution
 from dofkit.integrability.lie_algebra import Span
+from dofkit.integrability.lie_algebra_at_points import ball_span, span_at
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.beside_others import RewrittenRow
 from dofkit.relations.blocks import Block, coordinates_of

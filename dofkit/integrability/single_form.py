@@ -47,11 +47,11 @@ def _ring(form: Pfaffian, positive: frozenset[Expr]) -> Ring:
 
 def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
     """Why the form integrates by itself, where that is proved; else None."""
-    if exact(form, positive) == (True, "proved"):
+    if exact(form, positive) == (True, "proved"):  # [PoincareLemma]
         return "it is closed, so locally the differential of a function"
     items = list(form.items())
     symbols = {s for s, _ in items} | {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")}
-    if len(symbols) <= 2:
+    if len(symbols) <= 2:  # [Frobenius1877]
         return "a form in two variables always integrates"
     if len(items) <= 5 and _frobenius(items):
         return "d(omega) ^ omega = 0 identically"
@@ -59,7 +59,7 @@ def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
 
 
 def _frobenius(items: list[tuple[Expr, Expr]]) -> bool:
-    """d(omega) ^ omega = 0 for every three variables (Frobenius)."""
+    """d(omega) ^ omega = 0 for every three variables [Frobenius1877]."""
     symbols = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - {s for s, _ in items}
     everything = [*items, *((s, ex.ZERO) for s in sorted(symbols, key=repr))]
     for (s, a), (u, b), (w, c) in combinations(everything, 3):

@@ -57,7 +57,7 @@ def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
 
 
 def least_freedom(written: Written) -> int:
-    """d(d+1)/2 for links between d particles or more that nothing joins to the ground (Maxwell), else 0."""
+    """d(d+1)/2 for links between d particles or more that nothing joins to the ground [Maxwell1864], else 0."""
     system, d = written.system, written.system.dimension
     linked = all(c.facts.bars and GROUND not in c.members for c in system.connections)
     if not linked or len(system.connections) < len(system.constraints) or len(system.particles) < d or system.bodies:
@@ -80,7 +80,7 @@ def plain(text: str) -> tuple[str, ...]:
 
 
 def findings(system: System) -> MethodFindings:
-    """The count with its assumption; closed forms are holonomic (Poincaré's lemma), and no others are known to be."""
+    """The count with its assumption; closed forms are holonomic [PoincareLemma], and no others are known to be."""
     written = as_written(system)
     labels: dict[int, MethodLabel] = {}
     for i, form in written.forms:

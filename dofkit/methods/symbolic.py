@@ -94,7 +94,7 @@ def exterior(form: Form, columns: Sequence[Any]) -> Form:
 
 
 def passing(symbols: Symbols) -> list[bool]:
-    """Frobenius: is d omega_a with all of the system's forms wedged to it simplified to 0?"""
+    """[Frobenius1877]: is d omega_a with all of the system's forms wedged to it simplified to 0?"""
     system = [symbols.differential(g) for _, g in symbols.finite] + [f for _, f in symbols.forms]
     found = []
     for _, form in symbols.forms:

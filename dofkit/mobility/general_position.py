@@ -2,7 +2,7 @@
 
 Links between particles are counted by their graph. Everything else is a rank modulo p at random places and
 directions; relations written as texts keep what they say up to a constant. A rank at a random point is at most the
-generic one, and equal to it but for a chance of degree/p (Schwartz and Zippel).
+generic one, and equal to it but for a chance of degree/p [SchwartzZippel].
 """
 
 from __future__ import annotations

@@ -2,7 +2,8 @@
 
 M = D(N - 1 - j) + f_1 + ... + f_j with D = 3 in the plane and 6 in space takes every loop to close by D independent
 conditions. The motions that the joints of a loop allow span a space of some dimension at most D (their screws), and
-where it is smaller the loop closes by fewer: all hinges parallel or through one point give 3, Bennett's four give 3.
+where it is smaller the loop closes by fewer: all hinges parallel or through one point give 3, Bennett's four give 3
+[GrueblerKutzbach] [Bennett1903].
 """
 
 from __future__ import annotations

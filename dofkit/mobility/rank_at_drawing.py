@@ -1,9 +1,9 @@
 """Joints and links as they are drawn, where their rows modulo p already tell everything: independent, or rigid.
 
 A rank modulo p is never above the true one, so that these are proofs: where all rows are independent the freedom is
-the coordinates less their number (implicit function theorem); where they leave nothing but motions of the whole, or
-nothing at all, nothing else moves (infinitesimally rigid is rigid: Asimow and Roth), unless lengths change in time,
-which dependent ones need not allow. No relation is looked at.
+the coordinates less their number [ImplicitFunctions]; where they leave nothing but motions of the whole, or nothing at
+all, nothing else moves (infinitesimally rigid is rigid [AsimowRoth1978]), unless lengths change in time, which
+dependent ones need not allow. No relation is looked at.
 """
 
 from __future__ import annotations

@@ -222,7 +222,7 @@ def _of_bars(g: Geometry, bars: Sequence[DrawnLine], own: Sequence[Connection]) 
 
 
 def _of_points(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
-    """All points of links in one plane of space, or on one conic of the plane."""
+    """All points of links in one plane of space, or on one conic of the plane [BolkerRoth1980]."""
     points: dict[str, tuple[Any, ...]] = {}
     for c in own:
         at = g.placement.located[c.constraint]

@@ -10,56 +10,22 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import arb, ctx, nmod
+from shared.germs import SYMBOLS, manifolds, on_plane, through
 
 import dofkit
 from dofkit.configuration.local.dimension import local_dimension, numeric_dimension
-from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.configuration.local.manifold import LocalDimension
 from dofkit.configuration.local.quadratic_cone import bound, definite_combination, signature_of
-from dofkit.exact.points.balls import PRECISION, BallPoint
-from dofkit.exact.points.field import field_point
-from dofkit.exact.points.frames import field_frame
-from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.ring.ring import Ring
+from dofkit.exact.points.balls import PRECISION
 from dofkit.expressions import tree as ex
-from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import Expr
 
-LETTERS = "xyzuw"
-SYMBOLS = [ex.coordinate(c) for c in LETTERS]
-NAMES = Names(coordinates=frozenset(LETTERS))
 P = 2**31 - 1
 
 
-def manifolds(relations: Sequence[Expr], at: dict[Expr, int]) -> list[Manifold]:
-    """The independent relations through a point, over GF(p) and over balls."""
-    ring = Ring(relations)
-    nodes = [ring.node(g) for g in relations]
-    columns = [-1 if (index := ring.var_index(s)) is None else index for s in at]
-    point = field_point([ring], 5)
-    for s, value in at.items():
-        if (index := ring.var_index(s)) is not None:
-            point.set(ring.vars[index], nmod(value, point.p))
-    placed = values(ring, point)
-    assert all(placed[n] == 0 for n in nodes)
-    zero = placed[0] * 0
-    slopes = [gradient(ring, placed, point, [(n, zero + 1)]) for n in nodes]
-    matrix = [[slope.get(c, zero) for c in columns] for slope in slopes]
-    frame = field_frame(matrix, len(columns), point.p)
-    ball = BallPoint({s: float(value) for s, value in at.items()}, 5)
-    return [Manifold(ring, nodes, columns, frame, base) for base in (point, ball)]
-
-
 def near(texts: Sequence[str], at: Sequence[int], rigid: int = 0, time: int | None = None) -> LocalDimension:
-    relations = [parse_expression(text, NAMES) for text in texts]
-    field, ball = manifolds(relations, dict(zip(SYMBOLS, at, strict=False)))
+    field, ball = through(texts, at)
     return local_dimension(field, ball, rigid, time)
-
-
-def on_plane(n: int, *functions: str) -> LocalDimension:
-    """The set {f = 0} in n of the letters: with the last letter, w = 0 and w + f = 0."""
-    relations = [parse_expression(t, NAMES) for t in ("w", *(f"w + {f}" for f in functions))]
-    field, ball = manifolds(relations, dict.fromkeys((*SYMBOLS[:n], SYMBOLS[-1]), 0))
-    return local_dimension(field, ball, 0)
 
 
 @pytest.mark.parametrize(
@@ -120,7 +86,7 @@ def test_dimensions_near_a_point(texts: list[str], at: tuple[int, int, int], dim
     ],
 )
 def test_dimensions_where_the_lowest_order_decides(n: int, functions: list[str], dimension: int) -> None:
-    assert on_plane(n, *functions).dimension == dimension
+    assert local_dimension(*on_plane(n, *functions), 0).dimension == dimension
 
 
 @pytest.mark.parametrize(
@@ -135,7 +101,7 @@ def test_dimensions_where_the_lowest_order_decides(n: int, functions: list[str],
     ],
 )
 def test_what_the_lowest_order_does_not_decide_is_left_open(n: int, functions: list[str]) -> None:
-    told = on_plane(n, *functions)
+    told = local_dimension(*on_plane(n, *functions), 0)
     assert told.dimension is None
     assert told.verdict == "undecided"
 
@@ -161,8 +127,7 @@ def test_time_is_held_against_the_set(texts: list[str], dimension: int | None, c
 
 def test_balls_alone_say_the_same_and_are_no_surer() -> None:
     for texts, dimension in ((["z", "z + x^2 - y^2"], 1), (["z", "z + x^2 + y^2"], 0), (["x", "z", "z + x y"], 1)):
-        relations = [parse_expression(text, NAMES) for text in texts]
-        _, ball = manifolds(relations, dict.fromkeys(SYMBOLS[:3], 0))
+        _, ball = through(texts, (0, 0, 0))
         with ctx.workprec(PRECISION):
             told = numeric_dimension(ball, 0)
         assert (told.dimension, told.verdict) == (dimension, "numeric")

@@ -98,7 +98,7 @@ def chained_forms(quick: bool) -> Iterator[Construction]:
 
 
 def trailers(quick: bool) -> Iterator[Construction]:
-    """A car that steers with trailers: every configuration is reached (Laumond 1993); on a straight rail it is not."""
+    """A car that steers with trailers: every configuration is reached [Laumond1993]; on a straight rail it is not."""
     for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
         made = car(n)
         forms = numbered(n + 2)

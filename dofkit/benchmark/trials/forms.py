@@ -135,6 +135,7 @@ TOGETHER: list[Line] = [
      "cos(th) dx + sin(th) dy = 2 dph"], 1, [True] * 3, [], "dph = 0, and so dx = dy = 0", "together"),
     ("Engel", "x y z w", ["dz = y dx", "dy = w dx"], 4, [False, False], [], "Goursat's normal form", "non-holonomic"),
     ("Engel with w held", "x y z w", ["dz = y dx", "dy = w dx", "w = 2"], 1, [True] * 3, [], "a line", "together"),
+    # [Cartan1910]
     ("Cartan's five variables", "x y p q z", ["dy = p dx", "dp = q dx", "dz = q^2 dx"], 5, [False] * 3, [],
      "growth 2, 3, 5 (Cartan 1910)", "non-holonomic"),
     ("Cartan's with q in place of q^2", "x y p q z", ["dy = p dx", "dp = q dx", "dz = q dx"], 4, [False] * 3, [],

@@ -46,7 +46,7 @@ def cliques(quick: bool) -> Iterator[Construction]:
 
 
 def complete_bipartite(quick: bool) -> Iterator[Construction]:
-    """Every joint of one kind with every one of the other (Bolker and Roth 1980)."""
+    """Every joint of one kind with every one of the other [BolkerRoth1980]."""
     # (dimension, m, n, dof, redundant: None where it was not derived)
     known = [
         (2, 3, 3, 3, 0),
@@ -109,7 +109,7 @@ def _spindle(a: int, b: int, first: int) -> list[Link]:
 
 
 def henneberg(quick: bool) -> Iterator[Construction]:
-    """Put together joint by joint (Henneberg 1911; Tay and Whiteley 1985): rigid, and no link too many.
+    """Put together joint by joint [Henneberg1911] [TayWhiteley1985]: rigid, and no link too many.
 
     With links more, each of them is redundant; with the last one left out, there is one freedom more.
     """

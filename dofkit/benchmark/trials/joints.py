@@ -111,6 +111,7 @@ KNOWN: list[tuple[str, list[tuple[Place, Place]], int, str, str]] = [
     ("Sarrus, one axis turned", [([1, 0, 0], [0, 1, 0]), ([3, 0, 1], [0, 1, 0]), ([1, 0, 2], [0, 1, 0]),
                                  ([0, 1, 2], [1, 0, 0]), ([0, 3, 1], [1, 0, 0]), ([0, 1, 0], [1, 0, 1])], 0,
      "six independent screws", "joints"),
+    # [Bennett1903]
     ("Bennett", [([0, 0, 0], [0, 0, 1]), ([52, 0, 0], [0, -4, 3]), ([16, -9, -12], [-3, -4, 12]),
                  ([0, 39, 0], [3, 0, 4])], 1, "Bennett 1903: four screws of rank 3 all along", "overconstrained"),
     ("Bennett, a foot aside", [([0, 0, 0], [0, 0, 1]), ([52, 0, 0], [0, -4, 3]), ([16, -9, -12], [-3, -4, 12]),
@@ -145,7 +146,7 @@ def known_loops(quick: bool) -> Iterator[Construction]:
 
 
 def braced_grids(quick: bool) -> Iterator[Construction]:
-    """m by m squares drawn, some with a diagonal: rows and columns as a graph (Bolker and Crapo 1977).
+    """m by m squares drawn, some with a diagonal: rows and columns as a graph [BolkerCrapo1977].
 
     A row and a column are joined where their square is braced; a brace that closes a circle is redundant, and every
     part of the graph turns by itself.

@@ -77,7 +77,7 @@ def hidden_relations(quick: bool) -> Iterator[Construction]:
 
 
 def power_sums(quick: bool) -> Iterator[Construction]:
-    """Newton's identities: the power sums of n numbers are polynomials in the elementary symmetric ones."""
+    """The power sums of n numbers are polynomials in the elementary symmetric ones [NewtonGirard]."""
     for n in (2,) if quick else (2, 3, 4, 5):
         x = [f"x{k}" for k in range(n)]
         elementary = [" + ".join("*".join(c) for c in combinations(x, k)) for k in range(1, n + 1)]

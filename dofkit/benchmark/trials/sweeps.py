@@ -113,7 +113,7 @@ NEAR = [
         (6, 7),
         (6, 6),
     ),
-    # nine bars between three and three joints are dependent on a conic and nowhere else (Bolker and Roth 1980)
+    # nine bars between three and three joints are dependent on a conic and nowhere else [BolkerRoth1980]
     Near(
         "three and three on a circle",
         lambda e: framework(

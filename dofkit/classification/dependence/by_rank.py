@@ -53,7 +53,7 @@ def everywhere(
 def _fails_on_a_part(reduced: Sequence[Reduced], i: int, kept: Sequence[int], setting: Setting) -> bool:
     """Is there a complex point of the others where some relation is not 0? Drawn points may all lie on another part.
 
-    There is one where s g = 1 has a solution (Rabinowitsch 1929). Two minors of a matrix imply the third, but not where
+    There is one where s g = 1 has a solution [Rabinowitsch1929]. Two minors of a matrix imply the third, but not where
     the column that they share is 0.
     """
     known = [p.expr for j in kept for n in reduced[j].normals for p in n.pieces if isinstance(p, Finite)]

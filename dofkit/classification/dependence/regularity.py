@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from itertools import chain
 from itertools import product as cartesian
 
-from dofkit.configuration.variety import field_jacobian, find
+from dofkit.configuration.generic_points import field_jacobian
+from dofkit.configuration.search import find
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.tree import Expr

@@ -14,7 +14,7 @@ from flint import arb
 
 from dofkit.classification.freedom.block import answer
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
-from dofkit.configuration.variety import find
+from dofkit.configuration.search import find
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values

@@ -9,7 +9,7 @@ from itertools import chain, count, islice
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.block import answer
 from dofkit.expressions.text import to_text
-from dofkit.integrability.differential_blocks import codistribution
+from dofkit.integrability.codistribution import codistribution
 from dofkit.integrability.first_integrals import FirstIntegral, assigned, first_integrals
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split

@@ -9,7 +9,7 @@ from typing import Any
 from flint import arb, ctx, nmod, nmod_mat
 
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.variety import on_variety
+from dofkit.configuration.generic_points import on_variety
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint

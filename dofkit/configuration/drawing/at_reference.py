@@ -12,10 +12,12 @@ from flint import arb, ctx
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.drawing.dependent_classes import chart_of, dependent_parts
 from dofkit.configuration.drawing.fewer_coordinates import smaller
-from dofkit.configuration.local.dimension import INDEPENDENT, WHOLE, numeric_dimension
+from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.local.dimension import local_at, numeric_dimension
+from dofkit.configuration.local.first_order import INDEPENDENT, WHOLE
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.configuration.reality import BALL_COLUMNS
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
-from dofkit.configuration.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import rank_of, without_time
@@ -60,9 +62,13 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
 
     With measured geometry (not ``exact``) the relations need not hold there to the last digit.
     """
-    known = {**reference, ex.TIME: ex.ZERO}
-    if "field" not in chart.engines:
-        return by_balls(chart, known, exact)
+    with ctx.workprec(precision()):
+        known = {**reference, ex.TIME: ex.ZERO}
+        return (_by_field if "field" in chart.engines else by_balls)(chart, known, exact)
+
+
+def _by_field(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:
+    """`at_reference` with a point over GF(p), and balls where signs are asked for."""
     point = pose_point(chart, known, 3)
     if point is None or (exact and not on_variety(chart, point)):
         return None
@@ -120,8 +126,8 @@ def _by_parts(
 ) -> tuple[LocalDimension, FollowedClasses] | None:
     """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
 
-    See `separate`. None where one does not, or is not known to, or is all there is: then all have to be looked at
-    together.
+    See `dependent_classes`. None where one does not, or is not known to, or is all there is: then all have to be
+    looked at together.
     """
     dimension = len(chart.columns) - rank
     if rank == len(matrix):

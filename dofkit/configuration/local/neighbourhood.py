@@ -19,7 +19,7 @@ from dofkit.expressions.tree import Expr
 FAR, NEAR, STEPS = 0.5, 2.0**-24, 8
 #: The least cosine between steps, and what a correction may add to one.
 STRAIGHT = 0.9
-#: What counts as not 0 there, relative to the relation's gradient; with more relations floats have to do (`wide`).
+#: What counts as not 0 there, relative to the relation's gradient; with more relations floats do (`long_paths`).
 SURE, MANY = 2.0**-150, 60
 #: Bits that large numbers which cancel may cost: a million sizes from the origin, squared, and more.
 LOST = 90
@@ -124,7 +124,7 @@ class Neighbourhood:
     def residual(self, symbols: Mapping[Expr, arb], nodes: Sequence[int]) -> float:
         """The largest of the relations, relative to their gradients."""
         at = values(self.ring, BallPoint(symbols, 0))
-        return max((abs(float(at[n].mid())) / self.norm_of[n] for n in nodes), default=0.0)
+        return max((abs(float(at[n].mid())) / float(self.norm_of[n]) for n in nodes), default=0.0)
 
 
 def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool | None:

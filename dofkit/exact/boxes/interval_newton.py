@@ -16,7 +16,7 @@ TINY = 1e-9
 
 
 def newton(relations: BoxProgram, box: Box, slopes: list[list[Interval]]) -> Box:
-    """f(c) + f'(box) (box - c) holds 0 for the equations, combined so that each is nearly solved for one variable."""
+    """f(c) + f'(box) (box - c) holds 0 [Moore1966], the equations combined to be nearly solved for a variable each."""
     center = [(m, m) for m in map(iv.middle, box)]
     at = relations.forward(center)
     values = [at[e] for e in relations.equations]

@@ -1,4 +1,4 @@
-"""Random points over GF(p): zero here is zero of the function, with error at most degree/p a point.
+"""Random points over GF(p): zero here is zero of the function, with error at most degree/p a point [SchwartzZippel].
 
 Primes have 61 bits and are drawn at random (a fixed prime is a trap: x^(p-1) - 1), with p = 1 modulo the
 orders of the roots of unity that the scene mentions. sin and cos of a basic angle are a random point of
@@ -178,7 +178,7 @@ class FieldPoint:
         return self.rng.choice(roots)[0]
 
     def _root_in_circle(self, prime: int) -> Scalar | None:
-        """sqrt(prime) through the roots of unity, where those contain it (Gauss's quadratic sum)."""
+        """sqrt(prime) through the roots of unity, where those contain it (Gauss's quadratic sum [GaussSum])."""
         if prime == 2 and self.order % 4 == 0:
             self._setup_unity()
             eighth = self._zeta ** (self.order // 4)

@@ -242,7 +242,7 @@ class RealSearch:
             step = j.solve(f)
         except NoValueError:
             return None
-        inside = True
+        inside = True  # [KrawczykNewton]
         for i, u in enumerate(unknowns):
             new = exact[u] - step[i, 0]
             inside = inside and bool(boxed[u].contains_interior(new))

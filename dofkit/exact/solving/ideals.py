@@ -1,4 +1,4 @@
-"""Ideals of polynomials in a ring's generators, by Groebner bases (Buchberger 1965).
+"""Ideals of polynomials in a ring's generators, by Groebner bases [Buchberger1965].
 
 Elimination divides by what it solves for and sees no part of a set where that is 0; a Groebner basis sees every part.
 """

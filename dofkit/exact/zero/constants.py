@@ -2,8 +2,8 @@
 
 A number built from integers by + - * / and roots is U / L with algebraic integers U and L. All conjugates of U, of
 which there are at most D (the product of the roots' degrees), have a size of at most u, and those of L of at most l; a
-norm is an integer, so a number that is not 0 has a size of at least 1 / (u^(D-1) l): the separation bound of Burnikel,
-Funke, Mehlhorn, Schirra and Schmitt (2001). A ball below that proves 0.
+norm is an integer, so a number that is not 0 has a size of at least 1 / (u^(D-1) l): the separation bound [BFMSS2001].
+A ball below that proves 0.
 """
 
 from __future__ import annotations

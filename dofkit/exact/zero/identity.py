@@ -34,7 +34,7 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
 
     Zero in the canonical ring is a proof, and so is zero of every coefficient there (`proved_zero`); so is not zero
     there where the generators are independent, or where a ball at some real point excludes 0. What is 0 at random
-    points over GF(p) is probably zero; what no ball tells from 0 is so numerically.
+    points over GF(p) is probably zero [SchwartzZippel]; what no ball tells from 0 is so numerically.
     """
     if e.op == "num":
         return e.is_zero, "proved"

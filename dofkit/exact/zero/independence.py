@@ -30,7 +30,7 @@ def odd_constants(ring: Ring) -> bool:
 def independent_generators(ring: Ring) -> bool:
     """True where the generators are algebraically independent up to the relations that the ring knows.
 
-    Symbols, sines, cosines and exponentials of different terms are (Ax 1971), and so are unknown functions, square
+    Symbols, sines, cosines and exponentials of different terms are [Ax1971], and so are unknown functions, square
     roots of different primes and one root of what is linear in a symbol, so no power itself. False says that a
     relation may have been missed: other roots, inverse functions, logarithms, transcendental constants.
     """
@@ -64,7 +64,7 @@ def doubt(ring: Ring) -> Doubt | None:
 
     Of numbers only, or of functions: these may be 0 in one region and not in another, so that no point decides. Less is
     asked than of `independent_generators`: no proof rests on the answer, but where it is None no relation among the
-    generators is known to be possible. Roots and logarithms of pairwise coprime polynomials have none (Ostrowski 1946),
+    generators is known to be possible. Roots and logarithms of pairwise coprime polynomials have none [Ostrowski1946],
     and a square root of what is no square is as good as its negative.
     """
     if _related_functions(ring):

@@ -9,8 +9,17 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, replace
-from dofkit.integrability.integrals.rational import linear, rational, root_of_quadratic
-from dofkit.integrability.integrals.trigonometry import powers, sin_cos, to_sum
+from dofkit.integrability.integrals.elementary import (
+    as_power,
+    collected_powers,
+    of_call,
+    of_exponential_wave,
+    of_function,
+    of_power,
+    of_waves,
+)
+from dofkit.integrability.integrals.rational import linear, rational
+from dofkit.integrability.integrals.trigonometry import powers, to_sum
 
 MAX_DEPTH = 9
 MAX_CANDIDATES = 6
@@ -53,30 +62,11 @@ def _by_terms(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
 
 
 def _term(work: Algebra, term: Expr, x: Expr, depth: int) -> Expr | None:
-    constants, factors = _split(term, x)
+    constants, factors = collected_powers(term, x)
     if not factors:
         return term * x
     found = _single(work, factors[0], x, depth) if len(factors) == 1 else _product(work, factors, x, depth)
     return None if found is None else ex.mul(constants, found)
-
-
-def as_power(e: Expr) -> tuple[Expr, Fraction]:
-    """(base, exponent) for a numeric exponent."""
-    if e.op == "pow" and e.args[1].op == "num":
-        return e.args[0], e.args[1].args[0]
-    return e, Fraction(1)
-
-
-def _split(term: Expr, x: Expr) -> tuple[Expr, list[Expr]]:
-    """The factors free of x, and the others with the powers of equal bases collected."""
-    constants, bases = [], dict[Expr, Fraction]()
-    for factor in term.args if term.op == "mul" else (term,):
-        if x in factor.symbols:
-            base, exponent = as_power(factor)
-            bases[base] = bases.get(base, Fraction(0)) + exponent
-        else:
-            constants.append(factor)
-    return ex.mul(*constants), [ex.power(base, ex.num(k)) for base, k in bases.items() if k]
 
 
 # -- one factor ------------------------------------------------------------------------------------
@@ -86,14 +76,14 @@ def _single(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
     if e == x:
         return x * x / 2
     if e.op == "pow":
-        return _power(work, e, x) or _inverse_by_parts(work, ex.ONE, e, x, depth)
+        return of_power(work, e, x) or _inverse_by_parts(work, ex.ONE, e, x, depth)
     if e.op == "call":
-        return _call(e, x)
+        return of_call(e, x)
     if e.op != "fn":
         return None
     straight = linear(e.args[1], x) if len(e.args) == 2 else None
     if straight is not None:
-        found = _of_function(e.args[0], e.args[1])
+        found = of_function(e.args[0], e.args[1])
         return None if found is None else found / straight[0]
     return _inverse_by_parts(work, ex.ONE, e, x, depth)
 
@@ -102,68 +92,17 @@ def _names(e: Expr) -> frozenset[str]:
     return frozenset(n.args[0] for n in ex.nodes(e) if n.op == "fn")
 
 
-def _of_function(name: str, u: Expr) -> Expr | None:
-    """The antiderivative of a function by its argument."""
-    if name == "exp":
-        return ex.fn("exp", u)
-    if name in ("sinh", "cosh"):
-        return ex.fn("cosh" if name == "sinh" else "sinh", u)
-    if name == "tanh":
-        return ex.fn("log", ex.fn("cosh", u))
-    if name == "abs":
-        return u * ex.fn("abs", u) / 2
-    if name == "log":
-        return u * ex.fn("log", u) - u
-    if name == "atan":
-        return u * ex.fn("atan", u) - ex.fn("log", 1 + u * u) / 2
-    if name in ("asin", "acos"):
-        root = ex.sqrt(1 - u * u)
-        return u * ex.fn(name, u) + (root if name == "asin" else -root)
-    found = powers([ex.fn(name, u)])
-    return None if found is None else sin_cos(*found[u], u)
-
-
-def _power(work: Algebra, e: Expr, x: Expr) -> Expr | None:
-    base: Expr = e.args[0]
-    exponent: Expr = e.args[1]
-    if x in exponent.symbols:
-        straight = linear(exponent, x)
-        return None if x in base.symbols or straight is None else e / (straight[0] * ex.fn("log", base))
-    straight = linear(base, x)
-    if straight is not None:
-        if exponent == ex.MINUS_ONE:
-            return ex.fn("log", base) / straight[0]
-        return ex.power(base, exponent + 1) / ((exponent + 1) * straight[0])
-    if exponent.op != "num":
-        return None
-    trig = powers([e])
-    if trig is not None:
-        return _trig(trig, x)
-    return root_of_quadratic(work, base, exponent.args[0], x)
-
-
-def _call(e: Expr, x: Expr) -> Expr | None:
-    """An unknown function differentiated by the argument that holds x."""
-    name, orders, arguments = e.args
-    places = [i for i, u in enumerate(arguments) if x in u.symbols]
-    straight = linear(arguments[places[0]], x)
-    if len(places) > 1 or straight is None or not orders[places[0]]:
-        return None
-    lower = tuple(k - (i == places[0]) for i, k in enumerate(orders))
-    return ex.call(name, arguments, lower) / straight[0]
-
-
 # -- products --------------------------------------------------------------------------------------
 
 
 def _product(work: Algebra, factors: list[Expr], x: Expr, depth: int) -> Expr | None:
     trig = powers(factors)
     if trig is not None and len(trig) == 1:
-        return _trig(trig, x)
+        return of_waves(trig, x)
     total = to_sum(factors)
     if total is not None:
         return antiderivative(work, total, x, depth + 1)
-    waves = _exponential_wave(factors, x)
+    waves = of_exponential_wave(factors, x)
     if waves is not None:
         return waves
     others = [f for f in factors if as_power(f)[0] != x]
@@ -179,31 +118,6 @@ def _product(work: Algebra, factors: list[Expr], x: Expr, depth: int) -> Expr | 
         if found is not None:
             return found
     return _by_parts(work, monomial, ex.mul(*others), x, depth)
-
-
-def _trig(trig: dict[Expr, tuple[int, int]], x: Expr) -> Expr | None:
-    if len(trig) != 1:
-        return None
-    ((u, (m, n)),) = trig.items()
-    straight = linear(u, x)
-    found = None if straight is None else sin_cos(m, n, u)
-    return None if found is None or straight is None else found / straight[0]
-
-
-def _exponential_wave(factors: list[Expr], x: Expr) -> Expr | None:
-    """exp(u) sin(v) and exp(u) cos(v) for linear u, v."""
-    named = {f.args[0]: f.args[1] for f in factors if f.op == "fn"}
-    wave = next((name for name in ("sin", "cos") if name in named), None)
-    if len(factors) != 2 or len(named) != 2 or "exp" not in named or wave is None:
-        return None
-    u, v = named["exp"], named[wave]
-    first, second = linear(u, x), linear(v, x)
-    if first is None or second is None:
-        return None
-    a, b = first[0], second[0]
-    sin, cos = ex.fn("sin", v), ex.fn("cos", v)
-    inside = a * sin - b * cos if wave == "sin" else a * cos + b * sin
-    return ex.fn("exp", u) * inside / (a * a + b * b)
 
 
 def _inverse_by_parts(work: Algebra, monomial: Expr, e: Expr, x: Expr, depth: int) -> Expr | None:
@@ -275,7 +189,7 @@ def _under_exponential(work: Algebra, e: Expr, x: Expr) -> Expr | None:
         return None
     marked = replace(e, node, _FRESH)
     inside = diff(marked, _FRESH)
-    (constant, powers_of_x), terms = _split(node.args[1], x), _coefficients(inside, x)
+    (constant, powers_of_x), terms = collected_powers(node.args[1], x), _coefficients(inside, x)
     base, m = as_power(powers_of_x[0])
     if len(powers_of_x) != 1 or base != x or m.denominator != 1 or not 2 <= m <= 4 or terms is None:
         return None
@@ -295,7 +209,7 @@ def _coefficients(e: Expr, x: Expr) -> dict[int, Expr] | None:
     found: dict[int, Expr] = {}
     total = expand(e)
     for term in total.args if total.op == "add" else (total,):
-        constant, factors = _split(term, x)
+        constant, factors = collected_powers(term, x)
         base, k = as_power(factors[0]) if factors else (x, Fraction(0))
         if len(factors) > 1 or base != x or k.denominator != 1 or not 0 <= k <= 12:
             return None

@@ -178,7 +178,7 @@ def separable(work: Algebra, form: Form) -> Iterator[Expr]:
 
 
 def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
-    """mu = prod g_k^c_k over variables, factors of coefficients, exponentials; c_k constants (Darboux)."""
+    """mu = prod g_k^c_k over variables, factors of coefficients, exponentials; c_k constants [Darboux1878]."""
     logs = _candidates(work, form)
     if not logs:
         return

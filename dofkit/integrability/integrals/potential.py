@@ -1,4 +1,4 @@
-"""Closed forms: the function whose differential they are."""
+"""Closed forms: the function whose differential they are [PoincareLemma]."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ SINGULAR = (
 
 
 def at_points(looked: SampledPoints, numbers: Decider, sure: Verdict, trusted: bool) -> MethodFindings:
-    """Velocities at the drawing; freedom where all equations are independent there (implicit function theorem).
+    """Velocities at the drawing; freedom where all equations are independent there [ImplicitFunctions].
 
     ``trusted``: what is not 0 at the points is not 0, as surely as ``sure`` says.
     """

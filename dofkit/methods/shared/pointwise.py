@@ -1,7 +1,7 @@
 """Ranks and Frobenius' test at single points, over numbers of any kind: what `exact` and `numeric` have in common.
 
 The rows are dg of the finite equations and the forms omega, over (q, t). With N a basis of what they allow, a form is
-taken for holonomic where N^T (d omega) N = 0 at every point that is looked at (Frobenius' theorem, one step of the
+taken for holonomic where N^T (d omega) N = 0 at every point that is looked at ([Frobenius1877], one step of the
 derived flag): right for a system in involution at a regular point, and for no other.
 """
 

@@ -13,6 +13,7 @@ from dofkit.mobility.graph.answer import Proof, Question
 from dofkit.mobility.graph.compiled import engine_for
 from dofkit.mobility.graph.grouping import gathered
 
+# [Kirchhoff1847]
 _PROOF = Proof("proved", "spanning forest: in one dimension a link is redundant if and only if it closes a cycle")
 
 

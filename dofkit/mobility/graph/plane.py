@@ -16,6 +16,7 @@ from dofkit.mobility.graph.grouping import ascending, gathered
 from dofkit.mobility.graph.net import Net
 from dofkit.mobility.graph.pebbles import FREE, Board
 
+# [JacobsHendrickson1997] [PollaczekGeiringer1927] [Laman1970]
 _PROOF = Proof(
     "proved",
     "the (2,3) pebble game (Jacobs and Hendrickson 1997): links in the plane are independent in general position if "

@@ -1,4 +1,4 @@
-"""Cyclic coordinates and first integrals that a Lagrangian shows at once (Noether: translations of q and of t)."""
+"""Cyclic coordinates and first integrals that a Lagrangian shows at once: translations of q and of t [Noether1918]."""
 
 from __future__ import annotations
 

@@ -1,9 +1,10 @@
 """Relations without a real solution: a proof by exclusion.
 
-All of space is cut into boxes; a box goes where the relations, run over it in intervals, leave nothing. Where every box
-goes there is no solution. Three descriptions of the same set are tried, all of which only forget: the relations as
-written; polynomials in their generators, with their linear combinations and resultants; and those in projective
-charts, x = 1/w and x_j = u_j/w, which are compact, so that a form that is definite at infinity is seen to be so.
+All of space is cut into boxes; a box goes where the relations, run over it in intervals, leave nothing [Moore1966].
+Where every box goes there is no solution. Three descriptions of the same set are tried, all of which only forget: the
+relations as written; polynomials in their generators, with their linear combinations and resultants; and those in
+projective charts, x = 1/w and x_j = u_j/w, which are compact, so that a form that is definite at infinity is seen to be
+so.
 """
 
 from __future__ import annotations

@@ -149,7 +149,7 @@ def fraction(value: fmpq) -> Fraction:
 
 
 def _semidefinite_rows(form: list[list[Fraction]]) -> list[list[fmpq]] | None:
-    """Rows that span a semidefinite form's range, by Lagrange's reduction; None where it is indefinite."""
+    """Rows that span a semidefinite form's range (Lagrange's reduction [Sylvester1852]); None for an indefinite one."""
     n = len(form)
     work = [row[:] for row in form]
     rows, sign = [], 0
