@@ -9,7 +9,7 @@ from typing import Any
 def places_by_label(labels: Sequence[int]) -> list[list[int]]:
     """The places of each label, in the order in which the labels first occur.
 
-    >>> gathered([5, 3, 5])
+    >>> places_by_label([5, 3, 5])
     [[0, 2], [1]]
     """
     found: dict[int, list[int]] = {}
@@ -30,7 +30,7 @@ def ascending(numbers: Any) -> list[int]:
 def components(sets: Iterable[Sequence[int]]) -> list[list[int]]:
     """Sets that share a member are one; members ascending, sets by their first.
 
-    >>> connected([[1, 4], [2, 3], [4, 0]])
+    >>> components([[1, 4], [2, 3], [4, 0]])
     [[0, 1, 4], [2, 3]]
     """
     leader: dict[int, int] = {}
