@@ -12,7 +12,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.search import integrate
-from dofkit.integrability.piece_traits import exact
+from dofkit.integrability.traits import exact
 from dofkit.relations.normal.normal_form import Pfaffian
 
 

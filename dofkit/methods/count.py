@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from dofkit.base.verdicts import weakest
-from dofkit.integrability.piece_traits import exact
+from dofkit.integrability.traits import exact
 from dofkit.methods.shared.as_written import Written, as_written, labelled
 from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodLabel, MethodReply
 from dofkit.methods.shared.reporting import many

@@ -9,7 +9,7 @@ from itertools import chain, count, islice
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.block import answer
 from dofkit.expressions.text import to_text
-from dofkit.integrability.integrals.first_integrals import FirstIntegral, first_integrals, integral_by_row
+from dofkit.integrability.first_integrals import FirstIntegral, first_integrals, integral_by_row
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split

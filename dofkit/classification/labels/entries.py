@@ -17,7 +17,7 @@ from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, lab
 from dofkit.classification.labels.equation_names import in_words
 from dofkit.classification.labels.reasons import Others
 from dofkit.integrability.modulo_others import label_modulo_others
-from dofkit.integrability.piece_traits import Traits, traits
+from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.integration_constants import fixed_constants

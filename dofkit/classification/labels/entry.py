@@ -11,8 +11,8 @@ from dofkit.classification.labels.reasons import Labels, Others, joined, reason_
 from dofkit.exact.engines import BOTH
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.piece_traits import Traits
 from dofkit.integrability.single_form import Integrability, integrability
+from dofkit.integrability.traits import Traits
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.normal_form import (
