@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from flint import ctx
 
+from dofkit.base.arguments import require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited, part, unless_late
 from dofkit.base.verdicts import weakest
 from dofkit.classification.counts import with_counts
@@ -26,7 +27,7 @@ from dofkit.classification.special import special_cases
 from dofkit.classification.undecided import blank, sketch
 from dofkit.exact.points.balls import PRECISION
 from dofkit.expressions.tree import Expr
-from dofkit.methods.in_worker import checked, in_worker
+from dofkit.methods.in_worker import in_worker
 from dofkit.methods.shared.reporting import report_alone
 from dofkit.methods.table import BY_ENGINES, METHODS, MethodName
 from dofkit.mobility.textbook_count import CountedFacts, count
@@ -39,6 +40,7 @@ from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, ForceEntry, Redundancy, Report
 from dofkit.scene.lowering import lower
+from dofkit.scene.reading import SceneLike, scene_or_system
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -48,22 +50,31 @@ _NO_SPECIAL_CASES = "There was no time to look for special cases."
 _UNWATCHED = "No worker process could be started here: the time was watched, but nothing would have been killed."
 
 
-def classify(scene: Scene | System, budget: float | None = None, method: MethodName = "auto") -> Report:
-    """How the system of ``scene`` can move.
+def classify(scene: SceneLike | System, budget: float | None = None, method: MethodName = "auto") -> Report:
+    """How the system of ``scene`` can move: its freedom, labels, integrals and redundancy, each with a verdict.
 
+    ``scene``: a Scene, a path, a catalog name, a mapping or a System.
     ``budget``: seconds for the scene; what is not finished then is undecided. The work is then done in a process of
     its own, which is killed where it does not end by itself (1 s or a quarter of the budget later), or needs too much
     memory: then everything is undecided, and the reason says so. Without a budget it is done here, and no new part of
     it is begun after 60 s. ``method``: a name of `METHODS`; one alone leaves open what it cannot answer.
-    Raises `SceneError` with every fault where the scene cannot be read as mathematics.
+    Returns a Report: numbers of freedoms, names and texts, without units. Raises `SceneError` with every fault where
+    the scene cannot be read as mathematics, and `ArgumentError` for what is no scene, no method or no number.
+
+    >>> import dofkit
+    >>> report = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]})
+    >>> report.dof, report.constraints[0].integral, report.verdict
+    (1, 'x*y = C', 'proved')
     """
+    require_one_of(method, METHODS, "method")
+    given = scene_or_system(scene)
     if budget is None:
-        return _classified(scene, DEFAULT_SECONDS, method)
-    seconds = checked(budget)
-    report = in_worker(scene, seconds, method)
+        return _classified(given, DEFAULT_SECONDS, method)
+    seconds = seconds_of(budget)
+    report = in_worker(given, seconds, method)
     if report is not None:
         return report
-    report = _classified(scene, seconds, method)
+    report = _classified(given, seconds, method)
     return report.model_copy(update={"warnings": [*report.warnings, _UNWATCHED]})
 
 
@@ -132,17 +143,23 @@ def _generic(reductions: Reductions, system: System) -> Report:
     return _report(system, reduced, setting, solve(system, reduced, setting))
 
 
-def derived_flag(scene: Scene | System, budget: float | None = None) -> list[int] | None:
+def derived_flag(scene: SceneLike | System, budget: float | None = None) -> list[int] | None:
     """The ranks of the codistribution I, of I', I'', ... down to its largest integrable part, at a generic point.
 
     I is spanned by the differentials of the finite relations and the Pfaffian forms of ``scene``; I' holds the forms
     of I whose differential vanishes modulo I. None where that is not certain in the time there is (no new part of the
     work is begun after it), or a relation is nonlinear in the velocities. Probable: exact arithmetic at random points.
-    Raises `SceneError` as `classify` does.
+    ``scene`` and ``budget`` (seconds) are as for `classify`, and so are the errors that are raised.
+
+    >>> import dofkit
+    >>> dofkit.derived_flag({"coordinates": ["x", "y", "z"], "constraints": ["dz = y dx"]})
+    [1, 0]
     """
-    system = scene if isinstance(scene, System) else lower(scene)
+    seconds = DEFAULT_SECONDS if budget is None else seconds_of(budget)
+    given = scene_or_system(scene)
+    system = given if isinstance(given, System) else lower(given)
     try:
-        with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(PRECISION):
+        with limited(seconds), ctx.workprec(PRECISION):
             reduced, setting = prepared(system)
             outcome = solve(system, reduced, replace(setting, flag=True))
     except OutOfTimeError:

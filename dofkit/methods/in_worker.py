@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from dofkit.base.deadline import limit
@@ -38,13 +37,6 @@ def in_worker(scene: Scene | System, budget: float, method: MethodName) -> Repor
         report = Report.model_validate(found["report"])
         return report if outcome.finished else undecided(report, outcome.reason)
     return sketch(scene, outcome.reason) if isinstance(scene, System) else blank(scene, outcome.reason)
-
-
-def checked(budget: float) -> float:
-    """A budget in seconds, not below 0. Raises ValueError where it is no number."""
-    if math.isnan(budget):
-        raise ValueError("the budget is a number of seconds")
-    return max(0.0, float(budget))
 
 
 def _fault(told: dict[str, Any]) -> Fault:

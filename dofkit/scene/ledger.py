@@ -59,8 +59,8 @@ class Ledger:
         self.fault(f"there is no {what} '{name}'", *where, hint=hint)
 
 
-class TextReader:
-    """Reads texts with some names; a text is parsed once however often it occurs."""
+class ParsedTexts:
+    """Expressions of texts that are read with some names, each parsed once however often it occurs."""
 
     def __init__(self, names: Names) -> None:
         self.names = names
@@ -90,7 +90,7 @@ def symbols_of(text: str, names: Names) -> frozenset[Expr]:
 class Texts(Ledger):
     """The texts of one entry, read with the scene's names."""
 
-    def __init__(self, reader: TextReader, here: tuple[str | int, ...] = (), before: int = 0) -> None:
+    def __init__(self, reader: ParsedTexts, here: tuple[str | int, ...] = (), before: int = 0) -> None:
         super().__init__(here, before)
         self._reader = reader
         self.names = reader.names

@@ -11,7 +11,7 @@ from dofkit.base.errors import Fault
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import Names, spelled, valid_name
 from dofkit.expressions.tree import Expr, num, parameter
-from dofkit.scene.ledger import Ledger, TextReader, Texts
+from dofkit.scene.ledger import Ledger, ParsedTexts, Texts
 from dofkit.scene.parts import Body, Particle
 from dofkit.system import BODY_ROLES, GROUND, PARTICLE_ROLES, Coordinate, Sign
 
@@ -82,7 +82,7 @@ class Vocabulary:
     table: NameTable
     parameters: Mapping[str, Expr]
     signs: Mapping[str, Sign]
-    texts: TextReader
+    texts: ParsedTexts
     faults: tuple[Fault, ...]
 
     @property
@@ -95,7 +95,7 @@ def vocabulary_of(scene: Declared) -> Vocabulary:
     """The names of a scene, read from what it declares."""
     table = coordinate_table(scene)
     parameters, signs, faults = _parameters(scene)
-    return Vocabulary(table, parameters, signs, TextReader(_declared_names(scene, table, parameters)), faults)
+    return Vocabulary(table, parameters, signs, ParsedTexts(_declared_names(scene, table, parameters)), faults)
 
 
 def _parameters(scene: Declared) -> tuple[dict[str, Expr], dict[str, Sign], tuple[Fault, ...]]:
@@ -111,7 +111,7 @@ def _parameters(scene: Declared) -> tuple[dict[str, Expr], dict[str, Sign], tupl
         if isinstance(value, Fraction):
             stands[name] = num(value)
         elif sign is None:
-            texts = Texts(TextReader(Names(parameters=dict(stands))), ("parameters",), len(faults))
+            texts = Texts(ParsedTexts(Names(parameters=dict(stands))), ("parameters",), len(faults))
             stands[name] = _parameter_value(texts, name, value)
             faults += texts.faults
         else:

@@ -108,7 +108,17 @@ _AnyConstraint = Annotated[
 
 
 class Scene(WrittenModel):
-    """A mechanical system: what it is made of and what holds it."""
+    """A mechanical system: what it is made of and what holds it.
+
+    Its fields are the keys of a scene's file, numbers exact and in the units of whoever wrote it. It is frozen;
+    ``model_copy(update=...)`` makes another. `dofkit.load` says what is wrong with a scene in better words than
+    ``Scene(...)``, which raises pydantic.ValidationError and looks at neither texts nor geometry.
+
+    >>> import dofkit
+    >>> scene = dofkit.load({"particles": ["A", "B"], "constraints": [{"type": "link", "between": ["A", "B"]}]})
+    >>> scene.dimension, [p.name for p in scene.particles], scene.constraints[0].shown
+    (3, ['A', 'B'], 'link A-B')
+    """
 
     name: str = Field("scene", min_length=1, description="a short name, used in reports; by default the file's stem")
     title: str | None = Field(None, description="one line about it")

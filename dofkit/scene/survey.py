@@ -139,13 +139,15 @@ class KeptSurvey:
 
     def of(self, scene: Surveyed) -> Survey:
         """The survey of a scene."""
-        owner, written, found = self._known or (None, (), None)
         mappings = (dict(scene.parameters), dict(scene.functions), dict(scene.configuration), dict(scene.expect))
-        if found is not None and owner is not None and owner() is scene and written == mappings:
-            return found
+        if self._known is not None:
+            owner, written, known = self._known
+            if owner() is not scene and owner() is not None:
+                return survey(scene)
+            if owner() is scene and written == mappings:
+                return known
         found = survey(scene)
-        if owner is None or owner() in (None, scene):
-            self._known = weakref.ref(scene), mappings, found
+        self._known = weakref.ref(scene), mappings, found
         return found
 
     def __eq__(self, other: object) -> bool:
