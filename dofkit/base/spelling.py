@@ -36,6 +36,12 @@ def nearest(word: object, known: Iterable[str]) -> str | None:
     return closest(word, near[:_MOST_COMPARED]) or next(same, None)
 
 
+def guess(word: str, known: Iterable[str]) -> str:
+    """`` (did you mean ...?)`` with the nearest of the ``known``, nothing where none is near."""
+    near = nearest(word, known)
+    return "" if near is None else f" (did you mean '{near}'?)"
+
+
 def no_such(word: str, known: Iterable[str], what: str, plural: str = "") -> str:
     """A sentence for a ``word`` that is none of the ``known``: the nearest of them, and the first dozen.
 
@@ -43,10 +49,8 @@ def no_such(word: str, known: Iterable[str], what: str, plural: str = "") -> str
     "there is no method 'exakt' (did you mean 'exact'?): the methods are count, exact"
     """
     names = list(known)
-    near = nearest(word, names)
-    guess = f" (did you mean '{near}'?)" if near is not None else ""
     listed = ", ".join(names[:_MOST_LISTED]) + (", ..." if len(names) > _MOST_LISTED else "")
-    return f"there is no {what} '{word}'{guess}: the {plural or what + 's'} are {listed or 'none'}"
+    return f"there is no {what} '{word}'{guess(word, names)}: the {plural or what + 's'} are {listed or 'none'}"
 
 
 def nearest_title(name: str, known: Sequence[str]) -> str | None:

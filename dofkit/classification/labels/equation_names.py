@@ -35,7 +35,7 @@ _ABOUT = {
 def said(relation: Relation, otherwise: str) -> str:
     """A relation in words; ``otherwise`` for one without a name.
 
-    >>> from dofkit.expr import ONE, ZERO
+    >>> from dofkit.expressions.tree import ONE, ZERO
     >>> said(Relation(ZERO, part="axis", vector=(ONE, ZERO, ZERO)), "")
     'no rotation about (1, 0, 0)'
     """

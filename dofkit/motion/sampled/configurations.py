@@ -10,7 +10,7 @@ from flint import ctx
 
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.base.errors import DofkitError
-from dofkit.base.spelling import no_such
+from dofkit.base.spelling import guess, no_such
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.points.balls import PRECISION, RealSearch
@@ -183,8 +183,8 @@ def _given(system: System, given: Mapping[str, float]) -> dict[Expr, float]:
     known = places | set(system.parameters)
     wrong = sorted(set(given) - known)
     if wrong:
-        what = "coordinate or parameter without a value"
-        raise NoMotionError(no_such(wrong[0], [*places, *system.parameters], what, "coordinates and parameters"))
+        message = f"'{wrong[0]}' is neither a coordinate nor a parameter without a value"
+        raise NoMotionError(message + guess(wrong[0], known))
     return {(ex.coordinate if n in places else ex.parameter)(n): float(v) for n, v in given.items()}
 
 
