@@ -12,7 +12,7 @@ from dofkit.expressions.tree import Expr
 def compound(e: Expr) -> Expr:
     """The same with the addition theorems used from right to left, wherever two terms of a sum allow it.
 
-    >>> from dofkit.text import to_text
+    >>> from dofkit.expressions.text import to_text
     >>> a, b = ex.coordinate("a"), ex.coordinate("b")
     >>> cos, sin = (lambda u: ex.fn("cos", u)), (lambda u: ex.fn("sin", u))
     >>> to_text(compound(cos(a) * cos(b) + sin(a) * sin(b)))
