@@ -387,7 +387,7 @@ def test_a_file_in_the_working_folder_is_not_run(tmp_path: Path) -> None:
 
 
 STUCK = """
-import sys, worker_jobs, dofkit.interface.classify_file as telling, dofkit.interface.cli
+import sys, worker_jobs, dofkit.interface.one_file as telling, dofkit.interface.cli
 real = telling.stages
 def stages(scene, *others):
     told = real(scene, *others)
@@ -417,7 +417,7 @@ def test_a_scene_without_end_does_not_stop_the_others(tmp_path: Path) -> None:
 
 
 CRASHING = """
-import sys, worker_jobs, dofkit.interface.classify_file as telling, dofkit.interface.cli
+import sys, worker_jobs, dofkit.interface.one_file as telling, dofkit.interface.cli
 real = telling.SceneFile.read
 def read(data, name):
     if name in ("crash", "hog", "sleep"):

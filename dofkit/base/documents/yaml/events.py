@@ -18,7 +18,7 @@ from ruamel.yaml.events import (
 
 from dofkit.base.documents.fast_flow import DEEPEST, Path, Places, twice
 from dofkit.base.documents.scalars import BadScalarError, joined, plain
-from dofkit.base.documents.syntax import told
+from dofkit.base.documents.yaml.syntax import told
 from dofkit.base.errors import Fault
 
 #: Aliases may add this many values in all.
