@@ -24,10 +24,10 @@ from dofkit.base.errors import DofkitError, SceneError, TextError
 from dofkit.base.version import __version__
 
 if TYPE_CHECKING:
-    from dofkit.classification.passes import classify, derived_flag
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.grading import grade
     from dofkit.methods.ask import ask
+    from dofkit.methods.classify import classify, derived_flag
     from dofkit.mobility.graph.answers import Linkage, linkage, redundant_links
     from dofkit.motion.lagrange.equations import lagrange
     from dofkit.motion.sampled.configurations import configurations
@@ -54,10 +54,10 @@ _HOMES = {
     "catalog_names": "dofkit.scene.catalog",
     "catalog_text": "dofkit.scene.catalog",
     "Scene": "dofkit.scene.scene",
-    "classify": "dofkit.classification.passes",
+    "classify": "dofkit.methods.classify",
     "Report": "dofkit.report",
     "ask": "dofkit.methods.ask",
-    "derived_flag": "dofkit.classification.passes",
+    "derived_flag": "dofkit.methods.classify",
     "lagrange": "dofkit.motion.lagrange.equations",
     "configurations": "dofkit.motion.sampled.configurations",
     "linkage": "dofkit.mobility.graph.answers",

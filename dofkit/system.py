@@ -5,10 +5,10 @@ Everything after this module works on `System` and never reads the scene again.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, Protocol
 
 from dofkit.expressions.tree import Expr
 
@@ -60,16 +60,103 @@ class Relation:
     vector: tuple[Expr, ...] = ()
 
 
+#: A linear relation between velocities: its coefficients by column.
+VelocityRow = dict[int, Any]
+
+
+class Kinematics(Protocol):
+    """A connection with numbers of any kind, where it is drawn or elsewhere: what a type builds its velocity rows from.
+
+    Columns are the velocity v, then the angular velocity w, of every member; a vector of velocities is a row a
+    component. ``points``: (what carries it, its place); ``number``: the screw's advance by radian, or a ratio of gears.
+    """
+
+    @property
+    def dimension(self) -> int: ...
+    @property
+    def members(self) -> Sequence[Any]: ...
+    @property
+    def points(self) -> Sequence[tuple[Any, Sequence[Any]]]: ...
+    @property
+    def directions(self) -> Sequence[Sequence[Any]]: ...
+    @property
+    def number(self) -> Any: ...
+
+    def shift(self) -> list[VelocityRow]:
+        """How the second body's point at the first place moves against the first body's."""
+
+    def turn(self) -> list[VelocityRow]:
+        """The angular velocity of the second body against the first."""
+
+    def slip(self) -> list[VelocityRow]:
+        """How the first point moves against the other member, or the ground."""
+
+    def velocity(self, k: int) -> list[VelocityRow]:
+        """Of the point number ``k``."""
+
+    def origin(self, k: int) -> list[VelocityRow]:
+        """The velocity of the origin of the member number ``k``."""
+
+    def spin(self, k: int) -> list[VelocityRow]:
+        """The angular velocity of the member number ``k``."""
+
+
+@dataclass(frozen=True)
+class TypeFacts:
+    """What is true of every constraint of one type; its class declares it, and all others read it here.
+
+    For the geometry of velocities: ``velocities`` yields the rows of a connection, in the order of its scalar
+    equations, None where only its relations tell; ``drive`` the row of what is prescribed; ``directions``: how many
+    there are, given or not; ``by_turn``: its number is an advance by turn; ``merged``: its points are one point.
+    ``axial``: it turns about lines through its places, in the plane about a place; ``slides``: along its first
+    direction; ``contact``: in the plane it pushes its first point across its first direction. ``bars``: it keeps
+    distances between its points; ``complete``: between every two. ``welded``: two bodies are one.
+
+    For how its relations are read: ``written``: they are a person's texts, which may be squared or fall into parts;
+    ``lettered``: x, y, z in these stand for coordinates of a point; ``half_turns``: they also hold in assemblies that
+    are turned by half a turn, which nobody means: the drawn one is as good.
+
+    In a lecture's words: a ``joint`` in Gruebler's count; a ``planar_pair``: a hinge or a slider; a ``string``; each
+    equation of its own is a ``surface`` for a point; ``shared``: each of its members has as many of its equations.
+    """
+
+    velocities: Callable[[Kinematics], Iterator[VelocityRow]] | None = None
+    drive: Callable[[Kinematics], VelocityRow] | None = None
+    directions: int = 0
+    by_turn: bool = False
+    merged: bool = False
+    axial: bool = False
+    slides: bool = False
+    contact: bool = False
+    bars: bool = False
+    complete: bool = False
+    welded: bool = False
+    written: bool = False
+    lettered: bool = False
+    half_turns: bool = False
+    joint: bool = False
+    planar_pair: bool = False
+    string: bool = False
+    surface: bool = False
+    shared: bool = False
+
+    @property
+    def placed(self) -> bool:
+        """Does its geometry alone say what it does, so that it can be put in general position? A text has none."""
+        return self.velocities is not None and not self.written
+
+
 @dataclass(frozen=True)
 class Constraint:
     """A constraint of the scene and the scalar relations that it yields.
 
-    ``notes`` are sentences for the report that only the constraint's type can know
+    ``facts``: of its type. ``notes`` are sentences for the report that only the constraint's type can know
     (a curve is two surfaces; every one of the m(m-1)/2 links of a rigid set).
     """
 
     name: str
     type: str
+    facts: TypeFacts
     text: str
     relations: tuple[Relation, ...]
     notes: tuple[str, ...] = ()
@@ -108,13 +195,13 @@ class DrawnPoint:
 class Connection:
     """What the constraint number ``constraint`` connects, as given by its geometry and not by a text.
 
-    ``members``: bodies (``ground`` too) and particles, in the order mentioned. ``points`` belong to members,
-    ``places`` and ``directions`` to the drawing; what is in general position is None. ``number``: the screw's pitch,
-    or the ratio of gears. ``driven``: one more relation prescribes the motion.
+    ``facts``: of its type. ``members``: bodies (``ground`` too) and particles, in the order mentioned. ``points``
+    belong to members, ``places`` and ``directions`` to the drawing; what is in general position is None. ``number``:
+    the screw's pitch, or the ratio of gears. ``driven``: one more relation prescribes the motion.
     """
 
     constraint: int
-    type: str
+    facts: TypeFacts
     members: tuple[str, ...]
     points: tuple[DrawnPoint, ...] = ()
     places: tuple[tuple[Expr, ...] | None, ...] = ()

@@ -87,8 +87,8 @@ def rolling_disc() -> object:
 
 def stability() -> None:
     """Of every family of scenes with known truth: how many trials, and the share right, undecided and wrong."""
-    from families import FAMILIES
-    from trials import outcome
+    from shared.families import FAMILIES
+    from shared.trials import outcome
 
     print(f"{'family':<40} {'trials':>7} {'right':>9} {'undecided':>10} {'wrong':>9} {'seconds':>9}")
     for name, family in FAMILIES.items():

@@ -76,7 +76,7 @@ def jacobian(scene: Scene) -> Any:
     """The relations between velocities in floating point."""
     system = lower(dofkit.load(dict(scene)))
     placement = measured(system)
-    rows = [row for found in placement.located for row in rows_of(found, system.dimension) or []] if placement else []
+    rows = [row for found in placement.located for row in rows_of(found) or []] if placement else []
     matrix = np.zeros((len(rows), len(system.coordinates)))
     for i, row in enumerate(rows):
         for c, v in row.items():

@@ -12,13 +12,13 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
-from trials import Outcome, outcome
+from shared.trials import Outcome, outcome
 
 import dofkit
 from dofkit.benchmark.trials.frameworks import Framework
 from dofkit.benchmark.trials.random_systems import graph
 from dofkit.benchmark.trials.sweeps import SWEEPS, Case, drawn_case
-from dofkit.methods.table import MethodName
+from dofkit.methods.names import MethodName
 
 #: Primes of 3, 6, 14 and 61 bits.
 PRIMES = (7, 61, 16381, 2**61 - 1)

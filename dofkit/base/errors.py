@@ -1,8 +1,9 @@
-"""What can go wrong with what a person gave: one base, every fault with its place and a hint."""
+"""What can go wrong: faults of what a person gave, each with its place and a hint, and what has no value."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 
 class DofkitError(Exception):
@@ -82,3 +83,18 @@ class SceneError(DofkitError):
 
     def __reduce__(self) -> tuple[type[SceneError], tuple[tuple[Fault, ...], str | None]]:
         return (SceneError, (self.faults, self.source))
+
+
+class NoValueError(DofkitError, ArithmeticError):
+    """An expression or exact arithmetic has no value here; `dofkit.exact.errors` tells the other reasons."""
+
+    reason: ClassVar[str] = "an expression has no value here"
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(message or self.reason)
+
+
+class PoleError(NoValueError, ZeroDivisionError):
+    """A division by zero: by a number, by a polynomial, or by a matrix that is singular."""
+
+    reason = "division by zero"

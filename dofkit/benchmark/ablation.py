@@ -1,4 +1,4 @@
-"""What each reduction of `dofkit.reductions` is worth: cost and size of the model with one after another left out.
+"""What each reduction of `dofkit.relations.reductions` is worth: cost and size of the model without one after another.
 
 The scenes grow by what one reduction leaves out; those of the catalog stand beside them.
 """
@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError
-from dofkit.classification.passes import Study, examined
+from dofkit.benchmark.record import ReductionCost
+from dofkit.classification.passes import Examined, examined
 from dofkit.relations.reductions import ALL, REDUCTIONS, ReductionName, Reductions
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.catalog import catalog_names
@@ -30,35 +30,7 @@ SENTENCES = ("differs", "errs")
 LISTS = ("redundant", "redundancies", "special_cases", "conflicting")
 
 
-@dataclass(frozen=True)
-class AblationRow:
-    """One scene answered with all reductions (``off`` is empty) or all but one.
-
-    ``family``: the reduction that the scene was made for, or ``catalog``; ``size``: what grows with it; ``seconds``:
-    processor time of reading, lowering and answering. Of the model that was computed with: ``coordinates`` (of those
-    ``written``), finite ``relations``, ``forms`` put to an integrability test, and coordinates of the ``largest``
-    block; ``followed``: coordinates of relations that were followed from the drawing to tell a motion from a shake.
-    ``unchanged``: no answer differs from that with all reductions, though it may be open; ``differs``: the
-    fields that do.
-    """
-
-    scene: str
-    family: str
-    size: int
-    off: str
-    seconds: float
-    coordinates: int
-    relations: int
-    forms: int
-    largest: int
-    written: int
-    followed: int
-    unchanged: bool
-    undecided: bool
-    differs: list[str]
-
-
-class Made(NamedTuple):
+class SceneFamily(NamedTuple):
     """Scenes of any size that one reduction is for, in sizes for a quick run and for a whole one."""
 
     scene: Callable[[int], Mapped]
@@ -66,33 +38,35 @@ class Made(NamedTuple):
     whole: tuple[int, ...]
 
 
-def ablation(quick: bool = False) -> Iterator[AblationRow]:
+class AblatedScene(NamedTuple):
+    """A scene as `dofkit.load` takes it, with its family and size."""
+
+    name: str
+    family: str
+    size: int
+    source: Mapped | str
+
+
+def ablation(quick: bool = False) -> Iterator[ReductionCost]:
     """A row for every scene and every reduction that may matter to it: its own family's, all for the catalog."""
     for family, made in SCENES.items():
         for size in (made.quick,) if quick else made.whole:
-            yield from ablated(f"{family}-{size}", family, size, made.scene(size), (family,))
+            yield from costs(AblatedScene(f"{family}-{size}", family, size, made.scene(size)), (family,))
     for name in catalog_names()[:: 6 if quick else 1]:
-        yield from ablated(name, "catalog", 1, name, tuple(REDUCTIONS), 1)
+        yield from costs(AblatedScene(name, "catalog", 1, name), tuple(REDUCTIONS), 1)
 
 
-def ablated(
-    name: str,
-    family: str,
-    size: int,
-    source: Mapped | str,
-    without: tuple[ReductionName, ...],
-    repeats: int = REPEATS,
-) -> Iterator[AblationRow]:
+def costs(scene: AblatedScene, without: tuple[ReductionName, ...], repeats: int = REPEATS) -> Iterator[ReductionCost]:
     """The scene answered with all reductions, then without each of some."""
-    full, seconds = answered(source, ALL, repeats)
-    yield _row(name, family, size, "", full, seconds, [])
+    full, seconds = timed_study(scene.source, ALL, repeats)
+    yield _cost(scene, "", full, seconds, [])
     for off in without:
-        study, seconds = answered(source, ALL - {off}, repeats)
+        study, seconds = timed_study(scene.source, ALL - {off}, repeats)
         changed = [] if study is None or full is None else differences(full.report, study.report)
-        yield _row(name, family, size, off, study, seconds, changed)
+        yield _cost(scene, off, study, seconds, changed)
 
 
-def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Study | None, float]:
+def timed_study(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Examined | None, float]:
     """The answer and its processor time; None where there was no time for it."""
     best = float("inf")
     for _ in range(repeats):
@@ -107,14 +81,12 @@ def answered(source: Mapped | str, reductions: Reductions, repeats: int = REPEAT
     return study, best
 
 
-def _row(
-    name: str, family: str, size: int, off: str, study: Study | None, seconds: float, changed: list[str]
-) -> AblationRow:
+def _cost(scene: AblatedScene, off: str, study: Examined | None, seconds: float, changed: list[str]) -> ReductionCost:
     sizes = [] if study is None else [a.size for a in study.outcome.answers]
-    return AblationRow(
-        scene=name,
-        family=family,
-        size=size,
+    return ReductionCost(
+        scene=scene.name,
+        family=scene.family,
+        size=scene.size,
         off=off,
         seconds=seconds,
         coordinates=sum(s.coordinates for s in sizes),
@@ -269,16 +241,16 @@ def _cheapest(n: int) -> Mapped:
     return {"dimension": 2, "particles": [f"p{i}" for i in range(n + 2)], "constraints": links}
 
 
-SCENES: Mapping[ReductionName, Made] = {
-    "untouched": Made(_untouched, 32, (8, 16, 32, 64)),
-    "blocks": Made(_blocks, 8, (2, 4, 8, 16, 32)),
-    "twins": Made(_twins, 32, (8, 16, 32, 64)),
-    "copies": Made(_copies, 6, (3, 6, 12, 24)),
-    "still": Made(_still, 6, (3, 6, 12, 24)),
-    "welds": Made(_welds, 8, (4, 8, 16, 32)),
-    "clusters": Made(_clusters, 12, (6, 12, 24, 48)),
-    "eliminations": Made(_eliminations, 8, (4, 8, 16)),
-    "classes": Made(_classes, 8, (4, 8, 16, 32)),
-    "closed": Made(_closed, 6, (4, 6, 8, 12)),
-    "cheapest": Made(_cheapest, 16, (8, 16, 32, 64)),
+SCENES: Mapping[ReductionName, SceneFamily] = {
+    "untouched": SceneFamily(_untouched, 32, (8, 16, 32, 64)),
+    "blocks": SceneFamily(_blocks, 8, (2, 4, 8, 16, 32)),
+    "twins": SceneFamily(_twins, 32, (8, 16, 32, 64)),
+    "copies": SceneFamily(_copies, 6, (3, 6, 12, 24)),
+    "still": SceneFamily(_still, 6, (3, 6, 12, 24)),
+    "welds": SceneFamily(_welds, 8, (4, 8, 16, 32)),
+    "clusters": SceneFamily(_clusters, 12, (6, 12, 24, 48)),
+    "eliminations": SceneFamily(_eliminations, 8, (4, 8, 16)),
+    "classes": SceneFamily(_classes, 8, (4, 8, 16, 32)),
+    "closed": SceneFamily(_closed, 6, (4, 6, 8, 12)),
+    "cheapest": SceneFamily(_cheapest, 16, (8, 16, 32, 64)),
 }

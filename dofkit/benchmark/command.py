@@ -6,13 +6,12 @@ import os
 import platform
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -20,7 +19,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from dofkit.base.version import __version__
 from dofkit.base.workers import Job
 from dofkit.base.workers.pool import cores
-from dofkit.benchmark import runner, storing, tasks
+from dofkit.benchmark import figures, runner, storing, tasks
 from dofkit.benchmark import trial_job as asking
 from dofkit.benchmark.failures import explained
 from dofkit.benchmark.record import ChartRun, Data, Ran, ReductionCost, TrialLine
@@ -77,9 +76,9 @@ def run(options: ChartOptions) -> bool:
         return True
     started, found = time.monotonic(), ChartFiles()
     date = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
-    chosen = options.selection.chosen(FAMILIES)
+    chosen = options.selection.with_names(FAMILIES)
     trials = chosen.thinned(chosen.trials(FAMILIES))
-    work = list(tasks.crossed(trials, chosen.methods))
+    work = list(tasks.trial_tasks(trials, chosen.methods))
     swept = list(tasks.sweeps(chosen.swept(FAMILIES), chosen.methods, chosen.quick))
     try:
         _gather(options, work, swept, found)
@@ -124,8 +123,6 @@ def finish(data: Data, out: Path) -> None:
 
 def draw(chart: ChartRun, out: Path) -> Iterator[Path]:
     """All figures. Raises OSError."""
-    from dofkit.benchmark import figures
-
     return figures.write(chart, out)
 
 
@@ -144,7 +141,7 @@ def _gather(
 ) -> None:
     """Reductions are measured beside the trials: each of their runs needs the one before."""
     with _bench(options) as bench, _bar() as bar:
-        job = Job(asking.ablated, options.selection.quick, REDUCTION_SECONDS)
+        job = Job(asking.ablation_rows, options.selection.quick, REDUCTION_SECONDS)
         reduced = bench.crew.submit(bench.ask, job) if _reduces(options.selection) else None
         for name, some, lines in (("trials", work, found.lines), ("sweeps", swept, found.sweeps)):
             shown = bar.add_task(name, total=len(some))
@@ -153,15 +150,9 @@ def _gather(
                 bar.update(shown, advance=1)
         if reduced is not None:
             shown = bar.add_task("reductions", total=None)
-            found.reductions += [_reduction(row) for row in reduced.result().value or ()]
+            found.reductions += [ReductionCost.model_validate(row) for row in reduced.result().value or ()]
             bar.update(shown, total=1, completed=1)
     found.complete = True
-
-
-def _reduction(row: Mapping[str, Any]) -> ReductionCost:
-    return ReductionCost.model_validate(
-        {name: value for name, value in row.items() if name in ReductionCost.model_fields}
-    )
 
 
 def _reduces(selection: Selection) -> bool:
@@ -172,10 +163,10 @@ def _reduces(selection: Selection) -> bool:
 @contextmanager
 def _bench(options: ChartOptions) -> Iterator[runner.Bench]:
     if options.scheduler is not None:
-        with runner.there(options.scheduler, options.seconds, explained) as bench:
+        with runner.cluster_bench(options.scheduler, options.seconds, explained) as bench:
             yield bench
         return
-    with runner.here(options.workers or cores(), options.seconds, explained) as bench:
+    with runner.local_bench(options.workers or cores(), options.seconds, explained) as bench:
         yield bench
 
 

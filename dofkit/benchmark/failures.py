@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from dofkit.methods.table import METHODS, MethodName
+from dofkit.methods.names import MethodName
+from dofkit.methods.table import METHODS
 
 #: Every trait of a trial, in words.
 TRAITS: Mapping[str, str] = {

@@ -8,7 +8,7 @@ from typing import Any
 from dofkit.benchmark.record import Outcome
 
 
-def judged(truth: Any, told: Any) -> Outcome:
+def outcome_of(truth: Any, told: Any) -> Outcome:
     """How an answer compares with the truth. None is undecided, also for a single constraint of a mapping.
 
     >>> judged(2, 2), judged(2, None), judged(["c"], ["b"])

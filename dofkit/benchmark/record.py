@@ -156,6 +156,12 @@ class Against(_Row):
     sound_ratio: float | None = Field(None, description="the same ratio for that one")
 
 
+#: ``family``: the reduction that the scene was made for, or ``catalog``; ``size``: what grows with it; ``seconds``:
+#: processor time of reading, lowering and answering. Of the model that was computed with: ``coordinates`` (of those
+#: ``written``), finite ``relations``, ``forms`` put to an integrability test, and coordinates of the ``largest``
+#: block; ``followed``: coordinates of relations that were followed from the drawing to tell a motion from a shake.
+#: ``unchanged``: no answer differs from that with all reductions, though it may be open; ``differs``: the fields that
+#: do.
 class ReductionCost(_Row):
     """A scene answered with one reduction switched off (``off`` empty: none): what it costs."""
 

@@ -12,12 +12,12 @@ from typing import Protocol
 
 from dofkit.base.workers import MEMORY, Job, Pool
 from dofkit.base.workers import JobOutcome as Ended
-from dofkit.base.workers.crews import Cluster, Crew, StoppedError, Threads, given_up
+from dofkit.base.workers.crews import Cluster, Crew, StoppedError, Threads
 from dofkit.base.workers.pool import cores
-from dofkit.benchmark.judging import judged
+from dofkit.benchmark.judging import outcome_of
 from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.tasks import TrialTask
-from dofkit.benchmark.trial_job import AGAIN, MODULES, TrialQuestion, answered
+from dofkit.benchmark.trial_job import AGAIN, MODULES, TrialQuestion, timed_reply
 
 #: Trials under way for each worker.
 AHEAD = 2
@@ -47,7 +47,7 @@ class Bench:
         t = task.trial
         again = 0 if task.knob else AGAIN
         asked = TrialQuestion(t.scene, t.question, task.method, task.knobs, t.answer, self.limit, again, self.answering)
-        return self.crew.submit(self.ask, Job(answered, asked, PATIENCE * self.limit + SPARE))
+        return self.crew.submit(self.ask, Job(timed_reply, asked, PATIENCE * self.limit + SPARE))
 
     def line(self, task: TrialTask, ended: Ended) -> TrialLine:
         """What became of a trial."""
@@ -55,20 +55,20 @@ class Bench:
             raise StoppedError(ended.reason)
         if ended.finished and ended.value is not None:
             told, seconds = ended.value["value"], float(ended.value["seconds"])
-            outcome = judged(task.trial.truth, told)
+            outcome = outcome_of(task.trial.truth, told)
             if told is None and ended.value["cannot"]:
                 outcome = "cannot"
-            return self._told(task, told, outcome, seconds, str(ended.value["reason"]))
+            return self._line(task, told, outcome, seconds, str(ended.value["reason"]))
         if ended.finished or ended.ended in ("overrun", "memory"):
             reason = ended.reason if ended.ended == "memory" else f"not done after {self.limit:g} s"
-            return self._told(task, None, "timed out", self.limit, reason)
-        return self._told(task, None, "undecided", self.limit, f"it failed: {ended.reason}")
+            return self._line(task, None, "timed out", self.limit, reason)
+        return self._line(task, None, "undecided", self.limit, f"it failed: {ended.reason}")
 
     def skipped(self, task: TrialTask) -> TrialLine:
         """A trial that is not run: a smaller one took too long."""
-        return self._told(task, None, "timed out", self.limit, SKIPPED)
+        return self._line(task, None, "timed out", self.limit, SKIPPED)
 
-    def _told(self, task: TrialTask, told: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:
+    def _line(self, task: TrialTask, told: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:
         t = task.trial
         why = "" if outcome == "right" else self.explain(task.method, t.question, t.traits, outcome, reason)
         if reason == SKIPPED:
@@ -136,21 +136,14 @@ def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
             return
         for future in wait(running, return_when=FIRST_COMPLETED).done:
             ladder, task = running.pop(future)
-            line = bench.line(task, _result(future))
+            line = bench.line(task, future.result())
             ladder.climbing -= 1
             ladder.broken = ladder.broken or line.outcome == "timed out"
             yield line
 
 
-def _result(future: Future[Ended]) -> Ended:
-    try:
-        return future.result()
-    except Exception as error:
-        raise given_up(error) from None
-
-
 @contextmanager
-def here(workers: int, limit: float, explain: Explain, memory: int = MEMORY) -> Iterator[Bench]:
+def local_bench(workers: int, limit: float, explain: Explain, memory: int = MEMORY) -> Iterator[Bench]:
     """Workers on this machine, copies of this process where it may be forked."""
     with Pool(workers, memory, MODULES) as pool:
         pool.fork()
@@ -159,13 +152,13 @@ def here(workers: int, limit: float, explain: Explain, memory: int = MEMORY) -> 
 
 
 @contextmanager
-def there(address: str, limit: float, explain: Explain) -> Iterator[Bench]:
+def cluster_bench(address: str, limit: float, explain: Explain) -> Iterator[Bench]:
     """The machines of a Dask scheduler, each with workers of its own. Raises StoppedError."""
     with Cluster(address) as cluster:
-        yield Bench(cluster, done_there, limit, explain)
+        yield Bench(cluster, run_there, limit, explain)
 
 
-def done_there(job: Job) -> Ended:
+def run_there(job: Job) -> Ended:
     """A job, on a machine of the cluster."""
     return _pool().run(job)
 

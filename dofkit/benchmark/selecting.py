@@ -8,7 +8,8 @@ from typing import get_args
 
 from dofkit.benchmark.storing import ChartError
 from dofkit.benchmark.trials.trial import Trial
-from dofkit.methods.table import METHODS, Question
+from dofkit.methods.names import Question
+from dofkit.methods.table import METHODS
 from dofkit.scene.fields import suggestion
 
 #: Trials of each family and question, at most, where nothing is said; and in a quick run.
@@ -29,7 +30,7 @@ class Selection:
     quick: bool = False
     most: int | None = None
 
-    def chosen(self, families: Families) -> Selection:
+    def with_names(self, families: Families) -> Selection:
         """With all names written out. Raises ChartError with the nearest one for a name that is none."""
         return Selection(
             _known(self.questions, get_args(Question), "question"),

@@ -37,7 +37,7 @@ def read(folder: Path) -> Data:
     """The data of a run. Raises ChartError where they are not there, or not whole."""
     try:
         chart = ChartRun.model_validate_json((folder / SUMMARY).read_text(encoding="utf-8"))
-        lines, swept = (list(_read(folder / name)) for name in (TRIALS, SWEEPS))
+        lines, swept = (list(_read_lines(folder / name)) for name in (TRIALS, SWEEPS))
     except OSError as error:
         raise ChartError(f"there is no run in {folder}: {error.strerror} ({error.filename})") from None
     except (ValidationError, ValueError, KeyError, TypeError) as error:
@@ -58,7 +58,7 @@ def _lines(path: Path, lines: Iterable[TrialLine]) -> Path:
     return path
 
 
-def _read(path: Path) -> Iterable[TrialLine]:
+def _read_lines(path: Path) -> Iterable[TrialLine]:
     with path.open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             cells: dict[str, Any] = {name: row[name] for name in _COLUMNS}

@@ -18,11 +18,11 @@ def summary(data: Data) -> ChartRun:
         steps=statistics.steps(data.sweeps),
         against=statistics.against(data.lines),
         reductions=data.reductions,
-        captions={name: f"{text} {made(data.ran)}" for name, text in _CAPTIONS.items()},
+        captions={name: f"{text} {provenance(data.ran)}" for name, text in _CAPTIONS.items()},
     )
 
 
-def made(ran: Ran) -> str:
+def provenance(ran: Ran) -> str:
     """What was run on what, and by which command."""
     return (
         f"{ran.trials} trials whose answers are known by construction, at most {ran.limit:g} s of processor time each; "

@@ -43,7 +43,7 @@ class TrialTask:
         return (t.family, t.question, repr(t.traits), swept, self.method, self.knob, repr(self.value), self.group)
 
 
-def crossed(trials: Iterable[Trial], methods: Sequence[str]) -> Iterator[TrialTask]:
+def trial_tasks(trials: Iterable[Trial], methods: Sequence[str]) -> Iterator[TrialTask]:
     """Every trial by every method."""
     for trial in trials:
         for method in methods:

@@ -48,7 +48,7 @@ class TrialQuestion:
     answering: str = "dofkit.methods.dispatch:answered"
 
 
-def answered(asked: TrialQuestion) -> Json:
+def timed_reply(asked: TrialQuestion) -> Json:
     """What is told, as a mapping ``value, reason, cannot``, with ``seconds``; None where these went beyond the limit.
 
     What is late is interrupted, so that the process stays warm; only what cannot be is killed with it.
@@ -92,9 +92,9 @@ def _warm_up(function: Any, asked: TrialQuestion) -> None:
     _timed(function, first)
 
 
-def ablated(quick: bool) -> Iterator[Json]:
+def ablation_rows(quick: bool) -> Iterator[Json]:
     """What each reduction of the model saves: all rows so far, each time there is one more."""
     rows: list[Json] = []
     for row in named("dofkit.benchmark.ablation:ablation")(quick):
-        rows.append(asdict(row))
+        rows.append(row.model_dump())
         yield rows

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cached_property, partial
 from typing import TypeVar
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.deadline import part, unless_late
-from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.study import Study
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon
-from dofkit.exact.points.field import NoPointError
 from dofkit.mobility.general_position import General, has_geometry, in_general_position
 from dofkit.mobility.kutzbach import mobility
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
 from dofkit.mobility.placement import Placement, drawn, measured
 from dofkit.mobility.special_position import special
-from dofkit.mobility.twists import KINDS
 from dofkit.relations.normal.normal_form import Finite
-from dofkit.relations.reduced import Reduced
-from dofkit.relations.setting import Setting
-from dofkit.report import Generic, Mobility, Report
-from dofkit.system import System
+from dofkit.report import Generic, Mobility
 
 #: Dependent sets of rows that are looked at, and sentences about them that are told.
 MOST_SETS, MOST_TOLD = 40, 6
@@ -34,14 +28,13 @@ T = TypeVar("T")
 _LATE = General(None, why="there was no time to count")
 
 
-class Beside:
+class CountsBeside:
     """The counts of one scene; the drawing is turned into numbers once, where it is asked for."""
 
-    def __init__(
-        self, system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report
-    ) -> None:
-        self.system, self.reduced, self.setting = system, reduced, setting
-        self.outcome, self.report = outcome, report
+    def __init__(self, study: Study, instantaneous: int | None) -> None:
+        self.study, self.instantaneous = study, instantaneous
+        self.system, self.reduced = study.system, study.reduced
+        self.setting, self.outcome = study.setting, study.outcome
 
     def generic(self) -> Generic | None:
         """The count in general position; None without a drawing."""
@@ -52,7 +45,7 @@ class Beside:
         if found.rank is None:
             return Generic(dof=None, redundant_equations=None, differs=found.why, verdict="undecided")
         dof = len(self.system.coordinates) - found.rank
-        equations = sum(r.equations for r in self.reduced)
+        equations = self.study.equations
         return Generic(
             dof=dof,
             redundant_equations=max(0, equations - found.rank),
@@ -61,8 +54,8 @@ class Beside:
         )
 
     def _differs(self, dof: int) -> str | None:
-        here = self.report.instantaneous_dof
-        here = self.report.velocity_dof if here is None else here
+        here = self.instantaneous
+        here = self.outcome.velocity_dof if here is None else here
         if here is None or here == dof:
             return None
         if here < dof:
@@ -95,11 +88,11 @@ class Beside:
 
     def nearly(self) -> str | None:
         """What to say of a near-dependence at an exact drawing."""
-        here, system = self.report.instantaneous_dof, self.system
+        here, system = self.instantaneous, self.system
         if here is None or system.tolerance is not None or not has_geometry(system):
             return None
         columns = len(system.coordinates)
-        small = columns <= MOST and all(c.type in KINDS for c in system.connections)
+        small = columns <= MOST and all(c.facts.velocities is not None for c in system.connections)
         placement = measured(system) if small else None
         return None if placement is None else nearly_dependent(placement, system.dimension, columns, columns - here)
 
@@ -110,28 +103,24 @@ class Beside:
         """Gruebler's and Kutzbach's count; None without bodies and joints."""
         equations = [r.equations for r in self.reduced]
         others = sum(
-            all(isinstance(p, Finite) for p in n.pieces) or self.reduced[i].constraint.type == "roll"
+            all(isinstance(p, Finite) for p in n.pieces) or self.reduced[i].constraint.facts.joint
             for i, r in enumerate(self.reduced)
             for n in r.normals
         )
-        return mobility(self.system, equations, others, self.report.velocity_dof, self._exact)
+        return mobility(self.system, equations, others, self.outcome.velocity_dof, self._exact)
 
 
 def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
     """What was found; None where there was no time, or the drawing has no value (a root of what is negative)."""
     try:
-        return unless_late(work, None)
-    except (ArithmeticError, ValueError, NoPointError, DomainError):
+        return unless_late(raising_no_value(work), None)
+    except (ArithmeticError, ValueError):
         return None
 
 
-def with_counts(
-    system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report
-) -> Report:
-    """The report with the counts beside its own."""
-    beside = Beside(system, reduced, setting, outcome, report)
+def counts_beside(study: Study, instantaneous: int | None) -> tuple[dict[str, Generic | Mobility | None], str | None]:
+    """``generic`` and ``mobility``, and what to say of a near-dependence; ``instantaneous``: at the drawing."""
+    beside = CountsBeside(study, instantaneous)
     with part(SHARE):
         generic = _if_it_has_a_value(beside.generic)
-    found = {"generic": generic, "mobility": _if_it_has_a_value(beside.mobility)}
-    near = _if_it_has_a_value(beside.nearly)
-    return report.model_copy(update=found if near is None else {**found, "warnings": [*report.warnings, near]})
+    return {"generic": generic, "mobility": _if_it_has_a_value(beside.mobility)}, _if_it_has_a_value(beside.nearly)

@@ -10,11 +10,12 @@ import numpy as np
 from dofkit.base.deadline import expired
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
 from dofkit.configuration.drawing.at_reference import ball_point
+from dofkit.configuration.generic_points import pose_point
 from dofkit.configuration.local.neighbourhood import damped
 from dofkit.configuration.rigid_motions import displacements_real
-from dofkit.configuration.variety import pose_point
 from dofkit.exact.engines import BOTH
-from dofkit.exact.points.balls import FloatPoint, RealSearch, jacobian
+from dofkit.exact.points.balls import FloatPoint, jacobian
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

@@ -8,53 +8,31 @@ from fractions import Fraction
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.report import FORMS, ConstraintEntry, Count, ForceEntry, Form, Report
-from dofkit.scene.elaboration import names_by_position
-from dofkit.scene.scene import Scene
-from dofkit.system import BODY_ROLES, Constraint, Relation, System
+from dofkit.system import Constraint, Relation, System
 
 
 def sketch(system: System, why: str) -> Report:
     """All that a system says without being computed with: names, texts, forms as written, the count of equations."""
-    entries = [_entry(c, why) for c in system.constraints]
+    entries = [open_entry(c, why) for c in system.constraints]
     written = sum(e.equations for e in entries if e.form == "finite")
     told = count(system, CountedFacts(written, None, None, 0, 0, entries))
     forces = [ForceEntry(name=f.name, reason=f.reason) for f in system.forces]
-    return _report(system.name, told, entries, forces, [*system.warnings, _sentence(why)])
-
-
-def blank(scene: Scene, why: str) -> Report:
-    """The same of a scene that could not even be read as mathematics in time: its equations are not counted."""
-    d, particles, bodies = scene.dimension, len(scene.particles), len(scene.bodies)
-    coordinates = d * particles + len(BODY_ROLES[d]) * bodies + len(scene.coordinates)
-    told = Count(
-        particles=particles,
-        bodies=bodies,
-        dimension=d,
-        coordinates=coordinates,
-        constraints=0,
-        independent=None,
-        naive_dof=coordinates,
-        formula=f"f = n - k = {coordinates} - k",
-        errs="the equations were not counted",
-    )
-    names = names_by_position("c", [c.name for c in scene.constraints])
-    given = [Constraint(name, c.kind(), c.shown, ()) for name, c in zip(names, scene.constraints, strict=True)]
-    named = zip(names_by_position("f", [f.name for f in scene.forces]), scene.forces, strict=True)
-    forces = [ForceEntry(name=name, reason=f.reason) for name, f in named]
-    return _report(scene.name, told, [_entry(c, why) for c in given], forces, [_sentence(why)])
+    return open_report(system.name, told, entries, forces, [*system.warnings, why_nothing(why)])
 
 
 def undecided(report: Report, why: str) -> Report:
     """A sketch with another reason."""
     entries = [e.model_copy(update={"reason": f"Not decided: {why}."}) for e in report.constraints]
-    return report.model_copy(update={"constraints": entries, "warnings": [*report.warnings[:-1], _sentence(why)]})
+    return report.model_copy(update={"constraints": entries, "warnings": [*report.warnings[:-1], why_nothing(why)]})
 
 
-def _sentence(why: str) -> str:
+def why_nothing(why: str) -> str:
+    """The warning that nothing was decided."""
     return f"Nothing was decided: {why}."
 
 
-def _entry(constraint: Constraint, why: str) -> ConstraintEntry:
+def open_entry(constraint: Constraint, why: str) -> ConstraintEntry:
+    """An entry of which nothing but its form as written is known."""
     form: Form = max((_form(r) for r in constraint.relations), key=FORMS.index, default="finite")
     return ConstraintEntry(
         name=constraint.name,
@@ -105,9 +83,10 @@ def _degree(e: Expr) -> Fraction:
     return Fraction(2)
 
 
-def _report(
+def open_report(
     name: str, told: Count, entries: Sequence[ConstraintEntry], forces: Sequence[ForceEntry], warnings: Sequence[str]
 ) -> Report:
+    """A report of which nothing but names and the count is known."""
     return Report(
         scene=name,
         consistent=None,

@@ -2,7 +2,7 @@
 
 A distance is at most the length of any way between its ends (the triangle inequality), and the Gram matrix of points
 all of whose distances are known, G_ij = (d_0i^2 + d_0j^2 - d_ij^2) / 2, is positive semidefinite and of rank at most d
-(Menger 1928, Schoenberg 1935; its determinants are those of Cayley and Menger). Floating point proposes, intervals
+[Schoenberg1935]; its determinants are those of Cayley and Menger [Menger1928]. Floating point proposes, intervals
 decide; where they do not tell two sides apart, as in a triangle drawn out to a line, nothing is contradicted.
 """
 
@@ -20,12 +20,12 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import interval
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.vectors import square_between
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.setting import Setting
 from dofkit.system import Distance, Place
 
@@ -91,7 +91,7 @@ class _Web:
             self._add(_node(first), _node(second), square_between(first.reference or (), second.reference or ()), None)
 
     def _add(self, a: Node, b: Node, squared: Expr, owner: int | None, at_most: bool = False) -> None:
-        about = interval(squared, self.values, BITS[0])
+        about = interval_of(squared, self.values, BITS[0])
         if about is None or not about >= 0:
             about = arb(0) if squared.is_zero else None
         if about is None or a == b:
@@ -116,7 +116,7 @@ class _Web:
         if gap.symbols:
             return never_holds(ex.mul(ex.MINUS_ONE, gap), False, self.positive)
         for bits in BITS:
-            found = interval(gap, None, bits)
+            found = interval_of(gap, None, bits)
             if found is not None and not found.contains(0):
                 return bool(found > 0)
         return False
@@ -165,7 +165,7 @@ class _Web:
     def _unembeddable(self, clique: Sequence[Node], dimension: int) -> bool:
         base, *rest = clique
         exact = {p: self.exact[frozenset(p)].squared for p in combinations(clique, 2)}
-        squares = {p: interval(squared, None, BITS[1]) for p, squared in exact.items()}
+        squares = {p: interval_of(squared, None, BITS[1]) for p, squared in exact.items()}
 
         def square(u: Node, v: Node) -> Any:
             return arb(0) if u == v else squares.get((u, v), squares.get((v, u)))

@@ -7,12 +7,14 @@ from math import isfinite
 
 from dofkit.configuration.drawing.at_reference import AtReference, at_reference
 from dofkit.configuration.drawing.measured import measure
-from dofkit.configuration.variety import Variety, field_jacobian, find
+from dofkit.configuration.generic_points import field_jacobian
+from dofkit.configuration.search import find
+from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse
-from dofkit.exact.points.balls import RealPoint
 from dofkit.exact.points.frames import sparse_frame
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.zero.independence import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -30,6 +32,7 @@ ONE_MOMENT = "at the reference configuration the relations hold at this moment o
 
 
 def finite_answer(block: Block, setting: Setting) -> Answer:
+    """The answer to a block of finite relations, at the reference where it satisfies them and else generically."""
     chart = make_chart(block, setting)
     result = _finite_answer(chart, setting)
     result.doubt = doubt(chart.ring)

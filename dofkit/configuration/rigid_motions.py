@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch
+from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
 from dofkit.relations.ambient import free_point
@@ -72,7 +74,7 @@ def _away(chart: Chart) -> FieldPoint | BallPoint | None:
         point = BallPoint(search.start(seed, {}), seed)
         try:
             values(chart.ring, point)
-        except (OutsideDomainError, ZeroDivisionError):
+        except NoValueError:
             continue
         return point
     return None

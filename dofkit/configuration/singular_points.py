@@ -12,9 +12,11 @@ from dofkit.base.deadline import check
 from dofkit.configuration.local.dimension import numeric_dimension
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.singular_values import independent_part
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint, jacobian
+from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.frames import Pivots
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
@@ -39,16 +41,14 @@ def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
     """The local dimension near a singular point that a real search ran into; None where it cannot be told."""
     if len(chart.nodes) > MAX_ROWS:
         return None
-    old = ctx.prec
-    ctx.prec = BITS
-    try:
-        return _look(chart, real)
-    except (ZeroDivisionError, OutsideDomainError):
-        return None
-    finally:
-        ctx.prec = old
+    with ctx.workprec(BITS):
+        try:
+            return _look(chart, real)
+        except NoValueError:
+            return None
 
 
+@raising_no_value
 def _look(chart: Chart, real: RealPoint) -> LocalDimension | None:
     point = _converge(chart, real)
     if point is None:
@@ -73,8 +73,8 @@ def _look(chart: Chart, real: RealPoint) -> LocalDimension | None:
 def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
     """A point with f = 0, J^T l = 0 for as many independent l as rows are dependent, in high precision.
 
-    These equations are regular where the dependent relations are Morse-Bott (deflation, Leykin, Verschelde and Zhao
-    2006). None where they are not, and where the point is a regular one, on something very small.
+    These equations are regular where the dependent relations are Morse-Bott (deflation [LeykinVerscheldeZhao2006]).
+    None where they are not, and where the point is a regular one, on something very small.
     """
     symbols: dict[Any, arb] = {s: arb(v.mid()) if isinstance(v, arb) else arb(v) for s, v in real.point.symbols.items()}
     moved = [s for s in chart.unknowns if chart.ring.var_index(s) is not None]

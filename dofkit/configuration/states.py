@@ -12,13 +12,17 @@ from typing import Any
 
 from flint import arb
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint, RealSearch, jacobian
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.points.balls import BallPoint, jacobian
+from dofkit.exact.points.field import FieldPoint, field_point
+from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.ring.instructions import Scalar
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import Ring, Scalar
-from dofkit.exact.solving.triangular import TriangularSolver, Unit, unit_of
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.solving.unknowns import Unit, unit_of
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -135,7 +139,7 @@ class States:
             return self._standing.draw(seed)
         try:
             return field_point([self.ring], seed)
-        except NoPointError:
+        except NoValueError:
             return None
 
     def _solver(self, nodes: Sequence[int], fixed: frozenset[Unit] = frozenset()) -> TriangularSolver:
@@ -157,7 +161,7 @@ class States:
     def _holds(self, point: FieldPoint) -> bool:
         try:
             at = values(self.ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             return False
         return all(at[n] == 0 for n in self.relations)
 
@@ -237,5 +241,5 @@ def value_at(ring: Ring, point: FieldPoint | BallPoint, node: int) -> Scalar | N
     """The value of a node; None where it has none there."""
     try:
         return values(ring, point, node + 1)[node]
-    except (ZeroDivisionError, NoPointError, OutsideDomainError):
+    except NoValueError:
         return None

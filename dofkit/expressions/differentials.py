@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dofkit.base.errors import TextError
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 
 
@@ -43,7 +44,7 @@ def in_velocities(e: Expr) -> tuple[Expr, bool]:
         return e, False
     mapping = {s: ex.velocity(s.args[1]) for s in e.symbols if s.args[0] == "differential"}
     mapping |= {s: ex.ONE for s in e.symbols if s.args[0] == "dt"}
-    return ex.substitute(e, mapping), bool(degree)
+    return substitute(e, mapping), bool(degree)
 
 
 NOT_LINEAR = "a second derivative does not stand linearly"
@@ -65,5 +66,5 @@ def linear_in_accelerations(e: Expr, sense: str) -> None:
             "an inequality in second derivatives limits no position and no velocity",
             hint="leave it out, or put it into the equations of motion",
         )
-    if any(accelerations_of(ex.diff(e, s)) for s in moving):
+    if any(accelerations_of(diff(e, s)) for s in moving):
         raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)

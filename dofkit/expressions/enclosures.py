@@ -31,7 +31,7 @@ def has_call(e: Expr) -> bool:
     return any(has_call(child) for child in (e.args[1:] if e.op == "fn" else e.args))
 
 
-def interval(e: Expr, values: Mapping[Expr, Fraction] | None = None, bits: int = BITS) -> arb | None:
+def interval_of(e: Expr, values: Mapping[Expr, Fraction] | None = None, bits: int = BITS) -> arb | None:
     """A ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
     from flint import arb, ctx, fmpq
 
@@ -56,14 +56,11 @@ def interval(e: Expr, values: Mapping[Expr, Fraction] | None = None, bits: int =
             return _function(node.args[0])(*(go(part) for part in node.args[1:]))
         raise KeyError(node)
 
-    before = ctx.prec
-    ctx.prec = bits
-    try:
-        found = go(e)
-    except (KeyError, ZeroDivisionError, RecursionError, OverflowError):
-        return None
-    finally:
-        ctx.prec = before
+    with ctx.workprec(bits):
+        try:
+            found = go(e)
+        except (KeyError, ZeroDivisionError, RecursionError, OverflowError):
+            return None
     return found if found.is_finite() else None
 
 
@@ -83,7 +80,7 @@ def differs_from_zero(e: Expr) -> bool:
         return False
     draw = random.Random(20)
     values = {symbol: Fraction(draw.randrange(10**6, 10**7), 10**6) for symbol in sorted(e.symbols, key=repr)}
-    found = interval(e, values)
+    found = interval_of(e, values)
     return found is not None and not found.contains(0)
 
 
@@ -96,5 +93,5 @@ def approximate(e: Expr) -> float | None:
             return None
     if not is_constant(e):
         return None
-    found = interval(e)
+    found = interval_of(e)
     return None if found is None else float(found.mid())

@@ -53,10 +53,10 @@ class Bridge:
         """``e`` in SymPy. Raises KeyError for coordinates that were not given."""
         for node in ex.nodes(e):
             if node not in self._memo:
-                self._memo[node] = self._made(node)
+                self._memo[node] = self._to_sympy(node)
         return self._memo[e]
 
-    def _made(self, e: Expr) -> Any:
+    def _to_sympy(self, e: Expr) -> Any:
         sp = self._sympy
         if e.op == "num":
             return sp.Rational(e.args[0].numerator, e.args[0].denominator)
@@ -103,10 +103,10 @@ class Bridge:
         """A SymPy expression as one of ours. Raises UntranslatableError where that is not possible."""
         found = self._back.get(e)
         if found is None:
-            found = self._back[e] = self._read(e)
+            found = self._back[e] = self._from_sympy(e)
         return found
 
-    def _read(self, e: Any) -> Expr:
+    def _from_sympy(self, e: Any) -> Expr:
         sp = self._sympy
         if e.is_Rational:
             return ex.num(Fraction(int(e.p), int(e.q)))

@@ -44,6 +44,7 @@ def linear_terms(e: Expr) -> dict[Expr, Fraction]:
 
 
 def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
+    """A term as a number times the rest."""
     if term.op == "mul" and term.args[0].op == "num":
         rest = term.args[1:]
         return term.args[0].args[0], rest[0] if len(rest) == 1 else Expr("mul", rest)
@@ -51,6 +52,7 @@ def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
 
 
 def sorted_product(e: Expr) -> Expr:
+    """The same product, its factors in an order of their own."""
     return Expr("mul", tuple(sorted(e.args, key=repr))) if e.op == "mul" else e
 
 

@@ -23,9 +23,12 @@ equal terms and nothing else. Nodes compare by structure.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any, Literal, get_args
+
+from dofkit.base.errors import PoleError
+from dofkit.expressions.roots import exact_root
 
 Kind = Literal["coordinate", "velocity", "acceleration", "differential", "parameter", "time", "dt"]
 KINDS: tuple[str, ...] = get_args(Kind)
@@ -228,7 +231,7 @@ def mul(*factors: Expr) -> Expr:
 
 
 def power(base: Expr, exponent: Expr) -> Expr:
-    """``base^exponent``; ``E^u`` is ``exp(u)``, ``0^-n`` raises ZeroDivisionError."""
+    """``base^exponent``; ``E^u`` is ``exp(u)``, ``0^-n`` raises PoleError."""
     if exponent.op == "num":
         value: Fraction = exponent.args[0]
         if value == 1:
@@ -253,7 +256,7 @@ def _number_power(base: Fraction, value: Fraction) -> Expr | None:
     """An exact number to an exact power, where that is a number of bounded size."""
     if base == 0:
         if value < 0:
-            raise ZeroDivisionError("division by zero")
+            raise PoleError
         return ONE if value == 0 else ZERO
     if base == 1:
         return ONE
@@ -261,24 +264,9 @@ def _number_power(base: Fraction, value: Fraction) -> Expr | None:
         bits = max(base.numerator.bit_length(), base.denominator.bit_length())
         return num(base ** int(value)) if bits * abs(value) <= FOLD_BITS else None
     if base > 0 and abs(value.numerator) <= 64:
-        root = _exact_root(base, value.denominator)
+        root = exact_root(base, value.denominator)
         return None if root is None else _number_power(root, Fraction(value.numerator))
     return None
-
-
-def _exact_root(value: Fraction, degree: int) -> Fraction | None:
-    if degree > 64:
-        return None
-    top, bottom = _integer_root(value.numerator, degree), _integer_root(value.denominator, degree)
-    return None if top is None or bottom is None else Fraction(top, bottom)
-
-
-def _integer_root(value: int, degree: int) -> int | None:
-    low, high = 0, 1 << (value.bit_length() // degree + 1)
-    while low < high:
-        middle = (low + high + 1) // 2
-        low, high = (middle, high) if middle**degree <= value else (low, middle - 1)
-    return low if low**degree == value else None
 
 
 def sqrt(value: Expr) -> Expr:
@@ -337,24 +325,6 @@ def rebuild(e: Expr, parts: tuple[Expr, ...]) -> Expr:
     return e
 
 
-def substitute(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
-    """``e`` with symbols replaced by expressions, all at once."""
-    keys = frozenset(mapping)
-    memo: dict[Expr, Expr] = {}
-
-    def go(node: Expr) -> Expr:
-        if keys.isdisjoint(node.symbols):
-            return node
-        if node.op == "sym":
-            return mapping[node]
-        found = memo.get(node)
-        if found is None:
-            found = memo[node] = rebuild(node, tuple(go(child) for child in children(node)))
-        return found
-
-    return go(e)
-
-
 def nodes(e: Expr) -> Iterator[Expr]:
     """Every different node of ``e``, children first."""
     seen: set[Expr] = set()
@@ -367,63 +337,3 @@ def nodes(e: Expr) -> Iterator[Expr]:
             seen.add(node)
             stack.append((node, True))
             stack.extend((child, False) for child in reversed(children(node)))
-
-
-_DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
-    "sin": lambda u: fn("cos", u),
-    "cos": lambda u: -fn("sin", u),
-    "tan": lambda u: power(fn("cos", u), num(-2)),
-    "cot": lambda u: -power(fn("sin", u), num(-2)),
-    "sec": lambda u: fn("sin", u) * power(fn("cos", u), num(-2)),
-    "csc": lambda u: -fn("cos", u) * power(fn("sin", u), num(-2)),
-    "asin": lambda u: power(ONE - u * u, num(Fraction(-1, 2))),
-    "acos": lambda u: -power(ONE - u * u, num(Fraction(-1, 2))),
-    "atan": lambda u: power(ONE + u * u, MINUS_ONE),
-    "sinh": lambda u: fn("cosh", u),
-    "cosh": lambda u: fn("sinh", u),
-    "tanh": lambda u: power(fn("cosh", u), num(-2)),
-    "exp": lambda u: fn("exp", u),
-    "log": lambda u: power(u, MINUS_ONE),
-    "abs": lambda u: u / fn("abs", u),
-}
-
-
-def diff(e: Expr, symbol: Expr) -> Expr:
-    """The partial derivative by one symbol, all other symbols held."""
-    memo: dict[Expr, Expr] = {}
-
-    def go(node: Expr) -> Expr:
-        if node is symbol or node == symbol:
-            return ONE
-        if symbol not in node.symbols:
-            return ZERO
-        found = memo.get(node)
-        if found is None:
-            found = memo[node] = _diff_node(node, go)
-        return found
-
-    return go(e)
-
-
-def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:
-    if node.op == "add":
-        return add(*(go(term) for term in node.args))
-    if node.op == "mul":
-        parts = node.args
-        return add(*(mul(go(part), *parts[:i], *parts[i + 1 :]) for i, part in enumerate(parts)))
-    if node.op == "pow":
-        base, exponent = node.args
-        if exponent.op == "num":
-            return mul(exponent, power(base, exponent - 1), go(base))
-        return mul(node, go(exponent) * fn("log", base) + exponent * go(base) / base)
-    if node.op == "call":
-        name, orders, arguments = node.args
-        raised = (tuple(o + (i == j) for j, o in enumerate(orders)) for i in range(len(orders)))
-        return add(*(mul(call(name, arguments, up), go(a)) for up, a in zip(raised, arguments, strict=True)))
-    if node.args[0] == "atan2":
-        y: Expr
-        x: Expr
-        y, x = node.args[1:]
-        return (x * go(y) - y * go(x)) / (x * x + y * y)
-    argument: Expr = node.args[1]
-    return mul(_DERIVATIVES[node.args[0]](argument), go(argument))

@@ -8,17 +8,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError, ValidatorFunctionWrapHandler, WrapValidator
+from pydantic import Field, ValidationError, WrapValidator
 
 from dofkit.base.arguments import described
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
-from dofkit.scene.fields import WrittenModel, fault_at, fault_error, faults_of, retold, suggestion
+from dofkit.scene.fields import WrittenModel, faults_of
 from dofkit.scene.hints import with_hint, without_echoes
 from dofkit.scene.reading import find, load
 from dofkit.scene.scene import Scene
+from dofkit.scene.tagged_union import TaggedUnion
 
 FeedbackLevel = Literal["hint", "full"]
 
@@ -35,20 +36,16 @@ class AssignmentError(DofkitError):
         return (AssignmentError, (self.faults, self.source))
 
 
-def _question(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
-    """A question, its faults at paths free of the tag."""
-    if isinstance(value, Mapping):
-        asked = value.get("ask")
-        if asked is None:
-            raise fault_error("a question needs its `ask`", "what can be asked: " + ", ".join(KINDS))
-        if not isinstance(asked, str) or asked not in KINDS:
-            raise fault_at(("ask",), f"'{asked}' cannot be asked", suggestion(asked, list(KINDS), "questions"))
-    elif not isinstance(value, QuestionBase):
-        raise fault_error("a question is a mapping with `id` and `ask`", "write {id: f, ask: dof} or the like")
-    try:
-        return handler(value)
-    except ValidationError as error:
-        raise retold(error, "a question", (), lambda loc: loc[1:]) from None
+_QUESTION = TaggedUnion(
+    base=QuestionBase,
+    called="a question",
+    key="ask",
+    known=KINDS,
+    names="questions",
+    listing="what can be asked: ",
+    unknown="'{}' cannot be asked",
+    otherwise=("a question is a mapping with `id` and `ask`", "write {id: f, ask: dof} or the like"),
+)
 
 
 class Problem(WrittenModel):
@@ -57,9 +54,9 @@ class Problem(WrittenModel):
     id: Identifier = Field(description="its name, unique within the assignment")
     title: str | None = Field(None, description="one line about it")
     scene: str | dict[str, Any] = Field(description="a catalog name, a path beside the assignment, or a scene in place")
-    questions: Annotated[tuple[Annotated[AnyQuestion, WrapValidator(_question)], ...], Field(min_length=1)] = Field(
-        description="what is asked"
-    )
+    questions: Annotated[
+        tuple[Annotated[AnyQuestion, WrapValidator(_QUESTION.validated)], ...], Field(min_length=1)
+    ] = Field(description="what is asked")
 
 
 class Assignment(WrittenModel):

@@ -18,7 +18,7 @@ from typing import Any
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.workers.crews import StoppedError
-from dofkit.homework.answers.sources import DOCUMENTS, LINES, TABLES, Handed, handed
+from dofkit.homework.answers.sources import DOCUMENTS, LINES, TABLES, Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, clean
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import coursera, gradescope, prairielearn
@@ -110,8 +110,8 @@ def grade_at(site: Site, assignment: Path, memory: int) -> Result:
     student = clean(site.student(site.root)) or "student"
     prepared = _prepared(site, assignment, student)
     _write(site, undecided(prepared, student, "grading was cut short."))
-    one = _handed(site, prepared)
-    result = one if isinstance(one, Result) else _graded(one, prepared, site.seconds, memory, student)
+    one = _only_hand_in(site, prepared)
+    result = one if isinstance(one, Result) else _result(one, prepared, site.seconds, memory, student)
     result = result.model_copy(update={"student": student})
     _write(site, result)
     return result
@@ -126,7 +126,7 @@ def _prepared(site: Site, assignment: Path, student: str) -> Prepared:
         raise
 
 
-def _handed(site: Site, prepared: Prepared) -> Handed | Result:
+def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
     """The one thing that was handed in, or the result that says why there is none."""
     folder = site.root / site.folder
     most = sum(float(question.points) for _, question in prepared.questions())
@@ -138,7 +138,9 @@ def _handed(site: Site, prepared: Prepared) -> Handed | Result:
         return typed
     if len(chosen) == 1:
         known = prepared.columns()
-        found = [replace(one, place=replace(one.place, file=chosen[0].name)) for one in handed([str(chosen[0])], known)]
+        found = [
+            replace(one, place=replace(one.place, file=chosen[0].name)) for one in hand_ins([str(chosen[0])], known)
+        ]
         if len(found) == 1:
             return found[0]
         why = f"{chosen[0].name} holds {len(found)} submissions, not one"
@@ -149,7 +151,7 @@ def _handed(site: Site, prepared: Prepared) -> Handed | Result:
     return Result(student="", score=None, max_score=most, items=[], error=clean(why))
 
 
-def _graded(one: Handed, prepared: Prepared, seconds: float, memory: int, student: str) -> Result:
+def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, student: str) -> Result:
     """The result of what was handed in; each answer has its share of the time."""
     count = sum(1 for _ in prepared.questions())
     orders = Orders.of(prepared)
@@ -160,7 +162,7 @@ def _graded(one: Handed, prepared: Prepared, seconds: float, memory: int, studen
         watch = threading.Timer(seconds, keeper.close)
         watch.start()
         try:
-            lines = keeper.graded([one]).lines[0]
+            lines = keeper.grade([one]).lines[0]
         except StoppedError:
             return undecided(prepared, student, TOO_LONG)
         finally:

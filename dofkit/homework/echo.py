@@ -39,7 +39,9 @@ def echo(prepared: Prepared, submission: Submission) -> Echo:
     if submission.error is not None:
         return Echo(student=submission.student, items=[], error=submission.error)
     items = [
-        _read(problem.id, question, prepared.keys[problem.id], submission.answers.get(problem.id, {}).get(question.id))
+        _reading(
+            problem.id, question, prepared.keys[problem.id], submission.answers.get(problem.id, {}).get(question.id)
+        )
         for problem, question in prepared.questions()
     ]
     for item in unasked(prepared, submission):
@@ -48,7 +50,7 @@ def echo(prepared: Prepared, submission: Submission) -> Echo:
     return Echo(student=submission.student, items=items)
 
 
-def _read(problem: str, question: QuestionBase, key: Key, answer: Given | None) -> Reading:
+def _reading(problem: str, question: QuestionBase, key: Key, answer: Given | None) -> Reading:
     if answer is None or (isinstance(answer, str) and not answer.strip()):
         return Reading(problem=problem, question=question.id, status="missing", read_as="")
     try:

@@ -101,12 +101,12 @@ class Grader:
             return needs_review("", self.condemned[spot]), None
         found = self._known.get(spot)
         if found is None:
-            found = self._judged(problem, question, answer, earlier), _number(question, answer)
+            found = self._judgement(problem, question, answer, earlier), _number(question, answer)
             if len(self._known) < MOST_REMEMBERED and len(spot) < LONGEST_REMEMBERED:
                 self._known[spot] = found
         return found
 
-    def _judged(
+    def _judgement(
         self, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
     ) -> Judgement:
         key = self.prepared.keys[problem.id]

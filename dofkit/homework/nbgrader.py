@@ -20,9 +20,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from dofkit.homework.formats.wording import OPEN_SHARE, title, told
+from dofkit.homework.formats.wording import OPEN_SHARE, remark, title
 from dofkit.homework.formats.wording import points as told_points
-from dofkit.homework.notebooks import Source, judged
+from dofkit.homework.notebooks import Source, item_of
 
 
 def points(
@@ -35,8 +35,8 @@ def points(
     person has to look, who then sets the points in the formgrader. Raises AssignmentError, and QuestionError for a
     question that is not asked.
     """
-    item = judged(assignment, problem, question, answer, others or {})
-    print(f"{title(item)}: {told_points(item)}. {told(item)}")
+    item = item_of(assignment, problem, question, answer, others or {})
+    print(f"{title(item)}: {told_points(item)}. {remark(item)}")
     score = OPEN_SHARE * item.max_score if item.score is None else item.score
     if item.score is None:
         print("Half of the points stand in until a person has looked.")

@@ -25,7 +25,7 @@ class QuestionError(DofkitError):
     """A question that the assignment does not ask."""
 
 
-def judged(assignment: Source, problem: str, question: str, answer: object, others: Mapping[str, object]) -> Item:
+def item_of(assignment: Source, problem: str, question: str, answer: object, others: Mapping[str, object]) -> Item:
     """What is found of one answer; ``others``: the student's answers to other questions of the problem.
 
     Nothing is written to standard error meanwhile. Raises AssignmentError, and QuestionError for what is not asked.

@@ -15,8 +15,8 @@ from pathlib import Path
 from dofkit.base.errors import DofkitError
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.export.inline import exact_json, inlined
-from dofkit.homework.formats.wording import OPEN_SHARE, told
-from dofkit.homework.notebooks import Source, judged
+from dofkit.homework.formats.wording import OPEN_SHARE, remark
+from dofkit.homework.notebooks import Source, item_of
 from dofkit.homework.questions import QuestionBase
 
 _FILE = '''"""Made by dofkit from an assignment; ``answers`` comes from the notebook."""
@@ -51,10 +51,10 @@ def check(assignment: Source, answers: object, problem: str, question: str, numb
     given = answers.get(problem) if isinstance(answers, Mapping) else None
     found = dict(given) if isinstance(given, Mapping) else {}
     answer = found.pop(question, None)
-    item = judged(assignment, problem, question, answer, found)
+    item = item_of(assignment, problem, question, answer, found)
     share = OPEN_SHARE if item.score is None else item.score / item.max_score if item.max_score else 1.0
     if share * parts < number - 1e-9:
-        raise AssertionError(told(item))
+        raise AssertionError(remark(item))
 
 
 def write_tests(assignment: str | os.PathLike[str], folder: Path) -> list[Path]:

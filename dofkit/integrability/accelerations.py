@@ -12,12 +12,11 @@ from dataclasses import dataclass
 from itertools import chain
 from itertools import product as cartesian
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.errors import TextError
-from dofkit.exact.ring.canonical import TooLargeError
-from dofkit.exact.zero.identity import certainly_nonzero, told_zero
+from dofkit.exact.errors import raising_no_value
+from dofkit.exact.zero.identity import certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import NOT_LINEAR, SOLVE_FOR_IT, accelerations_of, in_velocities
 from dofkit.expressions.text import to_text
 from dofkit.expressions.text.derivatives import by_time
@@ -76,17 +75,17 @@ def _told(once: Once, constant: str) -> str:
 
 def integrated_once(e: Expr, positive: frozenset[Expr]) -> Once:
     """F and mu with dF/dt = mu E, proved. Raises TextError where none was found, with what stands in the way."""
-    slopes = {ex.velocity(str(s.args[1])): ex.diff(e, s) for s in accelerations_of(e)}
+    slopes = {ex.velocity(str(s.args[1])): diff(e, s) for s in accelerations_of(e)}
     if any(accelerations_of(slope) for slope in slopes.values()):
         raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)
-    rest = ex.substitute(e, dict.fromkeys(accelerations_of(e), ex.ZERO))
+    rest = substitute(e, dict.fromkeys(accelerations_of(e), ex.ZERO))
     work = Algebra(positive)
     try:
         for factor in _factors(slopes):
             found = _with_factor(work, factor, slopes, rest)
             if found is not None and _sound(found, factor) and _proved(e, Once(found, factor), positive):
                 return Once(found, factor)
-    except (GivenUpError, TooLargeError, DomainError, RecursionError, ArithmeticError):
+    except (GivenUpError, RecursionError, ArithmeticError):
         pass
     raise TextError(NOT_INTEGRABLE, hint=WHAT_TO_DO)
 
@@ -100,6 +99,7 @@ def _factors(slopes: Mapping[Expr, Expr]) -> Iterator[Expr]:
     yield from dict.fromkeys(proposed[:MAX_FACTORS])
 
 
+@raising_no_value
 def _with_factor(work: Algebra, factor: Expr, slopes: Mapping[Expr, Expr], rest: Expr) -> Expr | None:
     """F, by the velocities first, then by coordinates and time; None where mu E is seen to be no rate."""
     form = {v: work.tidy(factor * a) for v, a in slopes.items()}
@@ -111,7 +111,7 @@ def _with_factor(work: Algebra, factor: Expr, slopes: Mapping[Expr, Expr], rest:
     rate = None if kinetic is None else by_time(kinetic)
     if kinetic is None or rate is None:
         return None
-    carried = ex.substitute(rate, dict.fromkeys(accelerations_of(rate), ex.ZERO))
+    carried = substitute(rate, dict.fromkeys(accelerations_of(rate), ex.ZERO))
     left = work.tidy(factor * rest - carried)
     if left.is_zero:
         return kinetic
@@ -139,6 +139,6 @@ def _whole(exponent: Expr) -> bool:
 def _proved(e: Expr, once: Once, positive: frozenset[Expr]) -> bool:
     """dF/dt = mu E identically, and mu is not 0."""
     rate = by_time(once.integral)
-    if rate is None or told_zero(rate - once.factor * e, positive) != (True, "proved"):
+    if rate is None or zero_and_verdict(rate - once.factor * e, positive) != (True, "proved"):
         return False
     return once.factor.op == "num" or certainly_nonzero(once.factor, positive)

@@ -17,19 +17,20 @@ from math import isqrt
 from typing import Any
 
 from flint import nmod_mat
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, kernel
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.canonical import Canon, remainder
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.differential_blocks import Codistribution
+from dofkit.integrability.codistribution import Codistribution
 from dofkit.integrability.integrals.normal_shape import arranged, upright
 from dofkit.relations.ambient import free_point
 
@@ -113,6 +114,11 @@ def shown(f: Expr) -> Expr:
 
 
 class IntegralSearch:
+    """The functions of some forms that are constant along D = ker I, looked for among products of what occurs in them.
+
+    At points over GF(p) on the finite relations the differentials of the products are held against D.
+    """
+
     def __init__(self, forms: Codistribution, seed: int) -> None:
         forms = self.forms = _with_all_symbols(forms)
         self.seed, chart = seed, forms.chart
@@ -290,7 +296,7 @@ def _sample_at(forms: Codistribution, point: FieldPoint | None) -> _Sample | Non
             g = gradient(ring, at, point, [(ring.var_node[v.index], one)])
             gradients[v.index] = [g.get(c, one * 0) if c >= 0 else one * 0 for c in columns]
         at_vars = [at[ring.var_node[v.index]] for v in ring.vars]
-    except (ZeroDivisionError, NoPointError):
+    except NoValueError:
         return None
     return _Sample(point, point.p, one, at_vars, gradients, basis, matrix)
 
@@ -309,7 +315,7 @@ def _simplest_first(null: nmod_mat, nullity: int, columns: int, p: int) -> Itera
 
 
 def _rational(value: int, p: int) -> Fraction | None:
-    """The fraction with small terms that is ``value`` modulo p (Wang 1981); None where there is none."""
+    """The fraction with small terms that is ``value`` modulo p [Wang1981]; None where there is none."""
     bound = isqrt(p // 2)
     r0, r1, t0, t1 = p, value % p, 0, 1
     while r1 > bound:
@@ -325,7 +331,7 @@ def _identically(forms: Codistribution, f: Expr, sample: _Sample) -> bool | None
     chart = forms.chart
     if len(chart.nodes) > 1 or len(forms.rows.entries) > MAX_ROWS:
         return None
-    slopes = {i: chart.ring.node(ex.diff(f, s)) for i, s in enumerate(chart.symbols) if s in f.symbols}
+    slopes = {i: chart.ring.node(diff(f, s)) for i, s in enumerate(chart.symbols) if s in f.symbols}
     try:
         canon = Canon(chart.ring)
         relation = canon.quotient(chart.nodes[0])[0] if chart.nodes else None
@@ -336,9 +342,9 @@ def _identically(forms: Codistribution, f: Expr, sample: _Sample) -> bool | None
         for j in frame.free:
             minor = determinant(canon, [[table[r][c] for c in (*frame.dependent, j)] for r in rows])
             if relation is not None and minor != 0:
-                minor = divmod(minor, relation)[1]
+                minor = remainder(minor, relation)
             if minor != 0:
                 return False if relation is None else None
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return None
     return True

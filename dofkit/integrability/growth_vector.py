@@ -15,8 +15,8 @@ from typing import Any
 
 from dofkit.exact.points.frames import FormRows, Pivots, rank_over
 from dofkit.exact.points.series import Series, SeriesPoint
+from dofkit.exact.ring.instructions import Scalar, Var
 from dofkit.exact.ring.program import gradient, partials, values
-from dofkit.exact.ring.ring import Scalar, Var
 from dofkit.integrability.lie_algebra import (
     AdmissibleCurve,
     Matrix,

@@ -3,7 +3,7 @@
 Beside the others such a relation f(q, qdot, t) = 0 reads as a linear form, and may be integrable then; but it follows
 from finite relations only where it holds for all velocities that those leave. With I^(inf) the largest integrable part,
 f is holonomic in the system iff it vanishes on every velocity (dt = 1) in the kernel of I^(inf) at a generic
-configuration, which is the Lie algebra of the admissible velocities (Frobenius, Hermann-Nagano); for a linear f that
+configuration, which is the Lie algebra of the admissible velocities [HermannNagano]; for a linear f that
 says that its form lies in I^(inf).
 """
 
@@ -16,18 +16,22 @@ from flint import arb
 
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import weakest
+from dofkit.configuration.search import find
 from dofkit.configuration.states import States, moves, value_at, vanishes
-from dofkit.configuration.variety import Variety, find
+from dofkit.configuration.variety import Variety
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.ring.instructions import VAR, Scalar, reachable
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import VAR, Ring, Scalar, reachable
+from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.differential_blocks import Codistribution, ball_span, codistribution, span_at
+from dofkit.integrability.codistribution import Codistribution, codistribution
 from dofkit.integrability.lie_algebra import Span
+from dofkit.integrability.lie_algebra_at_points import ball_span, span_at
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.beside_others import RewrittenRow
 from dofkit.relations.blocks import Block, coordinates_of
@@ -85,7 +89,7 @@ def _holds(
         seen = [value_at(states.ring, p, node) for k in range(CHECKED) if (p := states.draw(k + 1)) is not None]
         if not seen or not all(v is not None and vanishes(v) for v in seen):
             seen = [value_at(states.ring, p, node) for p in states.certain(CHECKED)]
-    except (OutOfTimeError, ArithmeticError, NoPointError):
+    except (OutOfTimeError, ArithmeticError):
         return False
     return bool(seen) and all(v is not None and vanishes(v) for v in seen)
 
@@ -104,7 +108,7 @@ def label(
         return HolonomyLabel(None, "undecided"), together
     try:
         told = _on_the_kernel(f.expr, _joined(slot, blocks, numbers), together.hidden, setting)
-    except (OutOfTimeError, ArithmeticError, NoPointError):
+    except (OutOfTimeError, ArithmeticError):
         return HolonomyLabel(None, "undecided"), together
     labels = [x for a in own for x in a.labels.values()]
     if told.holonomic and all(x.holonomic for x in labels):
@@ -178,7 +182,7 @@ def _along(forms: Codistribution, span: Span, point: FieldPoint | BallPoint, nod
         moved = {ex.velocity(str(s.args[1])): v for s, v in zip(symbols, vector, strict=False)}
         try:
             yield values(forms.chart.ring, _moving(forms.chart.ring, point, moved), node + 1)[node]
-        except (ZeroDivisionError, NoPointError, OutsideDomainError):
+        except NoValueError:
             continue
 
 

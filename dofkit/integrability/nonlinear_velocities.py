@@ -12,10 +12,12 @@ from flint import arb
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.states import States
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealPoint
+from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, certified_rank, kernel
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.setting import Setting
@@ -125,10 +127,11 @@ def _bends(states: States, point: BallPoint) -> bool:
         rows = states.by_velocity(point, states.moving)
         wanted = len(states.velocities) - certified_rank(rows[: len(states.linear)])
         return certified_rank(_derivatives(states, rows, point, wanted)) == wanted
-    except (OutsideDomainError, ZeroDivisionError):
+    except NoValueError:
         return False
 
 
+@raising_no_value
 def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted: int) -> list[list[arb]]:
     """Tangents, and higher derivatives of curves in random directions, at the allowed velocity of a state."""
     part = ball_part(rows)

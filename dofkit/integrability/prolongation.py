@@ -10,21 +10,72 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations, islice
+from itertools import product as cartesian
 from typing import Any
 
 from flint import arb
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
+from dofkit.configuration.variety import Variety
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points.frames import FormRows
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.ring.canonical import Canon, divided
+from dofkit.exact.ring.instructions import Point, Scalar
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import Point, Scalar
+from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
+from dofkit.integrability.codistribution import Codistribution
+from dofkit.relations.normal.zero_set import never_vanishes, zero_set
+from dofkit.relations.setting import Setting
 
 #: Choices of columns that are looked at, and minors that are divided out of each other.
 MAX_CHOICES, MAX_MINORS, MAX_SIZE = 400, 12, 8
+#: Ways in which several hidden relations hold together that are looked at.
+MAX_TOGETHER = 12
+
+
+def confined(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], ...] | None:
+    """Ways in which motion is confined where dt lies in the span of the rows; None where it does not."""
+    if len(forms.chart.symbols) == forms.n:
+        return None
+    n = forms.n
+    if found.samples:
+        point = found.samples[0]
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
+        free = rank_of([row[:n] for row in matrix], point.p) == rank_of(matrix, point.p)
+        return None if free else hidden_relation(forms.rows, n, point)
+    if found.real is None:
+        return None
+    try:
+        balls = forms.rows.matrix(values(forms.chart.ring, found.real.point), arb(0))
+    except NoValueError:
+        return None
+    free = ball_part([row[:n] for row in balls]).rank == ball_part(balls).rank
+    return None if free else hidden_relation(forms.rows, n, found.real.point)
+
+
+def prolong(ways: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...]:
+    """The branches of hidden relations; none where they cannot hold."""
+    if not ways:
+        return ((),)
+    return tuple(dict.fromkeys(branch for way in ways for branch in _together(way, setting)))
+
+
+def _together(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, ...]]:
+    """The branches on which all of some relations hold."""
+    options = []
+    for relation in relations:
+        if never_vanishes(relation, setting.positive):
+            return []
+        if not any(s.args[0] == "coordinate" for s in relation.symbols):
+            return []
+        variables = frozenset(s for s in relation.symbols if s.args[0] in ("coordinate", "time"))
+        options.append(zero_set(relation, setting.positive, variables)[0])
+    together = islice(cartesian(*options), MAX_TOGETHER)
+    return [tuple(dict.fromkeys(g for branch in choice for g in branch)) for choice in together]
 
 
 def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, ...], ...]:
@@ -59,9 +110,9 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
                 break
         if common is None:
             return ()
-        left = tuple(dict.fromkeys(canon.to_expr(m / common) for m in minors))
+        left = tuple(dict.fromkeys(canon.to_expr(divided(m, common)) for m in minors))
         return ((canon.to_expr(common),), left)
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return ()
 
 
@@ -74,13 +125,13 @@ def _independent(matrix: Sequence[Sequence[Scalar]], columns: Sequence[int] | ra
         for pivot_row, pivot in kept:
             factor = rest[pivot] / pivot_row[pivot]
             rest = [a - factor * b for a, b in zip(rest, pivot_row, strict=True)]
-        place = next((c for c, v in enumerate(rest) if _nonzero(v)), None)
+        place = next((c for c, v in enumerate(rest) if is_nonzero(v)), None)
         if place is not None:
             kept.append((rest, place))
             found.append(r)
     return found
 
 
-def _nonzero(value: Scalar) -> bool:
+def is_nonzero(value: Scalar) -> bool:
     """Not 0 in GF(p); or a ball that excludes 0."""
     return not value.contains(0) if isinstance(value, arb) else bool(value != 0)

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import told_zero
+from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.exact.zero.independence import odd_constants
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.search import integrate
 from dofkit.integrability.traits import exact
@@ -46,11 +47,11 @@ def _ring(form: Pfaffian, positive: frozenset[Expr]) -> Ring:
 
 def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
     """Why the form integrates by itself, where that is proved; else None."""
-    if exact(form, positive) == (True, "proved"):
+    if exact(form, positive) == (True, "proved"):  # [PoincareLemma]
         return "it is closed, so locally the differential of a function"
     items = list(form.items())
     symbols = {s for s, _ in items} | {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")}
-    if len(symbols) <= 2:
+    if len(symbols) <= 2:  # [Frobenius1877]
         return "a form in two variables always integrates"
     if len(items) <= 5 and _frobenius(items):
         return "d(omega) ^ omega = 0 identically"
@@ -58,13 +59,13 @@ def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
 
 
 def _frobenius(items: list[tuple[Expr, Expr]]) -> bool:
-    """d(omega) ^ omega = 0 for every three variables (Frobenius)."""
+    """d(omega) ^ omega = 0 for every three variables [Frobenius1877]."""
     symbols = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - {s for s, _ in items}
     everything = [*items, *((s, ex.ZERO) for s in sorted(symbols, key=repr))]
     for (s, a), (u, b), (w, c) in combinations(everything, 3):
-        total = a * (ex.diff(c, u) - ex.diff(b, w))
-        total += b * (ex.diff(a, w) - ex.diff(c, s))
-        total += c * (ex.diff(b, s) - ex.diff(a, u))
-        if told_zero(total, frozenset()) != (True, "proved"):
+        total = a * (diff(c, u) - diff(b, w))
+        total += b * (diff(a, w) - diff(c, s))
+        total += c * (diff(b, s) - diff(a, u))
+        if zero_and_verdict(total, frozenset()) != (True, "proved"):
             return False
     return True

@@ -5,19 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import combinations
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.engines import BOTH, Engines
-from dofkit.exact.points.balls import RealSearch
-from dofkit.exact.points.field import NoPointError
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import is_zero, told_zero
+from dofkit.exact.zero.identity import is_zero, zero_and_verdict
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.normal_form import Finite, Inequality, Pfaffian, Piece, velocities_of
 from dofkit.relations.normal.zero_set import never_vanishes
@@ -57,8 +56,8 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
     """dg/dt = 0 on g = 0."""
     if ex.TIME not in g.symbols or _factors_without_time(g, positive):
         return True, "proved"
-    slope = ex.diff(g, ex.TIME)
-    still, sure = told_zero(slope, positive, engines)
+    slope = diff(g, ex.TIME)
+    still, sure = zero_and_verdict(slope, positive, engines)
     if still:
         return True, sure
     ring = Ring([g, slope], positive)
@@ -68,7 +67,7 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
         try:
             if values(ring, point)[rate] == 0:
                 return True, "probable"
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             return None, "undecided"
     if "balls" not in engines:
         known = point is not None and independent_generators(ring)
@@ -91,20 +90,20 @@ def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
         canon = Canon(ring)
         factors = canon.factors(canon.quotient(node)[0])
         shown = [canon.to_expr(f) for f, _ in factors]
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return False
     return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
 
 
 def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> Told:
-    still, sure = told_zero(form.dt, positive, engines)
+    still, sure = zero_and_verdict(form.dt, positive, engines)
     if not still:
         return still, sure
     coefficients = list(form.coefficients.values())
     if all(ex.TIME not in e.symbols for e in coefficients):
         return True, sure
-    turning = [a * ex.diff(b, ex.TIME) - b * ex.diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
-    told = [told_zero(e, positive, engines) for e in turning]
+    turning = [a * diff(b, ex.TIME) - b * diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
+    told = [zero_and_verdict(e, positive, engines) for e in turning]
     if any(zero is False for zero, _ in told):
         return False, min((v for zero, v in told if zero is False), key=VERDICTS.index)
     if not all(zero for zero, _ in told):
@@ -122,7 +121,7 @@ def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[E
         for node in nodes[1:]:
             common = common.gcd(canon.quotient(node)[0])
         shown = [canon.to_expr(f) for f, _ in canon.factors(common)]
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return False
     return all(ex.TIME not in f.symbols or _of_time_alone(f) or never_vanishes(f, positive) for f in shown)
 
@@ -134,13 +133,13 @@ def _of_time_alone(e: Expr) -> bool:
 
 def _homogeneous(e: Expr) -> bool:
     """Homogeneous in the velocities (Euler's relation, of a degree up to 6): no dt is hidden in it."""
-    radial = ex.add(*(v * ex.diff(e, v) for v in velocities_of(e)))
+    radial = ex.add(*(v * diff(e, v) for v in velocities_of(e)))
     return any(is_zero(radial - degree * e, frozenset()) for degree in range(7))
 
 
 def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
     """No dt term."""
-    return told_zero(form.dt, positive, engines)
+    return zero_and_verdict(form.dt, positive, engines)
 
 
 def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
@@ -151,7 +150,7 @@ def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) ->
     everything = [*items, *((s, ex.ZERO) for s in others)]
     sure: Verdict = "proved"
     for (s, a), (u, b) in combinations(everything, 2):
-        closed, verdict = told_zero(ex.diff(b, s) - ex.diff(a, u), positive, engines)
+        closed, verdict = zero_and_verdict(diff(b, s) - diff(a, u), positive, engines)
         if not closed:
             return closed, verdict
         sure = weakest(sure, verdict)

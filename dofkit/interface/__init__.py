@@ -13,5 +13,9 @@ __all__ = ["main"]
 
 def __getattr__(name: str) -> Any:
     if name != "main":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     return import_module("dofkit.interface.cli").main
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

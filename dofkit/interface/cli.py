@@ -19,7 +19,7 @@ from dofkit.interface import options
 
 if TYPE_CHECKING:
     from dofkit.interface.supervised import Printed
-    from dofkit.methods.table import MethodName
+    from dofkit.methods.names import MethodName
 
 app = typer.Typer(
     name="dofkit",

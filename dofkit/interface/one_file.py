@@ -10,10 +10,10 @@ from typing import Any
 from dofkit.base.documents import Document
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
 from dofkit.base.workers import Json
-from dofkit.classification.passes import stages
 from dofkit.classification.undecided import undecided
 from dofkit.interface import show
 from dofkit.interface.supervised import STDIN, Cut, Given
+from dofkit.methods.stages import stages
 from dofkit.motion import lagrange
 from dofkit.report import Report
 from dofkit.scene.reading import SceneFile, find

@@ -18,7 +18,7 @@ from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents.document import MOST_BYTES
 from dofkit.base.workers import Job, Json, Worker
 from dofkit.base.workers.processes import can_fork
-from dofkit.methods.table import MethodName
+from dofkit.methods.names import MethodName
 
 STDIN = "stdin"
 #: Seconds for what is printed where a scene's own worker was killed.

@@ -6,7 +6,7 @@ What is answered is what `classify` says too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from flint import ctx
@@ -18,21 +18,20 @@ from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.classification.dependence.equivalence import Sameness, compare
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
-from dofkit.classification.freedom.branches import Outcome, solve
+from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.classification.labels.companions import Companionship
-from dofkit.classification.labels.entries import entries_of, labels_in_system
+from dofkit.classification.labels.entries import labels_in_system
+from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precision
 from dofkit.expressions import tree as ex
-from dofkit.methods.table import QUESTIONS, Question
+from dofkit.methods.names import QUESTIONS, Question
 from dofkit.mobility.frameworks import left_out
 from dofkit.mobility.graph.answers import linkage
 from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.relations.reduced import Reduced
-from dofkit.relations.setting import Setting
 from dofkit.scene.added_equations import read_equations, with_equations
 from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.lowering import lower
@@ -83,7 +82,7 @@ def ask(
     given = scene_or_system(scene)
     if question == "equivalence":
         _require_answer(given, answer)
-    return asked(given, question, answer, seconds)
+    return answered_by(given, question, answer, seconds)
 
 
 def _require_answer(scene: Scene | System, answer: object) -> None:
@@ -98,7 +97,7 @@ def _require_answer(scene: Scene | System, answer: object) -> None:
     require_one_of(answer["constraint"], names_by_position("c", [c.name for c in scene.constraints]), "constraint")
 
 
-def asked(
+def answered_by(
     scene: Scene | System,
     question: Question,
     answer: Mapping[str, str] | None = None,
@@ -117,12 +116,9 @@ def asked(
                 found = _by_graph(system, question) or _by_drawing(system, question)
                 if found is not None:
                     return found
-            reduced, setting = prepared(system)
-            if question == "integrability" and all(map(_is_finite, reduced)):
-                return Reply({r.constraint.name: True for r in reduced}, "proved")
-            setting = replace(setting, grows=False, engines=engines)
-            outcome = solve(system, reduced, setting)
-            return _QUESTIONS[question](system, reduced, setting, outcome)
+            if question == "integrability" and all(map(_is_finite, prepared(system)[0])):
+                return Reply({c.name: True for c in system.constraints}, "proved")
+            return _QUESTIONS[question](study(system, engines, grows=False))
     except OutOfTimeError:
         return Reply(None, "undecided", OUT_OF_TIME)
 
@@ -162,8 +158,8 @@ def _by_drawing(system: System, question: Question) -> Reply | None:
     return Reply([system.constraints[i].name for i in sorted(gone)], sure)
 
 
-def _dof(system: System, reduced: list[Reduced], setting: Setting, outcome: Outcome) -> Reply:
-    del system, reduced, setting
+def _dof(known: Study) -> Reply:
+    outcome = known.outcome
     sure = weakest(*(a.verdict for a in outcome.answers))
     if outcome.consistent is False:
         return Reply(CONTRADICTORY, sure, "no motion satisfies all constraints")
@@ -173,50 +169,48 @@ def _dof(system: System, reduced: list[Reduced], setting: Setting, outcome: Outc
 
 
 def _why(outcome: Outcome) -> str:
-    told = (reason for a in outcome.answers if a.consistent is None or a.dof is None for reason in a.reasons)
-    return next(told, "it was not decided")
+    reasons = (reason for a in outcome.answers if a.consistent is None or a.dof is None for reason in a.reasons)
+    return next(reasons, "it was not decided")
 
 
-def _integrability(system: System, reduced: list[Reduced], setting: Setting, outcome: Outcome) -> Reply:
-    names = [c.name for c in system.constraints]
-    found = labels_in_system(reduced, setting, outcome)
-    labels = {name: label for name, (label, _) in zip(names, found, strict=True)}
+def _integrability(known: Study) -> Reply:
+    found = labels_in_system(known.reduced, known.setting, known.outcome)
+    labels = known.by_name([label for label, _ in found])
     sure = weakest(*(verdict for _, verdict in found))
     reason = ""
     if None in labels.values():
-        entries = entries_of(reduced, setting, outcome, [], names, Companionship(setting))
+        entries = known.entries_beside([])
         labels = {e.name: e.holonomic for e in entries}
         sure = weakest(*(e.verdict for e in entries))
         reason = next((e.reason for e in entries if e.holonomic is None), "")
     return Reply(labels, "undecided" if None in labels.values() else sure, reason)
 
 
-def _redundancy(system: System, reduced: list[Reduced], setting: Setting, outcome: Outcome) -> Reply:
+def _redundancy(known: Study) -> Reply:
+    outcome = known.outcome
     if not outcome.consistent or outcome.velocity_dof is None:
         return Reply(None, "undecided", _why(outcome))
-    found = redundancies(reduced, setting, outcome)
-    equations = sum(r.equations for r in reduced)
-    if equations <= len(system.coordinates) - outcome.velocity_dof:
-        found = [all_needed(r, reduced, outcome) for r in found]
-    names = [c.name for c in system.constraints]
+    found = redundancies(known.reduced, known.setting, outcome)
+    if known.redundant_equations == 0:
+        found = [all_needed(r, known.reduced, outcome) for r in found]
     left = sorted({i for r in found for i in r.undecided})
     if left:
-        return Reply(None, "undecided", f"whether {names[left[0]]} follows from the others was not decided")
+        return Reply(None, "undecided", f"whether {known.names[left[0]]} follows from the others was not decided")
     gone = sorted({i for r in found for i in r.redundant})
-    return Reply([names[i] for i in gone], weakest(*(a.verdict for a in outcome.answers)))
+    return Reply([known.names[i] for i in gone], weakest(*(a.verdict for a in outcome.answers)))
 
 
 def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:
     read = read_equations(answer["text"], vocabulary_of(scene).names, constants=False)
     system = lower(with_equations(scene, read, ANSWER))
-    asked, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
-    found = compare(system, asked, own, read.constants, engines).sameness
+    answered_by, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
+    found = compare(system, answered_by, own, read.constants, engines).sameness
     if found is Sameness.UNDECIDED:
         return Reply(None, "undecided", "it was not decided whether one follows from the other")
     return Reply(found is Sameness.SAME, "probable", "" if found is Sameness.SAME else found.value)
 
 
-_QUESTIONS: Mapping[Question, Callable[[System, list[Reduced], Setting, Outcome], Reply]] = {
+_QUESTIONS: Mapping[Question, Callable[[Study], Reply]] = {
     "dof": _dof,
     "integrability": _integrability,
     "redundancy": _redundancy,

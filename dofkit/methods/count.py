@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dofkit.base.verdicts import weakest
 from dofkit.integrability.traits import exact
 from dofkit.methods.shared.as_written import Written, as_written, labelled
-from dofkit.methods.shared.reply import Knobs, MethodReply
-from dofkit.methods.shared.reporting import MethodFindings, MethodLabel, many
+from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodLabel, MethodReply
+from dofkit.methods.shared.reporting import many
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 
@@ -57,9 +57,9 @@ def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
 
 
 def least_freedom(written: Written) -> int:
-    """d(d+1)/2 for links between d particles or more that nothing joins to the ground (Maxwell), else 0."""
+    """d(d+1)/2 for links between d particles or more that nothing joins to the ground [Maxwell1864], else 0."""
     system, d = written.system, written.system.dimension
-    linked = all(c.type in ("link", "rigid") and GROUND not in c.members for c in system.connections)
+    linked = all(c.facts.bars and GROUND not in c.members for c in system.connections)
     if not linked or len(system.connections) < len(system.constraints) or len(system.particles) < d or system.bodies:
         return 0
     return d * (d + 1) // 2
@@ -79,8 +79,8 @@ def plain(text: str) -> tuple[str, ...]:
     return tuple(sorted(sides))
 
 
-def found(system: System) -> MethodFindings:
-    """The count with its assumption; closed forms are holonomic (Poincaré's lemma), and no others are known to be."""
+def findings(system: System) -> MethodFindings:
+    """The count with its assumption; closed forms are holonomic [PoincareLemma], and no others are known to be."""
     written = as_written(system)
     labels: dict[int, MethodLabel] = {}
     for i, form in written.forms:

@@ -8,10 +8,13 @@ from fractions import Fraction
 
 from flint import fmpq, fmpq_mat, fmpz
 
+from dofkit.exact.errors import NoValueError, PoleError, raising_no_value
+from dofkit.exact.ring.instructions import Scalar, Var
 from dofkit.exact.ring.program import value_of
-from dofkit.exact.ring.ring import Ring, Scalar, Var
+from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.methods.ask import CONTRADICTORY
 from dofkit.methods.shared.as_written import Written, as_written, posed
@@ -27,8 +30,7 @@ from dofkit.methods.shared.pointwise import (
     look,
     same,
 )
-from dofkit.methods.shared.reply import Knobs, MethodReply, cannot
-from dofkit.methods.shared.reporting import MethodFindings
+from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply, cannot
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -147,7 +149,7 @@ class Rationals:
                 else:
                     solved(written, rows.ring, order, point)
                 value_of_all(rows, point)
-            except (IrrationalError, ZeroDivisionError):
+            except (IrrationalError, NoValueError):
                 continue
             found.append(point)
             if len(found) == self.draws:
@@ -162,6 +164,7 @@ class Rationals:
         return point
 
 
+@raising_no_value
 def value_of_all(rows: WrittenRows, point: RationalPoint) -> None:
     """Run the program once, so that every generator has its value."""
     rows.at(point, fmpq(0))
@@ -173,7 +176,7 @@ def solvable(written: Written) -> list[tuple[int, Expr]] | None:
     movable = {*written.coordinates, *(ex.parameter(p) for p in written.system.generic)}
     found: list[tuple[int, Expr]] = []
     while left:
-        ready = ((i, s) for i, g in left.items() for s in _own(i, left, movable) if s not in ex.diff(g, s).symbols)
+        ready = ((i, s) for i, g in left.items() for s in _own(i, left, movable) if s not in diff(g, s).symbols)
         step = next(ready, None)
         if step is None:
             return None
@@ -188,34 +191,36 @@ def _own(i: int, left: Mapping[int, Expr], movable: set[Expr]) -> list[Expr]:
     return [s for s in mine if not any(s in g.symbols for j, g in left.items() if j != i)]
 
 
+@raising_no_value
 def solved(written: Written, ring: Ring, order: Sequence[tuple[int, Expr]], point: RationalPoint) -> None:
-    """Give values to the symbols that are solved for; raises ZeroDivisionError where one cannot be."""
+    """Give values to the symbols that are solved for; raises PoleError where one cannot be."""
     relations = [g for _, g in written.finite]
     for i, symbol in order:
-        slope = Ring([ex.diff(relations[i], symbol)], written.positive)
+        slope = Ring([diff(relations[i], symbol)], written.positive)
         point.given[symbol] = fmpq(0)
         start = value_of(ring, point, ring.node(relations[i]))
-        below = value_of(slope, point, slope.node(ex.diff(relations[i], symbol)))
+        below = value_of(slope, point, slope.node(diff(relations[i], symbol)))
         if below == 0:
-            raise ZeroDivisionError
+            raise PoleError
         point.given[symbol] = -start / below
 
 
 def _linear(written: Written) -> bool:
     """Are the finite equations linear in the coordinates together?"""
     movable = set(written.coordinates)
-    slopes = (ex.diff(g, s) for _, g in written.finite for s in written.coordinates if s in g.symbols)
+    slopes = (diff(g, s) for _, g in written.finite for s in written.coordinates if s in g.symbols)
     return all(movable.isdisjoint(slope.symbols) for slope in slopes)
 
 
+@raising_no_value
 def solved_together(written: Written, point: RationalPoint) -> None:
-    """Solve linear equations A q = b; what is free is drawn. Raises ZeroDivisionError where there is no solution."""
+    """Solve linear equations A q = b; what is free is drawn. Raises PoleError where there is no solution."""
     columns = written.coordinates
     for s in columns:
         point.given[s] = fmpq(0)
     rows = []
     for _, g in written.finite:
-        slopes = [ex.diff(g, s) for s in columns]
+        slopes = [diff(g, s) for s in columns]
         ring = Ring([g, *slopes], written.positive)
         rows.append([value_of(ring, point, ring.node(e)) for e in (*slopes, g)])
     reduced, rank = fmpq_mat(rows).rref()
@@ -275,7 +280,7 @@ def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Method
     return same(posed(scene, answer), Rationals(knobs.seed, COMPARED))
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """What the rational point proves; where the drawing is the point, functions have their own values there."""
     looked = _look(system, Knobs())
     if isinstance(looked, MethodReply):

@@ -7,12 +7,12 @@ from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.points.field import prime_for
-from dofkit.methods.shared.reply import Knobs, MethodReply, cannot
-from dofkit.methods.shared.reporting import MethodFindings, many
+from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply, cannot
+from dofkit.methods.shared.reporting import many
 from dofkit.mobility.frameworks import framework_answer
 from dofkit.mobility.graph.answers import Linkage, linkage
 from dofkit.mobility.placement import general
-from dofkit.mobility.twists import KINDS, rows_of
+from dofkit.mobility.twists import rows_of
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Row, split
 from dofkit.relations.normal.normal_form import Finite
@@ -26,7 +26,7 @@ WRITTEN = "'{}' is no link and no joint: a graph says nothing of what was writte
 
 def outside(system: System) -> str | None:
     """Why the graph does not tell of a system: what is neither a link nor a joint."""
-    joined = {c.constraint for c in system.connections if c.type in KINDS}
+    joined = {c.constraint for c in system.connections if c.facts.placed}
     other = next((c.name for i, c in enumerate(system.constraints) if i not in joined), None)
     return None if other is None else WRITTEN.format(other)
 
@@ -34,7 +34,7 @@ def outside(system: System) -> str | None:
 def links(system: System) -> list[tuple[int, tuple[str, str]]] | None:
     """The ends of every link, with its constraint, where there are only links between particles."""
     particles = set(system.particles)
-    if not all(c.type in ("link", "rigid") and particles.issuperset(c.members) for c in system.connections):
+    if not all(c.facts.bars and particles.issuperset(c.members) for c in system.connections):
         return None
     found = []
     for c in system.connections:
@@ -55,7 +55,7 @@ def generic_rows(system: System, seed: int) -> tuple[list[SparseRow], list[int],
     rows: list[SparseRow] = []
     owners: list[int] = []
     for c, found in zip(system.connections, placement.located, strict=True):
-        own = [{k: int(v % p) for k, v in row.items() if v % p} for row in rows_of(found, system.dimension) or []]
+        own = [{k: int(v % p) for k, v in row.items() if v % p} for row in rows_of(found) or []]
         rows += own
         owners += [c.constraint] * len(own)
     return rows, owners, p
@@ -104,7 +104,7 @@ def redundant(system: System, seed: int) -> list[int]:
     return analyse([OwnedRows(rows, owners, [True] * len(rows), p)]).redundant
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """The count in general position; it is the scene's own where all lengths were left out."""
     why = outside(system)
     if why is not None:

@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.exact.points.balls import FloatPoint, RealSearch
-from dofkit.exact.ring.ring import Scalar
+from dofkit.exact.points.balls import FloatPoint
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.instructions import Scalar
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.methods.ask import CONTRADICTORY
@@ -27,8 +28,7 @@ from dofkit.methods.shared.pointwise import (
     look,
     same,
 )
-from dofkit.methods.shared.reply import Knobs, MethodReply
-from dofkit.methods.shared.reporting import MethodFindings
+from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -70,7 +70,7 @@ class Floats:
             return [self._drawn(written, rows)]
         found: list[FloatPoint] = []
         for k in range(STARTS):
-            point = self._found(written, rows, k)
+            point = self._newton_end(written, rows, k)
             if point is not None:
                 found.append(point)
             if len(found) == POINTS:
@@ -88,7 +88,7 @@ class Floats:
         symbols[ex.TIME] = 0.0
         return FloatPoint(symbols, self.seed)
 
-    def _found(self, written: Written, rows: WrittenRows, k: int) -> FloatPoint | None:
+    def _newton_end(self, written: Written, rows: WrittenRows, k: int) -> FloatPoint | None:
         """Where Gauss and Newton's method ends that begins at random."""
         unknowns = [*written.coordinates, *(ex.parameter(p) for p in written.system.generic)]
         nodes = [node for _, node in rows.finite]
@@ -136,7 +136,7 @@ def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Method
     return same(posed(scene, answer), Floats(knobs.tolerance, knobs.seed))
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """What singular values tell that are clearly parted: none is between rounding and what is clearly not 0."""
     looked, numbers = _look(system, Knobs())
     if looked is None:

@@ -16,8 +16,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
 from dofkit.methods.shared.as_written import Written, as_written, labelled, posed
-from dofkit.methods.shared.reply import Knobs, MethodReply
-from dofkit.methods.shared.reporting import MethodFindings, many
+from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply
+from dofkit.methods.shared.reporting import many
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -94,7 +94,7 @@ def exterior(form: Form, columns: Sequence[Any]) -> Form:
 
 
 def passing(symbols: Symbols) -> list[bool]:
-    """Frobenius: is d omega_a with all of the system's forms wedged to it simplified to 0?"""
+    """[Frobenius1877]: is d omega_a with all of the system's forms wedged to it simplified to 0?"""
     system = [symbols.differential(g) for _, g in symbols.finite] + [f for _, f in symbols.forms]
     found = []
     for _, form in symbols.forms:
@@ -175,7 +175,7 @@ def _alike(a: Sequence[Any], b: Sequence[Any]) -> bool:
     return any(all(sympy.simplify(x + sign * y) == 0 for x, y in zip(a, b, strict=True)) for sign in (-1, 1))
 
 
-def found(system: System) -> MethodFindings:
+def findings(system: System) -> MethodFindings:
     """What SymPy says, as warnings only: none of it is sure."""
     symbols = Symbols(as_written(system))
     passes = passing(symbols)

@@ -2,46 +2,29 @@
 
 ``auto``, ``field`` and ``balls`` share what is exact: reading, and rewriting a relation to its real zero set in the
 canonical ring; they differ in who decides ranks, zeros and integrability. All others take the equations as written.
-A method is a row here and a module of its name in `dofkit.methods`.
+A method is a row here and a module of its name in `dofkit.methods`; those of dofkit's own engines share `engine`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from functools import partial
+from importlib import import_module
+from typing import Any
 
 from dofkit.exact.engines import BALLS, BOTH, FIELD, Engines
-
-if TYPE_CHECKING:
-    from dofkit.base.verdicts import Verdict
-
-MethodName = Literal["auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic"]
-#: What the methods are held against each other in.
-Question = Literal["dof", "integrability", "redundancy", "equivalence"]
-QUESTIONS: tuple[Question, ...] = ("dof", "integrability", "redundancy", "equivalence")
+from dofkit.methods.names import MethodName
+from dofkit.methods.shared.row import Method, Use
 
 
-@dataclass(frozen=True)
-class Use:
-    """How a method answers one question: what it is ``sound`` for, and what it ``costs``.
-
-    n: coordinates, m: scalar equations, k: differential ones, each by itself where parts share no coordinate.
-    """
-
-    sound: str
-    costs: str
+def _module(name: str) -> Any:
+    """A module of this room, imported where it is first asked for: some need SymPy or numpy."""
+    return import_module(f"dofkit.methods.{name}")
 
 
-@dataclass(frozen=True)
-class Method:
-    """One way to answer: in one line; by question; what it cannot answer; its best verdict; the engines it may ask."""
-
-    summary: str
-    uses: Mapping[Question, Use]
-    cannot: str
-    best: Verdict
-    engines: Engines = frozenset()
+def _engine(engines: Engines) -> Any:
+    """dofkit's own engines, or one of them alone."""
+    return _module("engine").EngineMethod(engines)
 
 
 _BY_BLOCKS = "O(n^3) at random points, for each part that shares no coordinate with the others; trees in O(n)"
@@ -61,6 +44,7 @@ METHODS: Mapping[MethodName, Method] = {
         },
         "what neither engine nor a proof decides is undecided, with the reason",
         "proved",
+        partial(_engine, BOTH),
         BOTH,
     ),
     "count": Method(
@@ -80,6 +64,7 @@ METHODS: Mapping[MethodName, Method] = {
         "it takes every equation for independent and for one freedom, does not see what differential constraints "
         "integrate to or hide, and does not tell which constraints are redundant",
         "proved",
+        partial(_module, "count"),
     ),
     "graph": Method(
         "generic counts of links and joints: pebble games, or ranks at random places",
@@ -91,6 +76,7 @@ METHODS: Mapping[MethodName, Method] = {
         "it sees who is joined to whom and not where: parallel, concurrent or collinear places are not told from "
         "others, and equations that were written say nothing to it",
         "proved",
+        partial(_module, "graph"),
     ),
     "field": Method(
         "exact arithmetic at random points modulo random primes",
@@ -106,6 +92,7 @@ METHODS: Mapping[MethodName, Method] = {
         "it does not tell whether a real configuration exists (its numbers are those of the complex solutions), which "
         "way a second-order form bends, nor anything of measured geometry; integrals are not sought",
         "probable",
+        partial(_engine, FIELD),
         FIELD,
     ),
     "balls": Method(
@@ -119,6 +106,7 @@ METHODS: Mapping[MethodName, Method] = {
         "it does not tell that relations contradict each other unless they do so as written, gives no growth vector, "
         "and takes a difference too small for its precision for 0; integrals are not sought",
         "proved",
+        partial(_engine, BALLS),
         BALLS,
     ),
     "exact": Method(
@@ -132,6 +120,7 @@ METHODS: Mapping[MethodName, Method] = {
         "it looks at one point, which may be special, knows rational numbers only, and neither follows a motion nor "
         "sees finite relations that differential ones hide",
         "proved",
+        partial(_module, "exact"),
     ),
     "numeric": Method(
         "floating point: singular values above a tolerance, at the drawing or where Newton's method ends",
@@ -143,6 +132,7 @@ METHODS: Mapping[MethodName, Method] = {
         },
         "it does not tell a small number from 0, a shake from a motion, or no solution from a search that failed",
         "numeric",
+        partial(_module, "numeric"),
     ),
     "symbolic": Method(
         "SymPy as one would use it: Jacobian().rank(), wedge products, simplify",
@@ -155,8 +145,6 @@ METHODS: Mapping[MethodName, Method] = {
         "it looks at the whole space and not at where the constraints hold, takes for non-zero what it cannot "
         "simplify, and may not end",
         "undecided",
+        partial(_module, "symbolic"),
     ),
 }
-
-#: The methods that are dofkit's own engines, together and alone: they fill a whole report.
-BY_ENGINES: tuple[MethodName, ...] = tuple(name for name, method in METHODS.items() if method.engines)

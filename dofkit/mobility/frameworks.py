@@ -2,8 +2,8 @@
 
 Every row is |A - B|^2 = L with an L of its own: one that was left out, so it is what it is where all particles stand in
 general position, or the square of a parameter. Where the links of prescribed lengths are independent, an open set of
-lengths is met in general position. The lengths are then a regular value (Sard), and all configurations that have them
-are a manifold whose dimension is the coordinates less the generic rank.
+lengths is met in general position. The lengths are then a regular value [Sard1942], and all configurations that have
+them are a manifold whose dimension is the coordinates less the generic rank.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Links between particles are counted by their graph. Everything else is a rank modulo p at random places and
 directions; relations written as texts keep what they say up to a constant. A rank at a random point is at most the
-generic one, and equal to it but for a chance of degree/p (Schwartz and Zippel).
+generic one, and equal to it but for a chance of degree/p [SchwartzZippel].
 """
 
 from __future__ import annotations
@@ -12,15 +12,16 @@ from dataclasses import dataclass
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point, prime_for
+from dofkit.exact.points.field import FieldPoint, field_point, prime_for
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.graph.answers import redundant_links
 from dofkit.mobility.placement import Placement, general
-from dofkit.mobility.twists import KINDS, rows_of
+from dofkit.mobility.twists import rows_of
 from dofkit.relations.blocks import Row
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.relations.setting import Setting
@@ -53,7 +54,7 @@ def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -
         return General(None, why=DIFFERENTIAL)
     particles = set(system.particles)
     by_graph = "cheapest" in setting.reductions
-    if by_graph and all(c.type in ("link", "rigid") and particles.issuperset(c.members) for c in system.connections):
+    if by_graph and all(c.facts.bars and particles.issuperset(c.members) for c in system.connections):
         return _of_links(system)
     return _of_rows(system, rows, setting)
 
@@ -79,7 +80,7 @@ def _of_rows(system: System, given: Sequence[Row], setting: Setting) -> General:
         placement, rows = drawn
         for found in placement.located:
             check()
-            own = rows_of(found, system.dimension) or []
+            own = rows_of(found) or [] if found.facts.placed else []
             rows += [{c: int(v % placement.p) for c, v in row.items() if v % placement.p} for row in own]
         rank = rank_of_rows(rows, placement.p)
         return General(rank, "proved" if rank == len(rows) and not written else "probable")
@@ -87,9 +88,9 @@ def _of_rows(system: System, given: Sequence[Row], setting: Setting) -> General:
 
 
 def _as_texts(system: System, rows: Sequence[Row]) -> list[Row]:
-    """The rows that are no connection's: equations, surfaces, strings."""
-    geometric = {c.constraint for c in system.connections if c.type in KINDS}
-    return [row for row in rows if row.constraint not in geometric]
+    """The rows that no connection's geometry says: equations, surfaces, profiles, strings."""
+    placed = {c.constraint for c in system.connections if c.facts.placed}
+    return [row for row in rows if row.constraint not in placed]
 
 
 def _drawn_at_random(
@@ -108,7 +109,7 @@ def _drawn_at_random(
             point.set(ring.vars[index], point.number(ex.ONE.args[0]) * value)
     try:
         return placement, _slopes(system, ring, nodes, point)
-    except (NoPointError, ZeroDivisionError):
+    except NoValueError:
         return None
 
 
@@ -125,6 +126,7 @@ def _values(system: System, placement: Placement) -> Mapping[Expr, int]:
     return found
 
 
+@raising_no_value
 def _slopes(system: System, ring: Ring, nodes: Sequence[int], point: FieldPoint) -> list[SparseRow]:
     """The rows by the coordinates; the rate of a body's Gibbs vector at 0 is half of its angular velocity."""
     at = values(ring, point)

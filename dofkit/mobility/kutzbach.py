@@ -2,20 +2,21 @@
 
 M = D(N - 1 - j) + f_1 + ... + f_j with D = 3 in the plane and 6 in space takes every loop to close by D independent
 conditions. The motions that the joints of a loop allow span a space of some dimension at most D (their screws), and
-where it is smaller the loop closes by fewer: all hinges parallel or through one point give 3, Bennett's four give 3.
+where it is smaller the loop closes by fewer: all hinges parallel or through one point give 3, Bennett's four give 3
+[GrueblerKutzbach] [Bennett1903].
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import networkx as nx
 
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.mobility.placement import Placement
-from dofkit.mobility.twists import KINDS, TURNS, Located, Member, rows_of
+from dofkit.mobility.twists import TURNS, Located, Member, rows_of
 from dofkit.report import Mobility
 from dofkit.system import GROUND, System
 
@@ -44,7 +45,7 @@ def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
     found = []
     for c in system.connections:
         members = [m for m in c.members if m != GROUND]
-        if c.type not in KINDS | {"roll"} or not members or len(members) > 2 or not moving.issuperset(members):
+        if not c.facts.joint or not members or len(members) > 2 or not moving.issuperset(members):
             continue
         first, second = (GROUND, *members)[-2:]
         freedom = whole - equations[c.constraint] + c.driven
@@ -150,8 +151,7 @@ def allowed(found: Located, dimension: int, p: int) -> list[SparseRow]:
     ends = {id(bodies[-1]): free}
     members = tuple(ends.get(id(m), ground) for m in found.members)
     points = tuple((ends.get(id(m), ground), at) for m, at in found.points)
-    placed = Located(found.type, members, points, found.places, found.directions, found.number)
-    rows = rows_of(placed, dimension)
+    rows = rows_of(replace(found, members=members, points=points, driven=False))
     if rows is None:
         return [{c: 1} for c in range(size)]
     return kernel([{c: v % p for c, v in row.items() if v % p} for row in rows], size, p)

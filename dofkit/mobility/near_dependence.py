@@ -32,7 +32,7 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
         return None
     rows = []
     for found in placement.located:
-        own = rows_of(found, dimension)
+        own = rows_of(found)
         if own is None:
             return None
         rows += own

@@ -9,7 +9,8 @@ from typing import Any
 
 import networkx as nx
 
-from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.enclosures import approximate
@@ -21,8 +22,6 @@ from dofkit.system import GROUND, Connection, DrawnPoint, System
 FREE = 1000
 #: Draws of one drawing modulo a prime.
 DRAWS = 20
-#: Directions that a type needs where none is given.
-_DIRECTIONS = {"universal": 2}
 
 Numbers = tuple[Any, ...]
 Vector = tuple[Expr, ...]
@@ -52,7 +51,7 @@ def drawn(system: System, positive: frozenset[Expr]) -> Placement | None:
         try:
             at = values(ring, point)
             known = {e: int(at[node]) for e, node in nodes.items()}
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         return _placed(system, _Drawn(point.p, known))
     return None
@@ -98,11 +97,11 @@ class _Drawn:
             self._elsewhere[point.carrier] = self.random(dimension)
         return self._elsewhere[point.carrier]
 
-    def number(self, kind: str, given: Expr | None) -> Any:
+    def number(self, given: Expr | None, by_turn: bool) -> Any:
         """A screw's advance by radian holds pi, which is no number of GF(p): any factor will do."""
         if given is None:
             return 0
-        found: Any = self._known[given] * (self._turn if kind == "screw" else 1)
+        found: Any = self._known[given] * (self._turn if by_turn else 1)
         return found % self.p if self.p else found
 
 
@@ -118,7 +117,7 @@ class _General:
             for at in c.places:
                 if at is not None:
                     self._same.union(*((m, at) for m in c.members))
-            if c.type == "coincident":
+            if c.facts.merged:
                 self._same.union(*(_key(point) for point in c.points))
 
     def random(self, dimension: int) -> Numbers:
@@ -139,7 +138,7 @@ class _General:
             self._places[root] = self.random(dimension)
         return self._places[root]
 
-    def number(self, kind: str, given: Expr | None) -> int:
+    def number(self, given: Expr | None, by_turn: bool) -> int:
         return self._rng.randrange(1, self.p)
 
 
@@ -169,13 +168,14 @@ def _placed(system: System, numbers: _Drawn | _General) -> Placement:
 
 
 def _located(c: Connection, members: Mapping[str, Member], numbers: _Drawn | _General, d: int) -> Located:
-    wanted = max(len(c.directions), _DIRECTIONS.get(c.type, 0))
+    wanted = max(len(c.directions), c.facts.directions)
     return Located(
-        c.type,
+        c.facts,
+        d,
         tuple(members[m] for m in c.members),
         tuple((members[point.carrier], numbers.point(point, d)) for point in c.points),
         tuple(numbers.place(c.members[0], at, d) for at in c.places),
         tuple(numbers.vector(c.directions[i] if i < len(c.directions) else None, d) for i in range(wanted)),
-        numbers.number(c.type, c.number),
+        numbers.number(c.number, c.facts.by_turn),
         c.driven,
     )

@@ -1,8 +1,9 @@
 """Joints and links as they are drawn, where their rows modulo p already tell everything: independent, or rigid.
 
 A rank modulo p is never above the true one, so that these are proofs: where all rows are independent the freedom is
-the coordinates less their number (implicit function theorem); where they leave nothing but motions of the whole, or
-nothing at all, nothing else moves (infinitesimally rigid is rigid: Asimow and Roth). No relation is looked at.
+the coordinates less their number [ImplicitFunctions]; where they leave nothing but motions of the whole, or nothing at
+all, nothing else moves (infinitesimally rigid is rigid [AsimowRoth1978]), unless lengths change in time, which
+dependent ones need not allow. No relation is looked at.
 """
 
 from __future__ import annotations
@@ -13,16 +14,10 @@ from dataclasses import dataclass
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import doubt
-from dofkit.expressions.tree import Expr, coordinate
+from dofkit.expressions.tree import TIME, Expr, coordinate
 from dofkit.mobility.placement import Placement, drawn
 from dofkit.mobility.twists import rows_of
 from dofkit.system import GROUND, System
-
-#: Types whose rows hold numbers of the drawing only (a screw's advance is transcendental), none of them driven.
-TYPES = frozenset({
-    "revolute", "prismatic", "weld", "cylindrical", "universal", "spherical", "planar", "fixed", "coincident", "slot",
-    "link", "rigid",
-})  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -54,21 +49,24 @@ def drawn_rank(system: System, positive: frozenset[Expr]) -> DrawnRank | None:
     owners: list[int] = []
     copies = _copies(system)
     for c, found in zip(system.connections, placement.located, strict=True):
-        own = [] if c.constraint in copies else rows_of(found, system.dimension) or []
+        own = [] if c.constraint in copies else rows_of(found) or []
         rows += [{k: int(v % placement.p) for k, v in row.items() if v % placement.p} for row in own]
         owners += [c.constraint] * len(own)
     if len(rows) != sum(len(c.relations) for i, c in enumerate(system.constraints) if i not in copies):
         return None
     rank = rank_of_rows(rows, placement.p)
     left = len(system.coordinates) - rank
-    if rank == len(rows) or left in (0, _motions_of_the_whole(system, placement)):
+    if rank == len(rows) or (left in (0, _motions_of_the_whole(system, placement)) and _still(system)):
         return DrawnRank(rows, owners, placement.p, left, rank == len(rows), copies)
     return None
 
 
 def _drawn_throughout(system: System) -> bool:
-    """Is every constraint a joint or link of given geometry, and every particle where the reference has it?"""
-    own = [c for c in system.connections if c.type in TYPES and not c.driven]
+    """Is every constraint a joint or link of given geometry, and every particle where the reference has it?
+
+    None of them is driven, and their rows hold numbers of the drawing only (a screw's advance is transcendental).
+    """
+    own = [c for c in system.connections if c.facts.velocities is not None and c.number is None and not c.driven]
     if len(own) != len(system.connections) or {c.constraint for c in own} != set(range(len(system.constraints))):
         return False
     if any(None in (*c.places, *c.directions, *(point.at for point in c.points)) for c in own):
@@ -81,12 +79,12 @@ def _drawn_throughout(system: System) -> bool:
 
 
 def _copies(system: System) -> list[int]:
-    """Constraints with the same members, of the same type and geometry as an earlier one."""
+    """Constraints with the same members and geometry as an earlier one that say the same; links have lengths too."""
     seen: set[object] = set()
     found = []
     for c in system.connections:
-        alike = (c.type, c.members, c.points, c.places, c.directions)
-        if alike in seen and c.type not in ("link", "rigid"):
+        alike = (c.facts.velocities, c.members, c.points, c.places, c.directions)
+        if alike in seen and c.facts.placed and not c.facts.bars:
             found.append(c.constraint)
         seen.add(alike)
     return found
@@ -100,10 +98,15 @@ def _numbers(system: System) -> Iterator[Expr]:
             yield from vector or ()
 
 
+def _still(system: System) -> bool:
+    """Does time not enter?"""
+    return all(TIME not in r.expr.symbols for c in system.constraints for r in c.relations)
+
+
 def _motions_of_the_whole(system: System, placement: Placement) -> int:
     """d(d+1)/2 for links between particles that nothing joins to the ground and that span d - 1 dimensions; else -1."""
     d = system.dimension
-    if system.bodies or any(c.type not in ("link", "rigid") or GROUND in c.members for c in system.connections):
+    if system.bodies or any(not c.facts.bars or GROUND in c.members for c in system.connections):
         return -1
     places = {member.column: at for found in placement.located for member, at in found.points}
     first, *rest = places.values()

@@ -11,23 +11,20 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+from dofkit.exact.matrices.rows import Numbers, cross, spanning
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
 from dofkit.mobility.placement import Placement
-from dofkit.mobility.twists import cross, spanning
 from dofkit.system import GROUND, Connection, System
 
 #: More lines or points than this are not compared.
 MOST = 40
 #: Points that a conic passes through, whatever they are.
 CONIC = 5
-AXIAL = ("revolute", "cylindrical", "screw", "universal")
 _OTHERWISE = (
     "no parallel or concurrent lines were found to be the cause: a loop of special proportions, symmetric or "
     "overconstrained"
 )
-
-Numbers = Sequence[Any]
 
 
 @dataclass(frozen=True)
@@ -99,7 +96,7 @@ def _facts(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
 def _axes(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
     for c in own:
         at = g.placement.located[c.constraint]
-        if g.system.dimension == 3 and c.type in AXIAL and at.places:
+        if g.system.dimension == 3 and c.facts.axial and at.places:
             yield from (DrawnLine(g.names[c.constraint], at.places[0], g.unit(n)) for n in at.directions)
 
 
@@ -146,7 +143,7 @@ def _of_slides(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
     slides = [
         DrawnLine(g.names[c.constraint], (), g.unit(at.directions[0]))
         for c in own
-        if c.type in ("prismatic", "slot") and (at := g.placement.located[c.constraint]).directions
+        if c.facts.slides and (at := g.placement.located[c.constraint]).directions
     ]
     for same in _classes(slides, lambda a, b: g.parallel(a.direction, b.direction)):
         if len(same) > 1:
@@ -162,18 +159,18 @@ def _of_slides(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
 
 
 def _links(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
-    """The links between points, those of rigid sets, and in the plane the normals of slots."""
+    """The links between points, those of rigid sets, and in the plane the normals of contacts."""
     for c in own:
         at = g.placement.located[c.constraint]
-        if c.type == "slot" and g.system.dimension == 2:
+        if c.facts.contact and g.system.dimension == 2:
             yield DrawnLine(
                 f"the normal of {g.names[c.constraint]}", at.points[0][1], g.unit(spanning(at.directions[0])[0])
             )
-        if c.type not in ("link", "rigid"):
+        if not c.facts.bars:
             continue
         for (k, p), (m, q) in combinations(enumerate(at.points), 2):
             ends = (_called(c, k), _called(c, m))
-            name = g.names[c.constraint] if c.type == "link" else "-".join(ends)
+            name = "-".join(ends) if c.facts.complete else g.names[c.constraint]
             direction = _less(q[1], p[1])
             if not g.zero(*direction):
                 yield DrawnLine(name, p[1], g.unit(direction), frozenset(ends))
@@ -183,7 +180,7 @@ def _bars(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
     """Bodies of the plane with hinges at two places."""
     hinges: dict[str, dict[str, tuple[Any, ...]]] = {}
     for c in own:
-        if g.system.dimension == 2 and c.type == "revolute":
+        if g.system.dimension == 2 and c.facts.axial:
             at = g.placement.located[c.constraint].places[0]
             for m in c.members:
                 hinges.setdefault(m, {})[_text(c.places[0])] = at
@@ -195,7 +192,7 @@ def _bars(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
 
 def _of_places(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
     """Hinges of the plane that are drawn at one place and join different pairs of bodies."""
-    hinges = [c for c in own if c.type == "revolute" and g.system.dimension == 2]
+    hinges = [c for c in own if c.facts.axial and g.system.dimension == 2]
     for a, b in combinations(hinges[:MOST], 2):
         place, other = (g.placement.located[c.constraint].places[0] for c in (a, b))
         if not set(a.members) & set(b.members) and g.zero(*_less(place, other)):
@@ -225,11 +222,11 @@ def _of_bars(g: Geometry, bars: Sequence[DrawnLine], own: Sequence[Connection]) 
 
 
 def _of_points(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
-    """All points of links in one plane of space, or on one conic of the plane."""
+    """All points of links in one plane of space, or on one conic of the plane [BolkerRoth1980]."""
     points: dict[str, tuple[Any, ...]] = {}
     for c in own:
         at = g.placement.located[c.constraint]
-        if c.type in ("link", "rigid"):
+        if c.facts.bars:
             points |= {_called(c, k): place for k, (_, place) in enumerate(at.points)}
     if len(points) > MOST:
         return

@@ -100,7 +100,7 @@ def complete_sets(system: System) -> list[str]:
     d = system.dimension
     found = []
     for constraint in system.constraints:
-        if constraint.type != "rigid":
+        if not constraint.facts.complete:
             continue
         links = len(constraint.relations)
         n = round((1 + (1 + 8 * links) ** 0.5) / 2)

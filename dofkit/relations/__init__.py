@@ -1,1 +1,56 @@
 """What each relation says over the reals, in blocks that share no coordinate, ready for the engines."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from dofkit.relations.answer import Answer
+    from dofkit.relations.blocks import Block, Row, split
+    from dofkit.relations.chart import Chart
+    from dofkit.relations.normal.normal_form import Finite, Nonlinear, Normal, Pfaffian, normalise
+    from dofkit.relations.reductions import REDUCTIONS
+    from dofkit.relations.setting import Setting
+
+__all__ = [
+    "REDUCTIONS",
+    "Answer",
+    "Block",
+    "Chart",
+    "Finite",
+    "Nonlinear",
+    "Normal",
+    "Pfaffian",
+    "Row",
+    "Setting",
+    "normalise",
+    "split",
+]
+
+#: Where the names live: a module is imported when a name of it is first asked for.
+_HOMES = {
+    "Answer": "dofkit.relations.answer",
+    "Block": "dofkit.relations.blocks",
+    "Chart": "dofkit.relations.chart",
+    "Finite": "dofkit.relations.normal.normal_form",
+    "Nonlinear": "dofkit.relations.normal.normal_form",
+    "Normal": "dofkit.relations.normal.normal_form",
+    "Pfaffian": "dofkit.relations.normal.normal_form",
+    "REDUCTIONS": "dofkit.relations.reductions",
+    "Row": "dofkit.relations.blocks",
+    "Setting": "dofkit.relations.setting",
+    "normalise": "dofkit.relations.normal.normal_form",
+    "split": "dofkit.relations.blocks",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    found = globals()[name] = getattr(import_module(_HOMES[name]), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

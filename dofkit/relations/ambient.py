@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.program import values
 from dofkit.relations.chart import Chart
 
@@ -13,7 +14,7 @@ def free_point(chart: Chart, seed: int) -> FieldPoint | None:
         point = field_point([chart.ring], 1000 * seed + attempt)
         try:
             values(chart.ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         return point
     return None

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from itertools import islice
 from itertools import product as cartesian
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.normal.elimination import combinations_of
@@ -25,8 +25,8 @@ MAX_WAYS, MAX_ROUNDS, MAX_COMBINED = 16, 6, 8
 def rate(g: Expr) -> Expr:
     """dg/dt along a motion, for a finite relation."""
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
-    parts = [ex.diff(g, s) * ex.velocity(str(s.args[1])) for s in moving]
-    return ex.add(*parts, ex.diff(g, ex.TIME))
+    parts = [diff(g, s) * ex.velocity(str(s.args[1])) for s in moving]
+    return ex.add(*parts, diff(g, ex.TIME))
 
 
 def form_rate(form: Pfaffian) -> Expr:
@@ -64,7 +64,7 @@ class Way:
         )
 
 
-def reduced(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
+def ways_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
     """The rows with nonlinear ones reduced by the linear ones that share coordinates with them, and by each other.
 
     Velocities that the linear rows give are put into the nonlinear ones, which may then split into linear ones:
@@ -145,7 +145,7 @@ def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
         canon = Canon(ring)
         own = canon.quotient(nodes[0])[0]
         return any(not own.gcd(canon.quotient(n)[0]).is_constant() for n in nodes[1:])
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return False
 
 
@@ -190,15 +190,15 @@ def eliminated(e: Expr, linear: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
             continue
         v, coefficient = choice
         divisors += [coefficient] if coefficient.op != "num" else []
-        value = -(ex.substitute(relation, {v: ex.ZERO}) / coefficient)
-        left = [ex.substitute(other, {v: value}) for other in left]
-        e = ex.substitute(e, {v: value})
+        value = -(substitute(relation, {v: ex.ZERO}) / coefficient)
+        left = [substitute(other, {v: value}) for other in left]
+        e = substitute(e, {v: value})
     return e, divisors
 
 
 def _pivot(relation: Expr) -> tuple[Expr, Expr] | None:
     """A velocity of a linear relation with a coefficient that is not identically 0; numbers first."""
-    found = [(v, ex.diff(relation, v)) for v in velocities_of(relation)]
+    found = [(v, diff(relation, v)) for v in velocities_of(relation)]
     for v, c in found:
         if c.op == "num" and not c.is_zero:
             return v, c

@@ -81,7 +81,7 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
     return [b for _, b in sorted(blocks, key=lambda pair: pair[0])], [c for c in coordinates if c not in used]
 
 
-def parted(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:
+def blocks_of(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:
     """`split` as far as the reductions in use allow: else all rows are one block, and it holds every coordinate."""
     blocks, untouched = split(coordinates, rows)
     place = {c: k for k, c in enumerate(coordinates)}

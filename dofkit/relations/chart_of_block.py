@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dofkit.base.deadline import check
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, expressions, uses_time
@@ -27,9 +28,9 @@ def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
         for s in sorted(g.symbols & inside, key=repr):
             if s.args[0] != "coordinate" or s not in terms or any(s in u.symbols for u in terms if u != s):
                 continue
-            value = ex.substitute((ex.mul(ex.num(terms[s]), s) - g) / ex.num(terms[s]), found)
+            value = substitute((ex.mul(ex.num(terms[s]), s) - g) / ex.num(terms[s]), found)
             if s not in value.symbols:
-                found = {k: ex.substitute(v, {s: value}) for k, v in found.items()} | {s: value}
+                found = {k: substitute(v, {s: value}) for k, v in found.items()} | {s: value}
                 break
     return found
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
@@ -36,13 +37,13 @@ def fixed_constants(hidden: Sequence[Expr], constants: Sequence[str]) -> dict[st
     for g in hidden if constants else ():
         if not about_constants(g, constants):
             continue
-        left = ex.substitute(g, {ex.coordinate(c): value for c, value in found.items()})
+        left = substitute(g, {ex.coordinate(c): value for c, value in found.items()})
         terms = linear_terms(left)
         for c in reversed(constants):
             s = ex.coordinate(c)
             if s in terms and not any(s in u.symbols for u in terms if u != s):
                 value = ex.ZERO - (left - ex.mul(ex.num(terms[s]), s)) / ex.num(terms[s])
-                found = {k: ex.substitute(v, {s: value}) for k, v in found.items()} | {c: value}
+                found = {k: substitute(v, {s: value}) for k, v in found.items()} | {c: value}
                 break
     named = {ex.coordinate(c): ex.parameter(c) for c in constants}
-    return {c: ex.substitute(value, named) for c, value in found.items()}
+    return {c: substitute(value, named) for c, value in found.items()}

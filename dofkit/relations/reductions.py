@@ -69,6 +69,7 @@ REDUCTIONS: Mapping[ReductionName, Reduction] = {
         "rigid clusters of links are one body",
         "where relations are followed from a drawing in the plane, all but two particles of a cluster whose links are "
         "infinitesimally rigid there, at rational places",
+        # [AsimowRoth1978]
         "infinitesimally rigid is rigid (Asimow and Roth): near the drawing the cluster is where a body takes it",
     ),
     "eliminations": Reduction(
@@ -81,6 +82,7 @@ REDUCTIONS: Mapping[ReductionName, Reduction] = {
         "classes of dependent relations",
         "at a drawing, relations that are in no dependent set are not followed; the others class by class, and a class "
         "that leaves the motions of a rigid body only is one",
+        # [ImplicitFunctions] [AsimowRoth1978]
         "where every class cuts out a manifold, so do all relations together (implicit function theorem); "
         "infinitesimally rigid is rigid (Asimow and Roth)",
     ),

@@ -97,7 +97,7 @@ def as_text(c: Comparison) -> str:
 
 def with_equations(scene: Scene, read: Read, called: str) -> Scene:
     """The scene with the equations after its constraints; their names are ``called`` and a number from 1 on."""
-    more = tuple(Equation(type="equation", name=f"{called} {i + 1}", text=text) for i, text in enumerate(read.texts))
+    more = tuple(Equation(name=f"{called} {i + 1}", text=text) for i, text in enumerate(read.texts))
     parameters = {**scene.parameters, **dict.fromkeys(read.constants, "real")}
     changes = {"constraints": (*scene.constraints, *more), "parameters": parameters, "expect": {}}
     return scene.model_copy(update=changes)

@@ -67,16 +67,16 @@ def _lowered(world: World, constraint: ConstraintBase, name: str) -> Constraint:
         allowed = " or ".join(str(d) for d in constraint.dimensions)
         message = f"'{kind}' is for dimension {allowed}; this scene has dimension {world.dimension}"
         world.fault(message, "type", hint=_INSTEAD[world.dimension])
-        return Constraint(name, kind, constraint.shown, ())
+        return Constraint(name, kind, constraint.facts, constraint.shown, ())
     relations = tuple(constraint.relations(world))
-    return Constraint(name, kind, constraint.shown, relations, tuple(constraint.notes(world)))
+    return Constraint(name, kind, constraint.facts, constraint.shown, relations, tuple(constraint.notes(world)))
 
 
 def _connection(mentioned: Mentioned, index: int, constraint: Constraint) -> Connection:
     """What a constraint that has been lowered connects."""
     return Connection(
         index,
-        constraint.type,
+        constraint.facts,
         tuple(dict.fromkeys(mentioned.members)),
         tuple(mentioned.points),
         tuple(mentioned.places),

@@ -6,7 +6,7 @@ from dofkit.base.errors import SceneError
 from dofkit.expressions.tree import parameter
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.elaboration import names_by_position
-from dofkit.scene.reference import drawn_bodies, pose_of, reference_of
+from dofkit.scene.reference import pose_of, reference_of
 from dofkit.scene.scene import Scene, surveyed
 from dofkit.scene.survey import Survey
 from dofkit.system import ListedForce, Rotation, System
@@ -32,7 +32,7 @@ def system_of(scene: Scene, found: Survey) -> System:
     pose = pose_of(drawing)
     reference = None
     if not (found.generic or found.special):
-        reference = reference_of(drawing, drawn_bodies(found.drawn, found.welds), pose)
+        reference = reference_of(drawing, found.drawn, pose)
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,

@@ -17,6 +17,7 @@ from dofkit.base.documents.fast_flow import DEEPEST
 from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.base.spelling import nearest_title
 from dofkit.scene.catalog import catalog_names, catalog_text, nearest_hint
+from dofkit.scene.constraints.equations import as_equation
 from dofkit.scene.hints import UNKNOWN_KEY, with_hint, without_echoes
 from dofkit.scene.scene import Scene, check, faults_of
 from dofkit.system import System
@@ -278,8 +279,7 @@ class SoundPart(NamedTuple):
 
 def _with_name(key: str, index: int, entry: Any) -> Any:
     """An entry that goes by its position, named by the position that it had."""
-    if isinstance(entry, str):
-        entry = {"type": "equation", "text": entry}
+    entry = as_equation(entry)
     return {**entry, "name": entry.get("name") or f"{key[0]}{index + 1}"} if isinstance(entry, dict) else entry
 
 

@@ -49,7 +49,7 @@ def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
     return list({max(points, key=lambda point: sum(a * b for a, b in zip(way, point, strict=True))) for way in ways})
 
 
-def drawn_bodies(placed: Iterable[str], welds: Iterable[tuple[str, str]]) -> set[str]:
+def drawn_bodies(placed: Iterable[str], welds: Iterable[tuple[str, str]]) -> frozenset[str]:
     """The bodies that the drawing places: those ``placed``, and those welded to the ground or to one that is placed."""
     drawn = set(placed) - {GROUND}
     welded: dict[str, list[str]] = {}
@@ -65,7 +65,7 @@ def drawn_bodies(placed: Iterable[str], welds: Iterable[tuple[str, str]]) -> set
             if other not in drawn:
                 drawn.add(other)
                 stack.append(other)
-    return drawn
+    return frozenset(drawn)
 
 
 def pose_of(drawing: Drawing) -> dict[Expr, Expr]:

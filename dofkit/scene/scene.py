@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, ValidatorFunctionWrapHandler, WrapValidator
+from pydantic import BeforeValidator, Field, PrivateAttr, WrapValidator
 
 from dofkit.base.errors import Fault
 from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
+from dofkit.scene.constraints.equations import as_equation
 from dofkit.scene.fields import (
     Listed,
     Number,
@@ -22,35 +23,24 @@ from dofkit.scene.fields import (
     fault_at,
     fault_error,
     faults_of,
-    retold,
-    suggestion,
 )
 from dofkit.scene.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, Force, Particle
 from dofkit.scene.survey import KeptSurvey, Survey
+from dofkit.scene.tagged_union import TaggedUnion
 
 __all__ = ["Body", "BodyPoint", "Energies", "Force", "Particle", "Scene", "check", "faults_of"]
 
 
-def _constraint(value: object) -> object:
-    """A plain text is an equation."""
-    return {"type": "equation", "text": value} if isinstance(value, str) else value
-
-
-def _told(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
-    """A constraint, its faults at paths free of the type's tag."""
-    if isinstance(value, Mapping):
-        given = value.get("type")
-        if given is None:
-            raise fault_error("a constraint needs its `type`", "the types are " + ", ".join(TYPES))
-        if not isinstance(given, str) or given not in TYPES:
-            hint = suggestion(given, list(TYPES), "types")
-            raise fault_at(("type",), f"there is no constraint type '{given}'", hint)
-    elif not isinstance(value, ConstraintBase):
-        raise fault_error("a constraint is a text or a mapping with a `type`")
-    try:
-        return handler(value)
-    except ValidationError as error:
-        raise retold(error, "a constraint", (), lambda loc: loc[1:]) from None
+_CONSTRAINT = TaggedUnion(
+    base=ConstraintBase,
+    called="a constraint",
+    key="type",
+    known=TYPES,
+    names="types",
+    listing="the types are ",
+    unknown="there is no constraint type '{}'",
+    otherwise=("a constraint is a text or a mapping with a `type`", None),
+)
 
 
 def _parameters(value: object) -> object:
@@ -103,7 +93,9 @@ def _tolerance(value: object) -> object:
 
 _Mapping = BeforeValidator(_mapping)
 _AnyConstraint = Annotated[
-    AnyConstraint, WrapValidator(_told), BeforeValidator(_constraint, json_schema_input_type=str | AnyConstraint)
+    AnyConstraint,
+    WrapValidator(_CONSTRAINT.validated),
+    BeforeValidator(as_equation, json_schema_input_type=str | AnyConstraint),
 ]
 
 

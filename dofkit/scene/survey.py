@@ -17,7 +17,7 @@ from dofkit.base.errors import Fault
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import Expr
 from dofkit.report import Report
-from dofkit.scene.constraints import ConstraintBase, On
+from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.constraints.equations import LETTERS
 from dofkit.scene.drawing import Drawing, drawing_of
 from dofkit.scene.elaboration import Elaboration, elaborations, repeat_faults
@@ -25,7 +25,7 @@ from dofkit.scene.fields import suggestion
 from dofkit.scene.ledger import MOVING, Texts, symbols_of
 from dofkit.scene.names import Declared, Owners, Vocabulary, name_faults, vocabulary_of, within_member
 from dofkit.scene.parts import Energies, Force, texts_of
-from dofkit.scene.reference import size_of
+from dofkit.scene.reference import drawn_bodies, size_of
 from dofkit.scene.world import Before, Findings, World, within
 from dofkit.system import GROUND, Connection, Constraint, Distance
 
@@ -47,8 +47,8 @@ class Surveyed(Declared, Protocol):
 class Survey:
     """All that is known of a scene: its drawing, its constraints lowered, what they connect, and its faults.
 
-    ``generic``, ``drawn``, ``welds``, ``links``, ``distances`` (the last two by constraint index), ``special`` and
-    ``warnings`` are as in `Findings`, of all entries; ``size``: that of the drawing.
+    ``generic``, ``links``, ``distances`` (these two by constraint index), ``special`` and ``warnings`` are as in
+    `Findings`, of all entries; ``drawn``: the bodies that the drawing places; ``size``: that of the drawing.
     """
 
     drawing: Drawing
@@ -56,7 +56,6 @@ class Survey:
     connections: tuple[Connection, ...]
     generic: tuple[str, ...]
     drawn: frozenset[str]
-    welds: tuple[tuple[str, str], ...]
     links: tuple[tuple[int, str, str], ...]
     distances: Mapping[int, tuple[Distance, ...]]
     special: bool
@@ -110,17 +109,18 @@ def _joined(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Findin
     """What was read of all entries, put together."""
     findings = [*(e.findings for e in read), *forces]
     size = size_of([*drawing.points, *(p for f in findings for p in f.points)])
-    misfits = (m for f in findings for m in f.misfits)
+    placed = drawing.drawn.union(*(f.drawn for f in findings if f.drawn))
+    drawn = drawn_bodies(placed, (ends for f in findings for ends in f.welds))
+    misfits = (m for f in findings for m in f.misfits if m.body is None or m.body in drawn)
     return Survey(
         drawing=drawing,
         constraints=tuple(e.constraint for e in read),
         connections=tuple(e.connection for e in read),
         generic=tuple(name for f in findings for name in f.generic),
-        drawn=drawing.drawn.union(*(f.drawn for f in findings if f.drawn)),
-        welds=tuple(ends for f in findings for ends in f.welds),
+        drawn=drawn,
         links=tuple((i, first, second) for i, e in enumerate(read) for first, second in e.findings.links),
         distances={i: e.findings.distances for i, e in enumerate(read) if e.findings.distances},
-        special=any(f.special for f in findings),
+        special=any(f.special or not drawn.isdisjoint(f.special_of) for f in findings),
         size=size,
         warnings=tuple(warning for f in findings for warning in f.warnings),
         faults=(*faults, *(m.fault for m in misfits if not within(m.distance, drawing.tolerance, size))),
@@ -167,7 +167,7 @@ def _mentioned(scene: Surveyed, vocabulary: Vocabulary) -> frozenset[str]:
     found: set[str] = set()
     member = within_member(vocabulary.names, LETTERS)
     for constraint in scene.constraints:
-        names = member if isinstance(constraint, On) else vocabulary.names
+        names = member if constraint.facts.lettered else vocabulary.names
         for text in constraint.texts():
             found.update(_moving_names(symbols_of(text, names)))
     given: list[Any] = [*scene.forces, *([scene.energies] if scene.energies else [])]

@@ -14,8 +14,9 @@ from itertools import chain
 from typing import NamedTuple
 
 from dofkit.base.errors import Fault
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate, differs_from_zero
-from dofkit.expressions.tree import ONE, TIME, ZERO, Expr, parameter, substitute
+from dofkit.expressions.tree import ONE, TIME, ZERO, Expr, parameter
 from dofkit.expressions.vectors import Vec, across
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.fields import Vector
@@ -33,10 +34,14 @@ class Direction(NamedTuple):
 
 
 class Misfit(NamedTuple):
-    """A fault, unless ``distance`` (None: no number) is within the tolerance once the size of the drawing is known."""
+    """A fault, unless ``distance`` (None: no number) is within the tolerance once the size of the drawing is known.
+
+    With a ``body``: a fault only where the drawing turns out to place that one.
+    """
 
     distance: float | None
     fault: Fault
+    body: str | None = None
 
 
 class Before(NamedTuple):
@@ -51,7 +56,8 @@ class Findings(NamedTuple):
     """What comes of reading one entry, its relations apart.
 
     ``generic``: new parameters; ``points``: places given; ``drawn``: the bodies that they draw; ``welds`` and ``links``
-    by their two ends; ``distances`` that are kept. ``special``: symbolic lengths meet a drawing with numbers.
+    by their two ends; ``distances`` that are kept. ``special``: symbolic lengths meet a drawing with numbers;
+    ``special_of``: they do where the drawing turns out to place one of these bodies.
     """
 
     generic: tuple[str, ...]
@@ -61,6 +67,7 @@ class Findings(NamedTuple):
     links: tuple[tuple[str, str], ...]
     distances: tuple[Distance, ...]
     special: bool
+    special_of: frozenset[str]
     misfits: tuple[Misfit, ...]
     warnings: tuple[str, ...]
     faults: tuple[Fault, ...]
@@ -95,6 +102,7 @@ class World(Texts):
         self.distances: list[Distance] = []
         self.misfits: list[Misfit] = []
         self.special = False
+        self.special_of: set[str] = set()
 
     def findings(self) -> Findings:
         """What came of reading the entry."""
@@ -106,6 +114,7 @@ class World(Texts):
             tuple(self.links),
             tuple(self.distances),
             self.special,
+            frozenset(self.special_of),
             tuple(self.misfits),
             tuple(self.warnings),
             tuple(self.faults),
@@ -206,16 +215,18 @@ class World(Texts):
 
     # the drawing
 
-    def differs(self, gap: Expr) -> bool:
+    def differs(self, gap: Expr, body: str | None = None) -> bool:
         """Whether what should vanish in the drawing certainly does not.
 
         A gap that holds parameters vanishes only at special values of them: it is no contradiction,
-        but the drawing is no reference then.
+        but the drawing is no reference then. With a ``body``: only where the drawing turns out to place that one.
         """
         gap = substitute(gap, {TIME: ZERO})
         if gap.is_zero or any(symbol.args[0] != "parameter" for symbol in gap.symbols) or not differs_from_zero(gap):
             return False
-        if gap.symbols:
+        if gap.symbols and body is not None:
+            self.special_of.add(body)
+        elif gap.symbols:
             self.special = True
         return not gap.symbols
 
@@ -227,9 +238,11 @@ class World(Texts):
         """Whether the configuration, or an entry read so far, places a body."""
         return frame.name in self.drawn or frame.name in self.before.drawn
 
-    def misfit(self, distance: float | None, message: str, *where: str | int, hint: str) -> None:
-        """Record a fault, unless the distance turns out to be within the scene's tolerance."""
-        self.misfits.append(Misfit(distance, Fault(message, (*self.here, *where), hint=hint)))
+    def misfit(
+        self, distance: float | None, message: str, *where: str | int, hint: str, body: str | None = None
+    ) -> None:
+        """Record a fault, unless the distance turns out to be within the tolerance, or ``body`` not to be drawn."""
+        self.misfits.append(Misfit(distance, Fault(message, (*self.here, *where), hint=hint), body))
 
 
 def within(distance: float | None, tolerance: Fraction | None, size: float) -> bool:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor, wait
+from functools import partial
 from types import TracebackType
 from typing import Any, Protocol
 
@@ -20,7 +21,9 @@ class StoppedError(DofkitError):
 class Crew(Protocol):
     """Who calls functions elsewhere, ``width`` at a time."""
 
-    width: int
+    @property
+    def width(self) -> int:
+        """How many at a time."""
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """Begin with a call."""
@@ -72,8 +75,9 @@ class Cluster:
         self._executor = self._client.get_executor(pure=False, retries=RETRIES)
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """Begin with a call, on any of the machines; what it raises, or that it was given up, its future raises."""
-        future: Future[Any] = self._executor.submit(function, *arguments)
+        """Begin with a call, on any of the machines; its future raises StoppedError where none of them does it."""
+        future: Future[Any] = Future()
+        self._executor.submit(function, *arguments).add_done_callback(partial(_settle, future))
         return future
 
     def __enter__(self) -> Cluster:
@@ -85,7 +89,11 @@ class Cluster:
         self._client.close()
 
 
-def given_up(error: BaseException) -> StoppedError:
-    """What is said where a cluster does not do a task."""
-    said = " ".join(str(error).split())[:200]
-    return StoppedError(f"the cluster gave a batch up: {type(error).__name__}: {said}")
+def _settle(future: Future[Any], ended: Future[Any]) -> None:
+    """Hand on what a call in the cluster gave, or that it was given up."""
+    error = CancelledError() if ended.cancelled() else ended.exception()
+    if error is None:
+        future.set_result(ended.result())
+        return
+    reason = " ".join(str(error).split())[:200]
+    future.set_exception(StoppedError(f"the cluster gave a batch up: {type(error).__name__}: {reason}"))

@@ -86,11 +86,11 @@ def cores() -> int:
 
 
 @cache
-def _shared(process: int) -> Pool:
+def _shared(process: int, module: str) -> Pool:
     del process
-    return Pool(modules=("dofkit.methods.jobs",))
+    return Pool(modules=(module,))
 
 
-def shared() -> Pool:
-    """The pool of this process that classifies scenes; a fork of the process has its own."""
-    return _shared(os.getpid())
+def shared(module: str) -> Pool:
+    """The pool of this process whose workers have a module imported; a fork of the process has its own."""
+    return _shared(os.getpid(), module)

@@ -56,7 +56,7 @@ class Worker:
                 return link
             keep = False
             try:
-                outcome, keep = self._asked(link, message, job)
+                outcome, keep = self._outcome_of(link, message, job)
                 return outcome
             finally:
                 if not keep:
@@ -93,7 +93,7 @@ class Worker:
             return link
         return self._link
 
-    def _asked(self, link: _Link, message: bytes, job: Job) -> tuple[JobOutcome, bool]:
+    def _outcome_of(self, link: _Link, message: bytes, job: Job) -> tuple[JobOutcome, bool]:
         """The outcome, and whether the worker is good for another job."""
         value: Json = None
         limit, following = job.limits

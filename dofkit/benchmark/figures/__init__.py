@@ -1,35 +1,17 @@
-"""The figures of a run, one function each: ``draw(chart)``, None where there is nothing to show. Needs matplotlib."""
+"""The figures of a run. Needs matplotlib, which is imported when the first of them is drawn."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from pathlib import Path
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-from matplotlib.figure import Figure
+if TYPE_CHECKING:
+    from dofkit.benchmark.figures.table import FIGURES, write
 
-from dofkit.benchmark.figures import cost, fronts, matrix, reductions, sweeps
-from dofkit.benchmark.figures.style import settle, styled
-from dofkit.benchmark.record import ChartRun
-
-FIGURES: Mapping[str, Callable[[ChartRun], Figure | None]] = {
-    "fronts": fronts.draw,
-    "matrix": matrix.draw,
-    "cost": cost.draw,
-    "tolerance": sweeps.tolerance,
-    "bits": sweeps.bits,
-    "primes": sweeps.primes,
-    "reductions": reductions.draw,
-}
+__all__ = ["FIGURES", "write"]
 
 
-def write(chart: ChartRun, out: Path) -> Iterator[Path]:
-    """Draw all figures into a folder, each as SVG and PNG. Raises OSError."""
-    for name, draw in FIGURES.items():
-        with styled():
-            figure = draw(chart)
-            if figure is None:
-                continue
-            settle(figure)
-            figure.savefig(out / f"{name}.svg", metadata={"Date": None})
-            figure.savefig(out / f"{name}.png", dpi=144, metadata={"Software": None})
-        yield out / f"{name}.png"
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    return getattr(import_module("dofkit.benchmark.figures.table"), name)

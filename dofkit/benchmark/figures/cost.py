@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -19,9 +19,22 @@ PANELS, ACROSS = 12, 3
 APART = 9.0
 
 
+class CostPanel(NamedTuple):
+    """One family and question: what its members cost, and the power laws fitted to that, by method."""
+
+    title: str
+    points: list[MedianTime]
+    fits: Mapping[str, Fit]
+
+    @property
+    def sizes(self) -> list[int]:
+        """The sizes of its members."""
+        return sorted({point.size for point in self.points})
+
+
 def draw(chart: ChartRun) -> Figure | None:
     """The families that grow most."""
-    panels = chosen(chart)
+    panels = [_panel(chart, *key) for key in steepest(chart)]
     if not panels:
         return None
     look = looks(dict.fromkeys(score.method for score in chart.scores))
@@ -31,21 +44,25 @@ def draw(chart: ChartRun) -> Figure | None:
     figure = sheet(4.3 * across + 0.2, 2.9 * down, title, chart.captions["cost"])
     grid = figure.subplots(down, across, squeeze=False).ravel()
     low = min(point.seconds for point in chart.points)
-    for axes, (family, question) in zip(grid, panels, strict=False):
-        points = [point for point in chart.points if (point.family, point.question) == (family, question)]
-        fits = {fit.method: fit for fit in chart.fits if (fit.family, fit.question) == (family, question)}
-        _panel(axes, f"{family}: {question}", points, fits, look, (low / 2, 3 * chart.ran.limit), chart.ran.limit)
+    for axes, panel in zip(grid, panels, strict=False):
+        axes.set_ylim(low / 2, 3 * chart.ran.limit)
+        _scales(axes, panel)
+        _curves(axes, panel.points, look, chart.ran.limit)
     for axes in grid[len(panels) :]:
         axes.set_axis_off()
     settle(figure)
-    for axes, (family, question) in zip(grid, panels, strict=False):
-        points = [point for point in chart.points if (point.family, point.question) == (family, question)]
-        fits = {fit.method: fit for fit in chart.fits if (fit.family, fit.question) == (family, question)}
-        _names(axes, points, fits, look)
+    for axes, panel in zip(grid, panels, strict=False):
+        _names(axes, panel.points, panel.fits, look)
     return figure
 
 
-def chosen(chart: ChartRun) -> list[tuple[str, str]]:
+def _panel(chart: ChartRun, family: str, question: str) -> CostPanel:
+    points = [point for point in chart.points if (point.family, point.question) == (family, question)]
+    fits = {fit.method: fit for fit in chart.fits if (fit.family, fit.question) == (family, question)}
+    return CostPanel(f"{family}: {question}", points, fits)
+
+
+def steepest(chart: ChartRun) -> list[tuple[str, str]]:
     """Families and one question of each: those whose largest member is the most times the smallest."""
     sizes: dict[tuple[str, str], list[int]] = {}
     for point in chart.points:
@@ -56,21 +73,13 @@ def chosen(chart: ChartRun) -> list[tuple[str, str]]:
     return [key for key in best if key in most]
 
 
-def _panel(
-    axes: Axes,
-    title: str,
-    points: Sequence[MedianTime],
-    fits: Mapping[str, Fit],
-    look: Mapping[str, Look],
-    y: tuple[float, float],
-    limit: float,
-) -> None:
+def _scales(axes: Axes, panel: CostPanel) -> None:
+    """Both logarithmic, with room for the names at the right."""
+    sizes = panel.sizes
     axes.set_xscale("log")
     axes.set_yscale("log")
-    sizes = sorted({point.size for point in points})
     axes.set_xlim(sizes[0] / 1.15, sizes[-1] * (sizes[-1] / sizes[0]) ** 0.62 * 1.3)
-    axes.set_ylim(*y)
-    axes.set_title(title)
+    axes.set_title(panel.title)
     axes.set_xlabel("size")
     axes.yaxis.set_major_formatter(FuncFormatter(lambda seconds, _: seconds_text(seconds)))
     ticks = [m * 10**k for k in range(9) for m in (1, 2, 5) if sizes[0] <= m * 10**k <= sizes[-1]]
@@ -78,30 +87,28 @@ def _panel(
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.xaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_minor_locator(NullLocator())
-    axes.plot([sizes[0], sizes[-1]], [limit, limit], color="#999999", linewidth=0.8, linestyle=(0, (2, 2)), zorder=1)
+
+
+def _curves(axes: Axes, points: Sequence[MedianTime], look: Mapping[str, Look], limit: float) -> None:
+    """A curve for every method, up to the first size that was not done within the limit: a cross on its line."""
+    ends = min(point.size for point in points), max(point.size for point in points)
+    axes.plot(ends, [limit, limit], color="#999999", linewidth=0.8, linestyle=(0, (2, 2)), zorder=1)
     for method in dict.fromkeys(point.method for point in points):
         curve = sorted((p for p in points if p.method == method), key=lambda p: p.size)
         done = [p for p in curve if p.timed_out < p.trials]
         late = [p for p in curve if p.timed_out == p.trials][:1]
-        one = look[method]
-        above = 6 if method == AUTO else 3
-        shown = sorted(done + late, key=lambda p: p.size)
-        axes.plot(
-            [p.size for p in shown], [p.seconds for p in shown], color=one.colour, linewidth=one.width, zorder=above
-        )
-        marks = 9 if one.mark == "*" else 4.5
-        axes.plot(
-            [p.size for p in done],
-            [p.seconds for p in done],
-            one.mark,
-            color=one.colour,
-            markersize=marks,
-            zorder=above,
-        )
+        one, above = look[method], 6 if method == AUTO else 3
+        line = sorted(done + late, key=lambda p: p.size)
+        axes.plot(*_xy(line), color=one.colour, linewidth=one.width, zorder=above)
+        size = 9 if one.mark == "*" else 4.5
+        axes.plot(*_xy(done), one.mark, color=one.colour, markersize=size, zorder=above)
         if late:
-            axes.plot(
-                [late[0].size], [limit], marker="x", markersize=7, markeredgewidth=1.8, color=one.colour, zorder=7
-            )
+            cross: dict[str, Any] = {"marker": "x", "markersize": 7, "markeredgewidth": 1.8, "zorder": 7}
+            axes.plot([late[0].size], [limit], color=one.colour, **cross)
+
+
+def _xy(points: Sequence[MedianTime]) -> tuple[list[int], list[float]]:
+    return [p.size for p in points], [p.seconds for p in points]
 
 
 def _names(axes: Axes, points: Sequence[MedianTime], fits: Mapping[str, Fit], look: Mapping[str, Look]) -> None:

@@ -13,33 +13,23 @@ from dofkit.benchmark.trials import (
     graphs,
     identities,
     joints,
+    mechanisms,
+    near_singular,
     powers,
     relations,
     times,
 )
-from dofkit.benchmark.trials import (
-    mechanisms as anywhere,
-)
-from dofkit.benchmark.trials import (
-    near_singular as near,
-)
-from dofkit.benchmark.trials.making import few
+from dofkit.benchmark.trials.construction import Construction, few
 from dofkit.benchmark.trials.trial import Trial
 
 Family = Callable[[bool], Iterator[Trial]]
 
-
-def _bounded(family: Family) -> Family:
-    """Of the small members, a few that stand for the others."""
-    return lambda quick: few(family(True)) if quick else family(False)
-
-
-_ALL: Mapping[str, Family] = {
+_ALL: Mapping[str, Callable[[bool], Iterator[Construction]]] = {
     **catalog.FAMILIES,
     **graphs.FAMILIES,
     **joints.FAMILIES,
-    **anywhere.FAMILIES,
-    **near.FAMILIES,
+    **mechanisms.FAMILIES,
+    **near_singular.FAMILIES,
     **chains.FAMILIES,
     **blocks.FAMILIES,
     **forms.FAMILIES,
@@ -49,5 +39,16 @@ _ALL: Mapping[str, Family] = {
     **identities.FAMILIES,
     **equivalence.FAMILIES,
 }
+
+
+def _trials(name: str, constructions: Iterator[Construction]) -> Iterator[Trial]:
+    return (trial for construction in constructions for trial in construction.trials(name))
+
+
+def _family(name: str) -> Family:
+    """Of the small members, a few that stand for the others."""
+    return lambda quick: few(_trials(name, _ALL[name](True))) if quick else _trials(name, _ALL[name](False))
+
+
 #: Every family by name. ``quick``: a few small members that stand for the others.
-FAMILIES: Mapping[str, Family] = {name: _bounded(family) for name, family in _ALL.items()}
+FAMILIES: Mapping[str, Family] = {name: _family(name) for name in _ALL}

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from dofkit.benchmark.trials.making import ask, scene
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction, scene
 
 
 @dataclass(frozen=True)
@@ -48,7 +47,7 @@ PARTS = (
 )  # fmt: skip
 
 
-def many_blocks(quick: bool) -> Iterator[Trial]:
+def many_blocks(quick: bool) -> Iterator[Construction]:
     """Copies of one part, each in its own coordinates: what is true of one holds of each."""
     for part in PARTS:
         for n in (1, 2) if quick else (1, 4, 8, 16, 64):
@@ -59,7 +58,7 @@ def many_blocks(quick: bool) -> Iterator[Trial]:
         yield from _trial(f"{n} of each", list(PARTS) * n, "freedoms of separate parts add up", ("many-blocks",))
 
 
-def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, ...]) -> Iterator[Trial]:
+def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, ...]) -> Iterator[Construction]:
     names, rows = [], []
     labels: dict[str, bool] = {}
     over = []
@@ -69,8 +68,7 @@ def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, .
             rows.append({"name": f"part{k}_{i}", "type": "equation", "text": row.replace("{k}", str(k))})
             labels[f"part{k}_{i}"] = part.holonomic[i]
         over += [f"part{k}_{i}" for i in part.redundant]
-    yield from ask(
-        "many blocks",
+    yield Construction(
         name,
         scene(names, *rows, parameters={"R": "positive"}),
         because,
@@ -82,7 +80,7 @@ def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, .
     )
 
 
-def shared_heading(quick: bool) -> Iterator[Trial]:
+def shared_heading(quick: bool) -> Iterator[Construction]:
     """Discs that share their heading: each row has columns of its own, and theta sits in the coefficients of all."""
     for n in (1, 2) if quick else (1, 2, 4, 8):
         names = ["th", *(f"{q}{k}" for k in range(n) for q in ("x", "y", "ph"))]
@@ -94,8 +92,7 @@ def shared_heading(quick: bool) -> Iterator[Trial]:
             (["dth = 0"], n, 2 * n + 1, "together"),
             (["th = ph0"], 3 * n - 2, 3, "together"),
         ):
-            yield from ask(
-                "discs with one heading",
+            yield Construction(
                 f"{n} discs, {held[0] if held else 'free to turn'}",
                 scene(names, *held, *rows),
                 "turning takes each anywhere; held, all follow their angles; turned by the first's roll, it does",

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from dofkit.benchmark.trials.making import ask, every, numbered, scene
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction, every, numbered, scene
 
 
-def pendulums(quick: bool) -> Iterator[Trial]:
+def pendulums(quick: bool) -> Iterator[Construction]:
     """Links one after the other from the ground; closed on the ground; and with links written twice."""
     for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32, 64, 128)) for d in (2, 3)):
         places = [[k, k * k % 3, k % 2][:d] for k in range(n + 1)]
@@ -30,8 +29,7 @@ def pendulums(quick: bool) -> Iterator[Trial]:
             ("closed", closed, d * (n - 1) - n, []),
         ):
             if dof >= 0:
-                yield from ask(
-                    "chains of links",
+                yield Construction(
                     f"{n} links in dimension {d}, {name}",
                     made,
                     "each link takes one; a chain that is not straight is regular; a link written again adds nothing",
@@ -46,18 +44,13 @@ def _link(name: str, a: Any, b: Any) -> dict[str, Any]:
     return {"name": name, "type": "link", "between": [a, b]}
 
 
-def bodies(quick: bool) -> Iterator[Trial]:
+def bodies(quick: bool) -> Iterator[Construction]:
     """Bodies hinged one to the next, in the plane and in space; every third hinge welded too."""
     for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32)) for d in (2, 3)):
         names = ["ground", *(f"b{k}" for k in range(n))]
         hinges: list[dict[str, Any]] = []
         for k in range(n):
-            hinge = {
-                "name": f"h{k}",
-                "type": "revolute",
-                "between": names[k : k + 2],
-                "at": [k, k % 2, 0][:d],
-            }
+            hinge = {"name": f"h{k}", "type": "revolute", "between": names[k : k + 2], "at": [k, k % 2, 0][:d]}
             hinges.append(hinge | ({"axis": [k % 3, 1, k % 2]} if d == 3 else {}))
         welded = range(0, n, 3)
         welds = [{"name": f"w{k}", "type": "weld", "between": names[k : k + 2]} for k in welded]
@@ -65,8 +58,7 @@ def bodies(quick: bool) -> Iterator[Trial]:
             ("hinged", hinges, n, []),
             ("every third welded first", [*welds, *hinges], n - len(welded), [f"h{k}" for k in welded]),
         ):
-            yield from ask(
-                "chains of bodies",
+            yield Construction(
                 f"{n} bodies in dimension {d}, {name}",
                 {"dimension": d, "bodies": names[1:], "constraints": joints},
                 "an open chain: the freedoms of the joints add up; a hinge between welded bodies says nothing new",
@@ -77,7 +69,7 @@ def bodies(quick: bool) -> Iterator[Trial]:
             )
 
 
-def chained_forms(quick: bool) -> Iterator[Trial]:
+def chained_forms(quick: bool) -> Iterator[Construction]:
     """dq_i = q_i+1 dq_0: nothing integrates while the end is open, everything once it closes (Goursat's normal form).
 
     Closed: the last form reads dq_n = q_0 dq_0, so that q_n, then q_n-1, and so on are functions of q_0.
@@ -85,48 +77,32 @@ def chained_forms(quick: bool) -> Iterator[Trial]:
     for n in (2, 3) if quick else (2, 3, 4, 6, 8):
         names = [f"q{k}" for k in range(n + 1)]
         forms = [f"dq{k} - q{k + 1} dq0 = 0" for k in range(1, n)]
-        yield from ask(
-            "chained forms",
-            f"{n - 1} forms, open",
-            scene(names, *forms),
-            "Goursat's normal form: each derived system loses one form, down to none",
-            ("non-holonomic", "long-chain"),
-            size=n,
-            dof=n + 1,
-            integrability=every(numbered(n - 1), False),
-        )
-        for end, told in (("q0", "closed"), (f"(q0 + q{n}^2)", "closed by a Riccati equation")):
-            yield from ask(
-                "chained forms",
-                f"{n} forms, {told}",
-                scene(names, *forms, f"dq{n} - {end} dq0 = 0"),
-                "as many forms as coordinates but one leave one direction: all integrate together",
-                ("together", "long-chain"),
-                size=n,
-                dof=1,
-                integrability=every(numbered(n), True),
-            )
         half = n // 2
         broken = [*forms[: half - 1], f"dq{half} - q0^2 dq0 = 0", *forms[half:]] if half else forms
-        yield from ask(
-            "chained forms",
-            f"{n - 1} forms, one of them closed",
-            scene(names, *broken),
-            "what comes before a form in q0 alone integrates with it; what comes after is a chain of its own",
-            ("together", "long-chain"),
-            size=n,
-            dof=n + 1 - half,
-            integrability={f"c{k}": k <= half for k in range(1, n)} if half < n - 1 or n > 2 else None,
-        )
+        closing = "as many forms as coordinates but one leave one direction: all integrate together"
+        # name, the forms, dof, which integrate (None: not asked), because, trait
+        members: list[tuple[str, list[str], int, dict[str, bool] | None, str, str]] = [
+            (f"{n - 1} forms, open", forms, n + 1, every(numbered(n - 1), False),
+             "Goursat's normal form: each derived system loses one form, down to none", "non-holonomic"),
+            (f"{n} forms, closed", [*forms, f"dq{n} - q0 dq0 = 0"], 1, every(numbered(n), True), closing, "together"),
+            (f"{n} forms, closed by a Riccati equation", [*forms, f"dq{n} - (q0 + q{n}^2) dq0 = 0"], 1,
+             every(numbered(n), True), closing, "together"),
+            (f"{n - 1} forms, one of them closed", broken, n + 1 - half,
+             {f"c{k}": k <= half for k in range(1, n)} if half < n - 1 or n > 2 else None,
+             "what comes before a form in q0 alone integrates with it; what comes after is a chain of its own",
+             "together"),
+        ]  # fmt: skip
+        for name, rows, dof, labels, because, trait in members:
+            traits = (trait, "long-chain")
+            yield Construction(name, scene(names, *rows), because, traits, n, dof=dof, integrability=labels)
 
 
-def trailers(quick: bool) -> Iterator[Trial]:
-    """A car that steers with trailers: every configuration is reached (Laumond 1993); on a straight rail it is not."""
+def trailers(quick: bool) -> Iterator[Construction]:
+    """A car that steers with trailers: every configuration is reached [Laumond1993]; on a straight rail it is not."""
     for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
         made = car(n)
         forms = numbered(n + 2)
-        yield from ask(
-            "trailers",
+        yield Construction(
             f"a car with {n} trailers",
             made,
             "controllable: the derived system of n + 2 forms goes down to none (Laumond 1993)",
@@ -139,8 +115,7 @@ def trailers(quick: bool) -> Iterator[Trial]:
         if n > 3:
             continue
         held = {**made, "constraints": ["phi = 0", *made["constraints"]]}
-        yield from ask(
-            "trailers",
+        yield Construction(
             f"a car with {n} trailers that does not steer",
             held,
             "its heading stays, so the axle runs straight and one direction is left: all integrate",
@@ -163,7 +138,7 @@ def car(n: int) -> dict[str, Any]:
     return scene(["x", "y", "phi", *angles], *forms, parameters=lengths)
 
 
-def equations(quick: bool) -> Iterator[Trial]:
+def equations(quick: bool) -> Iterator[Construction]:
     """Relations each between neighbours: x_i+1 = f(x_i), and the ends tied once more, rightly or not."""
     for n in (3, 6) if quick else (3, 6, 12, 24):
         names = [f"x{k}" for k in range(n)]
@@ -175,15 +150,14 @@ def equations(quick: bool) -> Iterator[Trial]:
             ("tied by another slope", f"x{n - 1} = {factor + 1} x0", 0, [], ("plain", "long-chain")),
         )
         for name, last, dof, over, traits in rows:
-            yield from ask(
-                "chains of equations",
+            yield Construction(
                 f"{n} coordinates, {name}",
                 scene(names, *sums, last),
                 f"x_n-1 = {factor} x_0 + {factor - 1} by the chain",
                 traits,
                 size=n,
                 dof=dof,
-                redundancy=None if dof < 0 else over,
+                redundancy=over,
             )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from dofkit.benchmark.trials.making import KnownTruth, scene
+from dofkit.benchmark.trials.construction import KnownTruth, scene
 from dofkit.benchmark.trials.traps import NOT_ZERO, TRAPS, Trap
 
 Context = Callable[[Trap, str, bool], KnownTruth | None]

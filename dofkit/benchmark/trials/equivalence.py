@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from dofkit.benchmark.trials.making import same, scene
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction, scene
 
 #: What is done to ``u = 0`` (``{u}``, ``{q}`` a coordinate in it): is it the same, the trait, why.
 Way = tuple[str, str, bool, str, str]
@@ -50,8 +49,13 @@ class AskedConstraint:
     parameters: Mapping[str, str] | None = None
 
     def scene(self, text: str = "") -> dict[str, Any]:
-        rows: Sequence[Any] = [*self.others, {"name": "asked", "type": "equation", "text": text or f"{self.u} = 0"}]
+        """The scene, with another text for the constraint where one is given."""
+        rows = (*self.others, _asked_equation(text or f"{self.u} = 0"))
         return scene(self.coordinates.split(), *rows, parameters=dict(self.parameters or {}))
+
+
+def _asked_equation(text: str) -> dict[str, str]:
+    return {"name": "asked", "type": "equation", "text": text}
 
 
 FINITE = (
@@ -198,26 +202,27 @@ MOVING = (
 FOR_FORMS = ("negated", "seven times", "tiny", "times 1 + q^2", "times e^q", "times 2 + sin q", "over 1 + q^2")
 
 
-def answers(quick: bool) -> Iterator[Trial]:
+def answers(quick: bool) -> Iterator[Construction]:
     """Every constraint in every way of writing it, and in the ways of its own."""
     for number, asked in enumerate(FINITE):
-        for turn, (how, text, truth, trait, because) in enumerate(WAYS):
-            if (number + turn) % (16 if quick else 2) or (how == "in a cubic" and number > 1):
-                continue
-            handed = ("asked", text.format(u=asked.u, q=asked.q))
-            yield same("answers", f"{asked.name}, {how}", asked.scene(), handed, truth, because, (trait,))
-    for asked in MOVING:
-        for how, text, truth, trait, because in WAYS:
-            if how in FOR_FORMS and not quick:
-                handed = ("asked", text.format(u=asked.u, q=asked.q))
-                yield same("answers", f"{asked.name}, {how}", asked.scene(), handed, truth, because, (trait,))
+        for turn, way in enumerate(WAYS):
+            if (number + turn) % (16 if quick else 2) == 0 and (way[0] != "in a cubic" or number < 2):
+                yield _rewritten(asked, way)
+    for asked in () if quick else MOVING:
+        yield from (_rewritten(asked, way) for way in WAYS if way[0] in FOR_FORMS)
     for asked in (*FINITE, *MOVING):
-        for text, truth, trait, because in asked.answers[:: 5 if quick else 1]:
-            handed = ("asked", text)
-            yield same("answers", f"{asked.name}: {text}", asked.scene(), handed, truth, because, (trait,))
+        for text, same, trait, because in asked.answers[:: 5 if quick else 1]:
+            about = f"{asked.name}: {text}", asked.scene(), because, (trait,)
+            yield Construction(*about, equivalence=("asked", text, same))
 
 
-def inequalities(quick: bool) -> Iterator[Trial]:
+def _rewritten(asked: AskedConstraint, way: Way) -> Construction:
+    how, text, same, trait, because = way
+    answer = ("asked", text.format(u=asked.u, q=asked.q), same)
+    return Construction(f"{asked.name}, {how}", asked.scene(), because, (trait,), equivalence=answer)
+
+
+def inequalities(quick: bool) -> Iterator[Construction]:
     """A side of a surface: the same side of the same surface, or not."""
     disc = AskedConstraint("disc", "x y", "", "x", parameters={"R": "positive"})
     rows = [
@@ -233,21 +238,21 @@ def inequalities(quick: bool) -> Iterator[Trial]:
     ]
     for text, truth, trait in rows[:: 4 if quick else 1]:
         made = disc.scene("x^2 + y^2 <= R^2")
-        yield same("sides", text, made, ("asked", text), truth, "a disc", (trait, "inequality"))
+        yield Construction(text, made, "a disc", (trait, "inequality"), equivalence=("asked", text, truth))
 
 
-def large_answers(quick: bool) -> Iterator[Trial]:
+def large_answers(quick: bool) -> Iterator[Construction]:
     """The same with many coordinates: spheres, sums of many rows, many forms."""
     for n in (3,) if quick else (3, 6, 12, 24):
         x = [f"x{k}" for k in range(n)]
         square = " + ".join(f"{q}^2" for q in x)
-        sphere = scene(x, {"name": "asked", "type": "equation", "text": f"{square} = 1"})
+        sphere = scene(x, _asked_equation(f"{square} = 1"))
         rows = [f"x{k} = {k} x0" for k in range(1, n)]
-        chain = scene([*x, "y"], *rows, {"name": "asked", "type": "equation", "text": "y = x0^2"})
+        chain = scene([*x, "y"], *rows, _asked_equation("y = x0^2"))
         total = " + ".join(f"{k + 2}*(x{k} - {k} x0)" for k in range(1, n))
         forms = [f"dx{k} = y{k} dx0" for k in range(1, n)]
         names = [*x, *(f"y{k}" for k in range(1, n)), "z", "w"]
-        moving = scene(names, *forms, {"name": "asked", "type": "equation", "text": "dz = w dx0"})
+        moving = scene(names, *forms, _asked_equation("dz = w dx0"))
         summed = " + ".join(f"w*dx{k}" for k in range(1, n)), " + ".join(f"w*y{k}*dx0" for k in range(1, n))
         members = (
             (f"sphere in {n}, in exp", sphere, f"exp({square}) = E", True, "rewritten"),
@@ -261,15 +266,16 @@ def large_answers(quick: bool) -> Iterator[Trial]:
              "tiny-difference"),
         )  # fmt: skip
         for name, made, text, truth, trait in members:
-            yield same("large answers", name, made, ("asked", text), truth, "by its making", (trait, "large"), size=n)
+            about = name, made, "by its making", (trait, "large"), n
+            yield Construction(*about, equivalence=("asked", text, truth))
 
 
-def tiny_answers(quick: bool) -> Iterator[Trial]:
+def tiny_answers(quick: bool) -> Iterator[Construction]:
     """A difference of 10^-k, in a finite relation and in a form, beside a factor of the same size."""
     for k in (6, 30) if quick else (3, 6, 9, 12, 15, 18, 24, 30, 60):
         e = f"1e-{k}"
-        circle = scene(["x", "y"], {"name": "asked", "type": "equation", "text": "x^2 + y^2 = 4"})
-        form = scene(["x", "y", "z"], {"name": "asked", "type": "equation", "text": "dz = y dx"})
+        circle = scene(["x", "y"], _asked_equation("x^2 + y^2 = 4"))
+        form = scene(["x", "y", "z"], _asked_equation("dz = y dx"))
         rows: tuple[tuple[str, dict[str, Any], str, bool], ...] = (
             ("radius", circle, f"x^2 + y^2 = 4 + {e}", False),
             ("ellipse", circle, f"x^2 + (1 + {e}) y^2 = 4", False),
@@ -282,14 +288,8 @@ def tiny_answers(quick: bool) -> Iterator[Trial]:
         for name, made, text, truth in rows:
             trait = "rewritten" if truth else "tiny-difference"
             because = "a factor without zeros" if truth else "another set"
-            answer = ("asked", text)
-            swept = {"gap": float(e)}
-            yield same("tiny differences", f"{name}, {e}", made, answer, truth, because, (trait,), swept=swept)
+            about = f"{name}, {e}", made, because, (trait,)
+            yield Construction(*about, swept={"gap": float(e)}, equivalence=("asked", text, truth))
 
 
-FAMILIES = {
-    "answers": answers,
-    "sides": inequalities,
-    "large answers": large_answers,
-    "tiny differences": tiny_answers,
-}
+FAMILIES = {"answers": answers, "sides": inequalities, "large answers": large_answers, "tiny differences": tiny_answers}

@@ -5,8 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Mapping, Sequence
 
-from dofkit.benchmark.trials.making import ask, every, numbered, scene
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction, Line, every, numbered, scene, tabled
 
 #: A form by coordinate: coefficients as text.
 Form = Mapping[str, str]
@@ -29,7 +28,7 @@ def combined(rows: Sequence[Sequence[str]], forms: Sequence[Form]) -> list[Form]
     return found
 
 
-def mixed_forms(quick: bool) -> Iterator[Trial]:
+def mixed_forms(quick: bool) -> Iterator[Construction]:
     """n exact forms mixed by functions: none integrates alone, all do together; with a contact form among them, none.
 
     The matrix is lower times upper triangular with ones on both diagonals: determinant 1.
@@ -46,8 +45,7 @@ def mixed_forms(quick: bool) -> Iterator[Trial]:
         ):
             rows = [text(form) for form in combined(matrix, forms)]
             whole = all(row[0] for row in matrix) or integrates
-            yield from ask(
-                "mixed forms",
+            yield Construction(
                 f"{n} forms in {2 * n + 1} coordinates, {name}, {seed}",
                 scene(names, *rows),
                 "what they span does not change with a regular matrix of functions",
@@ -89,8 +87,7 @@ def _unimodular(rng: random.Random, n: int) -> list[list[str]]:
     ]
 
 
-#: name, coordinates, rows, dof, integrability by row, redundant, because, trait
-TOGETHER: list[tuple[str, str, Sequence[str], int, Sequence[bool], Sequence[str], str, str]] = [
+TOGETHER: list[Line] = [
     ("one edge on a lamina", "x y th", ["sin(th) dx = cos(th) dy"], 3, [False], [], "a sleigh", "non-holonomic"),
     ("two edges one behind the other", "x y th", ["sin(th) dx = cos(th) dy", "sin(th) dx = cos(th) dy + dth"], 1,
      [True, True], [], "the difference is dth = 0", "together"),
@@ -138,6 +135,7 @@ TOGETHER: list[tuple[str, str, Sequence[str], int, Sequence[bool], Sequence[str]
      "cos(th) dx + sin(th) dy = 2 dph"], 1, [True] * 3, [], "dph = 0, and so dx = dy = 0", "together"),
     ("Engel", "x y z w", ["dz = y dx", "dy = w dx"], 4, [False, False], [], "Goursat's normal form", "non-holonomic"),
     ("Engel with w held", "x y z w", ["dz = y dx", "dy = w dx", "w = 2"], 1, [True] * 3, [], "a line", "together"),
+    # [Cartan1910]
     ("Cartan's five variables", "x y p q z", ["dy = p dx", "dp = q dx", "dz = q^2 dx"], 5, [False] * 3, [],
      "growth 2, 3, 5 (Cartan 1910)", "non-holonomic"),
     ("Cartan's with q in place of q^2", "x y p q z", ["dy = p dx", "dp = q dx", "dz = q dx"], 4, [False] * 3, [],
@@ -145,32 +143,19 @@ TOGETHER: list[tuple[str, str, Sequence[str], int, Sequence[bool], Sequence[str]
 ]  # fmt: skip
 
 
-def together(quick: bool) -> Iterator[Trial]:
+def together(quick: bool) -> Iterator[Construction]:
     """Forms with their system: the label of each is one of the whole."""
-    for name, names, rows, dof, holonomic, over, because, trait in TOGETHER[: 9 if quick else None]:
-        labels = {f"c{i + 1}": value for i, value in enumerate(holonomic)}
-        yield from ask(
-            "forms together",
-            name,
-            scene(names.split(), *rows),
-            because,
-            (trait,),
-            size=len(rows),
-            dof=dof,
-            integrability=labels,
-            redundancy=over,
-        )
+    return map(tabled, TOGETHER[: 9 if quick else None])
 
 
-def near_integrable(quick: bool) -> Iterator[Trial]:
+def near_integrable(quick: bool) -> Iterator[Construction]:
     """n exact forms, one with a step e x_k dx_l in it: it does not integrate, however small the step."""
     for n, digits in ((n, d) for n in ((1, 2) if quick else (1, 2, 4)) for d in (3, 6, 9, 12, 18, 30)):
         names = [*(f"z{k}" for k in range(n)), "x", "y"]
         exact = [f"dz{k} + {k + 1}*(y dx + x dy)" for k in range(n)]
         for name, step, holonomic in (("turned", f"1e-{digits}*x dy", False), ("curved", f"1e-{digits}*y dy", True)):
             rows = [*(f"{form} = 0" for form in exact[:-1]), f"{exact[-1]} + {step} = 0"]
-            yield from ask(
-                "near-integrable forms",
+            yield Construction(
                 f"{n} forms, the last {name} by 1e-{digits}",
                 scene(names, *rows),
                 "d of the last is e dx dy, which no other form holds" if not holonomic else "all are closed",

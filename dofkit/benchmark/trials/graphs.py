@@ -6,8 +6,7 @@ import random
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from dofkit.benchmark.trials.making import ask
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction
 
 Link = tuple[int, int]
 
@@ -28,15 +27,14 @@ def _of(links: Sequence[Link], redundant: Sequence[Link]) -> list[str]:
     return [f"l{k}" for k, link in enumerate(links) if link in chosen]
 
 
-def cliques(quick: bool) -> Iterator[Trial]:
+def cliques(quick: bool) -> Iterator[Construction]:
     """All pairs, joint after joint: its first d links put a joint in its place, each further one is redundant."""
     sizes = {1: (4, 8, 16, 32), 2: (4, 8, 16, 32, 64), 3: (4, 5, 8, 16, 32)}
     for d, n in ((d, n) for d, ladder in sizes.items() for n in (ladder[:1] if quick else ladder)):
         links = [(i, j) for j in range(n) for i in range(j)]
         needed = [(i, j) for i, j in links if i < d]
         for name, chosen in (("all pairs", links), ("only the links that are needed", needed)):
-            yield from ask(
-                "cliques",
+            yield Construction(
                 f"{n} joints in dimension {d}, {name}",
                 linked(n, d, chosen),
                 "a joint on d joints of a rigid framework is held; more links to it are redundant",
@@ -47,8 +45,8 @@ def cliques(quick: bool) -> Iterator[Trial]:
             )
 
 
-def complete_bipartite(quick: bool) -> Iterator[Trial]:
-    """Every joint of one kind with every one of the other (Bolker and Roth 1980)."""
+def complete_bipartite(quick: bool) -> Iterator[Construction]:
+    """Every joint of one kind with every one of the other [BolkerRoth1980]."""
     # (dimension, m, n, dof, redundant: None where it was not derived)
     known = [
         (2, 3, 3, 3, 0),
@@ -67,8 +65,7 @@ def complete_bipartite(quick: bool) -> Iterator[Trial]:
     ]
     for d, m, n, dof, over in known[:: 5 if quick else 1]:
         links = [(i, m + j) for j in range(n) for i in range(m)]
-        yield from ask(
-            "complete bipartite",
+        yield Construction(
             f"{m} and {n} joints in dimension {d}",
             linked(m + n, d, links),
             "rigid in the plane from 3 and 3 on, in space from 4 and 6 or 5 and 5 on (Bolker and Roth 1980)",
@@ -79,49 +76,30 @@ def complete_bipartite(quick: bool) -> Iterator[Trial]:
         )
 
 
-def bananas(quick: bool) -> Iterator[Trial]:
+def bananas(quick: bool) -> Iterator[Construction]:
     """Rigid spindles, each of two ends and a triangle: on the same two ends they are dependent; in a ring they are not.
 
     On the same ends: the last link of every one but the first says again how far these are apart. In a ring of three
     or more: a polygon of rigid bars, each free to turn about itself.
     """
     for n in (2, 3) if quick else (2, 3, 4, 8, 16, 32, 64):
-        links: list[Link] = []
-        for k in range(n):
-            links += _spindle(0, 1, 2 + 3 * k)
-        yield from ask(
-            "double bananas",
-            f"{n} bananas on the same two joints",
-            linked(2 + 3 * n, 3, links),
-            "each holds the distance of its ends: all but the first do so once more; one hinge, each turns about it",
-            ("banana",),
-            size=n,
-            dof=6 + n - 1,
-            redundancy=[f"l{9 * k + 8}" for k in range(1, n)],
-        )
+        same = [link for k in range(n) for link in _spindle(0, 1, 2 + 3 * k)]
         ring = [link for k in range(n) for link in _spindle(k, (k + 1) % n, n + 3 * k)]
-        open_row = [link for k in range(n) for link in _spindle(k, k + 1, n + 1 + 3 * k)]
-        if n > 2:
-            yield from ask(
-                "double bananas",
-                f"{n} bananas in a ring",
-                linked(4 * n, 3, ring),
-                "a polygon of n bars in space (2 n) whose bars turn about themselves (n): no link too many",
-                ("plain",),
-                size=n,
-                dof=3 * n,
-                redundancy=[],
-            )
-        yield from ask(
-            "double bananas",
-            f"{n} bananas in a row",
-            linked(4 * n + 1, 3, open_row),
-            "n rigid bodies, each on the last by a ball joint: 6 + 3 (n - 1)",
-            ("plain",),
-            size=n,
-            dof=3 * n + 3,
-            redundancy=[],
-        )
+        row = [link for k in range(n) for link in _spindle(k, k + 1, n + 1 + 3 * k)]
+        # how they stand, joints, links, dof, redundant, because, trait
+        members: list[tuple[str, int, list[Link], int, list[str], str, str]] = [
+            ("on the same two joints", 2 + 3 * n, same, 6 + n - 1, [f"l{9 * k + 8}" for k in range(1, n)],
+             "each holds the distance of its ends: all but the first do so once more; one hinge, each turns about it",
+             "banana"),
+            ("in a ring", 4 * n, ring, 3 * n, [],
+             "a polygon of n bars in space (2 n) whose bars turn about themselves (n): no link too many", "plain"),
+            ("in a row", 4 * n + 1, row, 3 * n + 3, [],
+             "n rigid bodies, each on the last by a ball joint: 6 + 3 (n - 1)", "plain"),
+        ]  # fmt: skip
+        for how, joints, links, dof, over, because, trait in members:
+            if how != "in a ring" or n > 2:
+                name = f"{n} bananas {how}"
+                yield Construction(name, linked(joints, 3, links), because, (trait,), n, dof=dof, redundancy=over)
 
 
 def _spindle(a: int, b: int, first: int) -> list[Link]:
@@ -130,8 +108,8 @@ def _spindle(a: int, b: int, first: int) -> list[Link]:
     return [*combinations(triangle, 2), *((end, c) for end in (a, b) for c in triangle)]
 
 
-def henneberg(quick: bool) -> Iterator[Trial]:
-    """Put together joint by joint (Henneberg 1911; Tay and Whiteley 1985): rigid, and no link too many.
+def henneberg(quick: bool) -> Iterator[Construction]:
+    """Put together joint by joint [Henneberg1911] [TayWhiteley1985]: rigid, and no link too many.
 
     With links more, each of them is redundant; with the last one left out, there is one freedom more.
     """
@@ -148,8 +126,7 @@ def henneberg(quick: bool) -> Iterator[Trial]:
             ("and links more", [*links, *extra], rigid, extra),
             ("one left out", links[:-1], rigid + 1, []),
         ):
-            yield from ask(
-                "Henneberg",
+            yield Construction(
                 f"{n} joints in dimension {d}, {seed}, {name}",
                 linked(n, d, chosen),
                 "each step keeps the links independent, and with d joints more than links the framework rigid",
@@ -173,7 +150,7 @@ def steps(joints: int, dimension: int, rng: random.Random) -> list[Link]:
     return links
 
 
-def trees_on_a_line(quick: bool) -> Iterator[Trial]:
+def trees_on_a_line(quick: bool) -> Iterator[Construction]:
     """Links along a line: one that closes a circle is redundant, and every part moves by itself."""
     for n in (4, 8) if quick else (4, 8, 16, 32, 64, 128, 256, 512):
         rng = random.Random(n)
@@ -184,8 +161,7 @@ def trees_on_a_line(quick: bool) -> Iterator[Trial]:
             ("with circles", links, redundant),
             ("without", [link for link in links if link not in redundant], []),
         ):
-            yield from ask(
-                "links on a line",
+            yield Construction(
                 f"{n} joints on a line, {name}",
                 linked(n, 1, chosen),
                 "one freedom for every connected part; the last link of a circle is redundant",
@@ -214,34 +190,26 @@ def union(n: int, links: Sequence[Link]) -> tuple[int, list[Link]]:
     return sum(find(v) == v for v in range(n)), closing
 
 
-def clusters(quick: bool) -> Iterator[Trial]:
+def clusters(quick: bool) -> Iterator[Construction]:
     """Rigid clusters with one link too many each, hinged one to the next; or with a link less."""
     for n in (2, 4) if quick else (2, 4, 8, 16, 32, 64, 128):
         links: list[Link] = []
         for k in range(n):
             links += combinations(range(3 * k, 3 * k + 4), 2)
-        over = [f"l{6 * k + 5}" for k in range(n)]
-        yield from ask(
-            "clusters",
-            f"{n} quadrilaterals with both diagonals",
-            linked(3 * n + 1, 2, links),
-            "all pairs of four joints are one link too many; each cluster turns against the last",
-            ("redundant",),
-            size=n,
-            dof=3 + n - 1,
-            redundancy=over,
+        members: tuple[tuple[str, str, list[Link], list[Link]], ...] = (
+            ("both diagonals", "all pairs of four joints are one link too many", links, links[5::6]),
+            ("one diagonal", "two triangles each", [link for k, link in enumerate(links) if k % 6 != 5], []),
         )
-        fewer = [link for k, link in enumerate(links) if k % 6 != 5]
-        yield from ask(
-            "clusters",
-            f"{n} quadrilaterals with one diagonal",
-            linked(3 * n + 1, 2, fewer),
-            "two triangles each; each cluster turns against the last",
-            ("plain",),
-            size=n,
-            dof=3 + n - 1,
-            redundancy=[],
-        )
+        for name, because, chosen, over in members:
+            yield Construction(
+                f"{n} quadrilaterals with {name}",
+                linked(3 * n + 1, 2, chosen),
+                f"{because}; each cluster turns against the last",
+                ("redundant",) if over else ("plain",),
+                size=n,
+                dof=3 + n - 1,
+                redundancy=_of(chosen, over),
+            )
 
 
 FAMILIES = {

@@ -4,30 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from dofkit.benchmark.trials.construction import Construction, KnownTruth, scene
 from dofkit.benchmark.trials.contexts import CONTEXTS
-from dofkit.benchmark.trials.making import KnownTruth, asked, scene
 from dofkit.benchmark.trials.rewritten import other_coordinates
 from dofkit.benchmark.trials.steps import tiny_steps
 from dofkit.benchmark.trials.traps import NOT_ZERO, TRAPS, Trap
-from dofkit.benchmark.trials.trial import Trial
 
 #: Of the contexts and the ways of writing, how far on the next trap or base begins.
 STRIDE = 5
-#: Words by which a group of tiny steps is told apart.
 #: The steps that are taken.
 TAKEN = ("1e-12", "1e-30")
+#: Words by which a group of tiny steps between finite relations is told apart.
 FINITE = ("planes", "circle", "lines", "height", "angle")
 
 
-def identities(quick: bool) -> Iterator[Trial]:
+def identities(quick: bool) -> Iterator[Construction]:
     """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
     seen = set()
     for trap, text, zero, trait, number in _traps(9 if quick else 1):
-        known = _turned(trap, text, zero, number)
+        known = _in_context(trap, text, zero, number)
         if known is not None and known.name not in seen:
             seen.add(known.name)
             because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
-            yield from asked("identities", known, because, (trait,))
+            yield Construction.of(known, because, (trait,))
 
 
 def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
@@ -43,7 +42,7 @@ def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
             yield Trap(name, text, None, names, "^" not in text), text, False, "near-identity", number + STRIDE * turn
 
 
-def _turned(trap: Trap, text: str, zero: bool, number: int) -> KnownTruth | None:
+def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownTruth | None:
     """The trap in the first context from this on in which it can stand."""
     for turn in range(len(CONTEXTS)):
         found = CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero)
@@ -52,17 +51,17 @@ def _turned(trap: Trap, text: str, zero: bool, number: int) -> KnownTruth | None
     return None
 
 
-def steps(quick: bool) -> Iterator[Trial]:
+def steps(quick: bool) -> Iterator[Construction]:
     """Forms and relations a tiny exact step away from integrable, dependent or consistent ones."""
     for number, known in enumerate(tiny_steps()):
         if number % 23 if quick else not known.name.endswith(TAKEN):
             continue
         contradictory = known.truth.get("consistent") is False
         trait = "tiny-gap" if contradictory or any(word in known.group for word in FINITE) else "near-integrable"
-        yield from asked("tiny steps", known, "a step is exact, however small", (trait,))
+        yield Construction.of(known, "a step is exact, however small", (trait,))
 
 
-def rewritten(quick: bool) -> Iterator[Trial]:
+def rewritten(quick: bool) -> Iterator[Construction]:
     """The same scene in other coordinates: what is true of it does not change."""
     for number, known in enumerate(other_coordinates()):
         if number % (40 if quick else STRIDE + 2):
@@ -70,18 +69,18 @@ def rewritten(quick: bool) -> Iterator[Trial]:
         how = known.name.removeprefix(f"{known.group}, ")
         trait = "scale" if "scaled" in how else "offset" if "moved" in how else "rewritten"
         other = "non-holonomic" if False in {v.get("holonomic") for v in known.labels.values()} else "integrable"
-        yield from asked("other coordinates", known, "coordinates do not change what is true", (trait, other))
+        yield Construction.of(known, "coordinates do not change what is true", (trait, other))
 
 
-def bases(quick: bool) -> Iterator[Trial]:
+def bases(quick: bool) -> Iterator[Construction]:
     """Powers to different bases in the coefficients of forms."""
     for number, (name, zero) in enumerate(BASES[:: 4 if quick else 1]):
         trap = Trap(name, zero, None, "w")
         for turn, (text, is_zero) in enumerate(((zero, True), (f"{zero} + 1e-12", False), (f"{zero} + 1", False))):
-            known = _turned(trap, text, is_zero, 2 * number + turn)
+            known = _in_context(trap, text, is_zero, 2 * number + turn)
             if known is not None:
                 because = "one function, written to two bases" if is_zero else "off by a constant"
-                yield from asked("mixed bases", known, because, ("mixed-bases" if is_zero else "near-identity",))
+                yield Construction.of(known, because, ("mixed-bases" if is_zero else "near-identity",))
     for power in (2,) if quick else (2, 3, 5, 8, 12):
         names = ["x", "y", "z"]
         same = scene(names, f"({2**power})^x dz + 2^({power} x) dy = 0")
@@ -93,7 +92,7 @@ def bases(quick: bool) -> Iterator[Trial]:
                 "dz + y dx",
             ),
         ):
-            yield from asked("mixed bases", known, f"over the factor: {because}", ("mixed-bases",))
+            yield Construction.of(known, f"over the factor: {because}", ("mixed-bases",))
 
 
 #: Zero for every real w.
@@ -114,9 +113,4 @@ BASES = [
     ("9 and 3, halves", "9^(w/2) - 3^w"),
 ]
 
-FAMILIES = {
-    "identities": identities,
-    "tiny steps": steps,
-    "other coordinates": rewritten,
-    "mixed bases": bases,
-}
+FAMILIES = {"identities": identities, "tiny steps": steps, "other coordinates": rewritten, "mixed bases": bases}

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from dofkit.benchmark.trials.making import ask
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction
 
 Place = Sequence[Any]
 
 
-def doors(quick: bool) -> Iterator[Trial]:
+def doors(quick: bool) -> Iterator[Construction]:
     """A door on n hinges: on one line it turns, and all but the first say nothing new; off the line it is held."""
     for n in (2, 3) if quick else (2, 3, 4, 8, 16):
         # name, the places and axes of the hinges, dof, how many of the first are needed, trait
@@ -28,8 +27,7 @@ def doors(quick: bool) -> Iterator[Trial]:
                 {"name": name, "type": "revolute", "between": ["ground", "door"], "at": at, "axis": axis}
                 for name, (at, axis) in zip(names, hinges, strict=True)
             ]
-            yield from ask(
-                "doors",
+            yield Construction(
                 f"{n} hinges {name}",
                 {"bodies": ["door"], "constraints": joints},
                 "hinges on one line are one hinge; two that are not hold the door",
@@ -40,7 +38,7 @@ def doors(quick: bool) -> Iterator[Trial]:
             )
 
 
-def cranks(quick: bool) -> Iterator[Trial]:
+def cranks(quick: bool) -> Iterator[Construction]:
     """A platform on n parallel bars of one length moves; with one foot aside, or one bar longer, it does not."""
     for n in (3, 4) if quick else (3, 4, 8, 16):
         platform = [[k, 2 + k % 2] for k in range(n)]
@@ -63,8 +61,7 @@ def cranks(quick: bool) -> Iterator[Trial]:
             ]
             last = n if needed == n else needed
             redundant = names[2 : n - 1] if needed == n else names[last:]
-            yield from ask(
-                "cranks",
+            yield Construction(
                 f"{n} bars, {name}",
                 {"dimension": 2, "bodies": ["platform"], "constraints": bars},
                 "parallel bars of one length: a circle for every point; three that are not through one point hold it",
@@ -75,7 +72,7 @@ def cranks(quick: bool) -> Iterator[Trial]:
             )
 
 
-def loops(quick: bool) -> Iterator[Trial]:
+def loops(quick: bool) -> Iterator[Construction]:
     """A closed loop of n hinges in space: parallel ones move as in the plane, a tilted one is locked."""
     for n in (4, 5) if quick else (4, 5, 6, 8):
         places = [[k, k * (n - 1 - k), 0] for k in range(n)]
@@ -96,8 +93,7 @@ def loops(quick: bool) -> Iterator[Trial]:
                 }
                 for k in range(n)
             ]
-            yield from ask(
-                "loops of hinges",
+            yield Construction(
                 f"{n} hinges, {name}",
                 {"bodies": bodies[1:], "constraints": joints},
                 "parallel screws have rank 3; a tilted one is outside of them, and so does not turn",
@@ -115,6 +111,7 @@ KNOWN: list[tuple[str, list[tuple[Place, Place]], int, str, str]] = [
     ("Sarrus, one axis turned", [([1, 0, 0], [0, 1, 0]), ([3, 0, 1], [0, 1, 0]), ([1, 0, 2], [0, 1, 0]),
                                  ([0, 1, 2], [1, 0, 0]), ([0, 3, 1], [1, 0, 0]), ([0, 1, 0], [1, 0, 1])], 0,
      "six independent screws", "joints"),
+    # [Bennett1903]
     ("Bennett", [([0, 0, 0], [0, 0, 1]), ([52, 0, 0], [0, -4, 3]), ([16, -9, -12], [-3, -4, 12]),
                  ([0, 39, 0], [3, 0, 4])], 1, "Bennett 1903: four screws of rank 3 all along", "overconstrained"),
     ("Bennett, a foot aside", [([0, 0, 0], [0, 0, 1]), ([52, 0, 0], [0, -4, 3]), ([16, -9, -12], [-3, -4, 12]),
@@ -134,7 +131,7 @@ KNOWN: list[tuple[str, list[tuple[Place, Place]], int, str, str]] = [
 ]  # fmt: skip
 
 
-def known_loops(quick: bool) -> Iterator[Trial]:
+def known_loops(quick: bool) -> Iterator[Construction]:
     """Loops with a name."""
     for name, hinges, dof, because, trait in KNOWN[:: 2 if quick else 1]:
         n = len(hinges)
@@ -145,11 +142,11 @@ def known_loops(quick: bool) -> Iterator[Trial]:
             for k, (at, axis) in enumerate(hinges)
         ]
         scene = {"bodies": bodies[1:], "constraints": joints}
-        yield from ask("loops with a name", name, scene, because, (trait,), size=n, dof=dof)
+        yield Construction(name, scene, because, (trait,), size=n, dof=dof)
 
 
-def braced_grids(quick: bool) -> Iterator[Trial]:
-    """m by m squares drawn, some with a diagonal: rows and columns as a graph (Bolker and Crapo 1977).
+def braced_grids(quick: bool) -> Iterator[Construction]:
+    """m by m squares drawn, some with a diagonal: rows and columns as a graph [BolkerCrapo1977].
 
     A row and a column are joined where their square is braced; a brace that closes a circle is redundant, and every
     part of the graph turns by itself.
@@ -167,8 +164,7 @@ def braced_grids(quick: bool) -> Iterator[Trial]:
             ("a corner of", [(i, j) for i, j in spots if i < m // 2 and j < m // 2]),
         ):
             scene, redundant, parts = _grid(m, braced)
-            yield from ask(
-                "braced grids",
+            yield Construction(
                 f"{m} by {m} squares, {name} braces",
                 scene,
                 "Bolker and Crapo 1977: 3 + (parts of the graph of rows and columns) - 1",
@@ -202,7 +198,7 @@ def _grid(m: int, braced: Sequence[tuple[int, int]]) -> tuple[dict[str, Any], li
     return scene, redundant, sum(part[v] == v for v in part)
 
 
-def triangulated(quick: bool) -> Iterator[Trial]:
+def triangulated(quick: bool) -> Iterator[Construction]:
     """Squares with a diagonal each, of any lengths: rigid, and every square off the border has a link too many."""
     for m in (2, 3) if quick else (2, 3, 4, 8, 16):
         links: list[tuple[str, tuple[int, int], tuple[int, int]]] = []
@@ -223,8 +219,7 @@ def triangulated(quick: bool) -> Iterator[Trial]:
                     {"name": label, "type": "link", "between": [f"p{a[0]}_{a[1]}", f"p{b[0]}_{b[1]}"]}
                     for label, a, b in chosen
                 ]
-                yield from ask(
-                    "triangulated grids",
+                yield Construction(
                     f"{m} by {m} squares, {name}, {'drawn' if drawn else 'of any lengths'}",
                     {"dimension": 2, "particles": particles, "constraints": constraints},
                     "each joint stands on two of a rigid framework; a third link to it is redundant",

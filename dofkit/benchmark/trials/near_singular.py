@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from dofkit.benchmark.trials import sweeps
-from dofkit.benchmark.trials.making import asked
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction
 
 #: What a singular pose is like, by mechanism.
 POSES = {
@@ -23,52 +22,53 @@ STEPS = (0, 1e-1, 1e-3, 1e-6, 1e-12)
 DERIVED = "derived by hand at the singular pose and beside it, for every step"
 
 
-def near_singular(quick: bool) -> Iterator[Trial]:
+def _freedom(case: sweeps.Case, because: str, traits: Sequence[str]) -> Construction:
+    """The degree of freedom alone, which is known at every step."""
+    return Construction(case.known.name, case.known.scene, because, traits, swept=case.swept, dof=case.known.dof)
+
+
+def near_singular(quick: bool) -> Iterator[Construction]:
     """At singular poses, and 10^-1 ... 10^-12 beside them."""
     for number, case in enumerate(sweeps.steps()):
         if number % 17 if quick else case.swept["step"] not in STEPS:
             continue
         trait = "near-singular" if case.swept["step"] else POSES.get(case.known.group, "shaky")
-        yield from asked("near singular", case.known, DERIVED, (trait,), swept=case.swept, questions=("dof",))
+        yield _freedom(case, DERIVED, (trait,))
 
 
-def scaled(quick: bool) -> Iterator[Trial]:
+def scaled(quick: bool) -> Iterator[Construction]:
     """A million times larger and smaller, and far away."""
     for number, case in enumerate(sweeps.sizes()):
         if number % (31 if quick else 3):
             continue
         traits = (_moved(case), "near-singular" if case.swept["step"] else POSES.get(case.known.group, "shaky"))
-        yield from asked("size and place", case.known, DERIVED, traits, swept=case.swept, questions=("dof",))
+        yield _freedom(case, DERIVED, traits)
 
 
-def rounded(quick: bool) -> Iterator[Trial]:
+def rounded(quick: bool) -> Iterator[Construction]:
     """Rounded drawings: exact as they are written."""
     for number, case in enumerate(sweeps.roundings()):
         if quick and number % 11:
             continue
         because = "the exact rank of what is written: independent bars stay so, and nothing is singular there"
-        yield from asked("rounded", case.known, because, ("rounded",), swept=case.swept, questions=("dof",))
+        yield _freedom(case, because, ("rounded",))
 
 
-def measured(quick: bool) -> Iterator[Trial]:
+def measured(quick: bool) -> Iterator[Construction]:
     """Rounded drawings with a tolerance: true is what was rounded."""
     for number, case in enumerate(sweeps.measured()):
         if quick and number % 11:
             continue
-        yield from asked(
-            "rounded, with tolerance", case.known, DERIVED, ("measured",), swept=case.swept, questions=("dof",)
-        )
+        yield _freedom(case, DERIVED, ("measured",))
 
 
-def measured_elsewhere(quick: bool) -> Iterator[Trial]:
+def measured_elsewhere(quick: bool) -> Iterator[Construction]:
     """Exact drawings with a tolerance, of any size and anywhere."""
     for number, case in enumerate(sweeps.measured_elsewhere()):
         if number % (29 if quick else 3):
             continue
         traits = ("measured", _moved(case))
-        yield from asked(
-            "size and place, with tolerance", case.known, DERIVED, traits, swept=case.swept, questions=("dof",)
-        )
+        yield _freedom(case, DERIVED, traits)
 
 
 def _moved(case: sweeps.Case) -> str:

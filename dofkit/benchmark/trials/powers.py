@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dofkit.benchmark.trials.making import ask, every, numbered, scene
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction, every, numbered, scene
 
 POWERS = (1, 2, 3, 8, 16, 32, 64)
 #: The largest power of a sum that a scene may hold, as powers of powers are bounded.
 LARGEST = 32
 
 
-def high_powers(quick: bool) -> Iterator[Trial]:
+def high_powers(quick: bool) -> Iterator[Construction]:
     """Powers of an equation have its zeros, and no gradient there; x^k beside y^k are curves, points or nothing."""
     for k in (2, 3) if quick else POWERS:
         even = k % 2 == 0
@@ -31,8 +30,7 @@ def high_powers(quick: bool) -> Iterator[Trial]:
         for name, coordinates, texts, dof, over, trait in rows:
             if k > LARGEST and "(" in "".join(texts):
                 continue
-            yield from ask(
-                "high powers",
+            yield Construction(
                 f"{name}, k = {k}",
                 scene(coordinates, *texts),
                 "a power is 0 where its base is; real even powers are not negative",
@@ -44,7 +42,7 @@ def high_powers(quick: bool) -> Iterator[Trial]:
             )
 
 
-def power_forms(quick: bool) -> Iterator[Trial]:
+def power_forms(quick: bool) -> Iterator[Construction]:
     """Forms with powers in them, and powers of forms."""
     for k in (2, 3) if quick else POWERS:
         # (name, text, integrates?, because)
@@ -61,8 +59,7 @@ def power_forms(quick: bool) -> Iterator[Trial]:
         for name, text, integrates, because in rows:
             if k > LARGEST and text.startswith("("):
                 continue
-            yield from ask(
-                "powers in forms",
+            yield Construction(
                 f"{name}, k = {k}",
                 scene(["x", "y", "z"], text),
                 because,
@@ -74,54 +71,52 @@ def power_forms(quick: bool) -> Iterator[Trial]:
             )
 
 
-def sums_of_squares(quick: bool) -> Iterator[Trial]:
+def sums_of_squares(quick: bool) -> Iterator[Construction]:
     """One equation that says n things: a sum of n squares; with a sign, or a constant, it does not."""
     for n in (2, 3) if quick else (2, 3, 4, 6, 8, 12):
-        names = [f"x{k}" for k in range(n)]
-        total = " + ".join(f"(x{k} - {k})^2" for k in range(n))
-        mixed = " + ".join(f"(x{k} + 2 x{(k + 1) % n})^2" for k in range(n))
+        total, mixed = _sum(n, "(x{k} - {k})^2"), _sum(n, "(x{k} + 2 x{next})^2")
         rows: list[tuple[str, str, int, str, tuple[str, ...]]] = [
             ("a point", f"{total} = 0", 0, "every square is 0", ("sum-of-squares",)),
             ("a sphere", f"{total} = 1", n - 1, "a sphere", ("plain",)),
             ("nothing", f"{total} + 1 = 0", -1, "squares are not negative", ("contradiction", "real")),
             ("a cone", f"{total} = (x0 + 1)^2", n - 1, "a quadric with a regular point", ("plain",)),
             ("sums of two", f"{mixed} = 0", 0, "the matrix 1 + 2 shift is regular: x = 0", ("sum-of-squares",)),
-            ("fourth powers", " + ".join(f"x{k}^4" for k in range(n)) + " = 0", 0, "all 0", ("sum-of-squares",)),
+            ("fourth powers", f"{_sum(n, 'x{k}^4')} = 0", 0, "all 0", ("sum-of-squares",)),
         ]
+        names = [f"x{k}" for k in range(n)]
         for name, text, dof, because, traits in rows:
-            yield from ask(
-                "sums of squares",
-                f"{name} of {n}",
-                scene(names, text),
-                because,
-                traits,
-                size=n,
-                dof=dof,
-            )
-        rates = " + ".join(f"(x{k}dot - {'y' if k else 'x1'} ydot)^2" for k in range(n))
-        yield from ask(
-            "sums of squares",
-            f"{n} forms in one",
-            scene([*names, "y"], f"{rates} = 0"),
-            "each square is 0: dx_k = y dy, and dx_0 = x_1 dy with it; one direction is left: they integrate",
-            ("sum-of-squares", "nonlinear"),
-            size=n,
-            dof=1,
-            integrability={"c1": True},
-        )
-        yield from ask(
-            "sums of squares",
-            f"{n - 1} forms in one, and one that does not integrate",
-            scene([*names, "y", "z"], " + ".join(f"(x{k}dot - z ydot)^2" for k in range(n)) + " = 0"),
-            "each square is 0: dx_k = z dy; differences integrate, the form does not",
-            ("sum-of-squares", "nonlinear"),
-            size=n,
-            dof=n + 2 - (n - 1),
-            integrability={"c1": False},
-        )
+            yield Construction(f"{name} of {n}", scene(names, text), because, traits, size=n, dof=dof)
+        yield from _squared_forms(n, names)
 
 
-def branches(quick: bool) -> Iterator[Trial]:
+def _squared_forms(n: int, names: list[str]) -> Iterator[Construction]:
+    traits = ("sum-of-squares", "nonlinear")
+    yield Construction(
+        f"{n} forms in one",
+        scene([*names, "y"], f"(x0dot - x1 ydot)^2 + {_sum(n, '(x{k}dot - y ydot)^2', 1)} = 0"),
+        "each square is 0: dx_k = y dy, and dx_0 = x_1 dy with it; one direction is left: they integrate",
+        traits,
+        size=n,
+        dof=1,
+        integrability={"c1": True},
+    )
+    yield Construction(
+        f"{n - 1} forms in one, and one that does not integrate",
+        scene([*names, "y", "z"], f"{_sum(n, '(x{k}dot - z ydot)^2')} = 0"),
+        "each square is 0: dx_k = z dy; differences integrate, the form does not",
+        traits,
+        size=n,
+        dof=n + 2 - (n - 1),
+        integrability={"c1": False},
+    )
+
+
+def _sum(n: int, text: str, first: int = 0) -> str:
+    """A text for k = first, ..., n - 1, with a plus between; {next} is the index after k, and 0 after the last."""
+    return " + ".join(text.format(k=k, next=(k + 1) % n) for k in range(first, n))
+
+
+def branches(quick: bool) -> Iterator[Construction]:
     """Products: the set is the union of the branches, the freedom that of the largest."""
     # (name, coordinates, rows, dof, integrability: None for finite ones, because, trait)
     rows: list[tuple[str, list[str], list[str], int, dict[str, bool] | None, str, str]] = [
@@ -144,15 +139,8 @@ def branches(quick: bool) -> Iterator[Trial]:
         ("one square", ["x", "y"], ["(x - y)^2*(x + y) = 0"], 1, {"c1": True}, "two lines", "squared"),
     ]  # fmt: skip
     for name, coordinates, texts, dof, labels, because, trait in rows[: 4 if quick else None]:
-        yield from ask(
-            "branches",
-            name,
-            scene(coordinates, *texts),
-            because,
-            (trait,),
-            size=len(coordinates),
-            dof=dof,
-            integrability=labels,
+        yield Construction(
+            name, scene(coordinates, *texts), because, (trait,), size=len(coordinates), dof=dof, integrability=labels
         )
 
 

@@ -15,15 +15,7 @@ from dofkit.benchmark.trials.frameworks import Framework, Position
 
 Vector = tuple[Fraction, Fraction, Fraction]
 #: What a joint allows: freedoms in space.
-FREEDOMS = {
-    "revolute": 1,
-    "prismatic": 1,
-    "cylindrical": 2,
-    "universal": 2,
-    "spherical": 3,
-    "planar": 3,
-    "weld": 0,
-}
+FREEDOMS = {"revolute": 1, "prismatic": 1, "cylindrical": 2, "universal": 2, "spherical": 3, "planar": 3, "weld": 0}
 PLANE = ("revolute", "prismatic", "weld")
 ZERO = (Fraction(0),) * 3
 
@@ -42,6 +34,7 @@ def graph(rng: random.Random, dimension: int, joints: int, twice: bool = False) 
 
 
 def place(rng: random.Random, dimension: int, size: int = 10**6) -> Position:
+    """A random point: coordinates of three decimals."""
     return tuple(Fraction(rng.randrange(-size, size + 1), 1000) for _ in range(dimension))
 
 
@@ -151,6 +144,7 @@ def _across(u: Vector) -> Vector:
 
 
 def cross(a: Vector, b: Vector) -> Vector:
+    """a x b."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 

@@ -7,8 +7,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
 
-from dofkit.benchmark.trials.making import ask, every, numbered, scene
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction, every, numbered, scene
 
 #: name, coordinates, rows that are independent, a row that follows from them, one that does not and takes one more
 #: freedom, one that contradicts them (or None); the trait
@@ -54,7 +53,7 @@ HIDDEN: list[tuple[str, str, Sequence[str], str, str, str | None, str]] = [
 ]  # fmt: skip
 
 
-def hidden_relations(quick: bool) -> Iterator[Trial]:
+def hidden_relations(quick: bool) -> Iterator[Construction]:
     """Relations whose functions depend on each other; with a row that does not, and one that contradicts them."""
     for number, (name, names, rows, implied, new, never, trait) in enumerate(HIDDEN[:: 6 if quick else 1]):
         n, k = len(names.split()), len(rows)
@@ -66,20 +65,19 @@ def hidden_relations(quick: bool) -> Iterator[Trial]:
         for how, row, dof, over, main in members:
             if row is None or (dof < 0 and number % 2):
                 continue
-            yield from ask(
-                "hidden relations",
+            yield Construction(
                 f"{name}, {how}",
                 scene(names.split(), *rows, row),
                 f"{implied} by the rows before",
                 (main, trait) if main != trait else (trait,),
                 size=k + 1,
                 dof=dof,
-                redundancy=None if dof < 0 else over,
+                redundancy=over,
             )
 
 
-def power_sums(quick: bool) -> Iterator[Trial]:
-    """Newton's identities: the power sums of n numbers are polynomials in the elementary symmetric ones."""
+def power_sums(quick: bool) -> Iterator[Construction]:
+    """The power sums of n numbers are polynomials in the elementary symmetric ones [NewtonGirard]."""
     for n in (2,) if quick else (2, 3, 4, 5):
         x = [f"x{k}" for k in range(n)]
         elementary = [" + ".join("*".join(c) for c in combinations(x, k)) for k in range(1, n + 1)]
@@ -91,8 +89,7 @@ def power_sums(quick: bool) -> Iterator[Trial]:
             ("Newton's identity", last, n, [f"c{2 * n + 1}"]),
             ("Newton's identity missed", last + f" + e{n}", n - 1, []),
         ):
-            yield from ask(
-                "power sums",
+            yield Construction(
                 f"{how} of {n}",
                 scene(names, *rows, row),
                 "p_n = e_1 p_n-1 - e_2 p_n-2 + ... up to n e_n (Newton); missed, it forces e_n = 0",
@@ -108,7 +105,7 @@ def _newton(n: int) -> str:
     return f"{' '.join(terms)} {'+' if n % 2 else '-'} {n}*e{n}".lstrip("+ ")
 
 
-def rotations(quick: bool) -> Iterator[Trial]:
+def rotations(quick: bool) -> Iterator[Construction]:
     """R^T R = 1, then R R^T = 1 too: the second says nothing new, as a left inverse is a right one."""
     for n in (2,) if quick else (2, 3):
         entry = [[f"r{i}{j}" for j in range(n)] for i in range(n)]
@@ -130,19 +127,18 @@ def rotations(quick: bool) -> Iterator[Trial]:
             ("that leave the first axis", ["r00 = 1"], (n - 1) * (n - 2) // 2, []),
             ("of trace beyond n", [" + ".join(f"r{i}{i}" for i in range(n)) + f" = {n} + 1e-9"], -1, []),
         ):
-            yield from ask(
-                "rotation matrices",
+            yield Construction(
                 f"{n} by {n} {how}",
                 scene(names, *columns, *more),
                 "a left inverse is a right one; entries are at most 1",
                 ("hidden-relation",) if over else ("real",) if "axis" in how or dof < 0 else ("plain",),
                 size=n,
                 dof=dof,
-                redundancy=None if dof < 0 else over,
+                redundancy=over,
             )
 
 
-def linear_rows(quick: bool) -> Iterator[Trial]:
+def linear_rows(quick: bool) -> Iterator[Construction]:
     """Rows of a linear system; the last a combination of the others, at a gap; scaled; with coefficients far apart."""
     sizes = (3, 6) if quick else (3, 6, 12)
     for n, digits in ((n, d) for n in sizes for d in ((6, 30) if quick else (6, 12, 30, 60))):
@@ -165,8 +161,7 @@ def linear_rows(quick: bool) -> Iterator[Trial]:
             ("tilted by", f"{_row(last)} + {step}*x{n - 1} = {value}", n - k - 1, [], ("tiny-gap",)),
             ("scaled by", f"{step}*({_row(last)} - ({value})) = 0", n - k, [f"c{k + 1}"], ("scale", "redundant")),
         ):
-            yield from ask(
-                "linear rows",
+            yield Construction(
                 f"{n} coordinates, {how} 1e-{digits}",
                 scene(names, *texts, text),
                 "the first rows are in echelon form; the last is a combination of them, but for the gap",
@@ -202,15 +197,14 @@ TOUCHING: list[tuple[str, str, Sequence[str], tuple[Told, Told, Told]]] = [
 ]  # fmt: skip
 
 
-def touching(quick: bool) -> Iterator[Trial]:
+def touching(quick: bool) -> Iterator[Construction]:
     """Surfaces that miss each other by a gap, touch, or meet: none, a point, or more."""
     for name, names, rows, told in TOUCHING[:: 5 if quick else 1]:
         for digits in (9,) if quick else (0, 12, 30, 60):
             signs = (("apart", f"1e-{digits}", 0), ("meeting", f"-1e-{digits}", 2))
             for how, e, k in (*signs, ("touching", "0", 1)) if digits in (9, 12) else signs:
                 dof, over = told[k]
-                yield from ask(
-                    "touching surfaces",
+                yield Construction(
                     f"{name}, {how}" + (f" by 1e-{digits}" if k != 1 else ""),
                     scene(names.split(), *(row.replace("{e}", e) for row in rows)),
                     "real solutions are there on one side of the gap only",
@@ -218,72 +212,60 @@ def touching(quick: bool) -> Iterator[Trial]:
                     size=len(rows),
                     swept={"gap": float(e)},
                     dof=dof,
-                    redundancy=None if dof < 0 or digits not in (0, 12) else over,
+                    redundancy=over if digits in (0, 12) else None,
                 )
 
 
-def scales(quick: bool) -> Iterator[Trial]:
+SAME = "a unit, or a place, changes nothing"
+#: Rows with {r} for a scale, and {a} for it or one over it, what is larger: name, coordinates, rows, dof, redundant,
+#: whether each integrates (None: not asked), because, trait.
+SCALES: list[tuple[str, str, Sequence[str], int, Sequence[str] | None, bool | None, str, str]] = [
+    ("a circle, and again in another unit", "x y z", ["x^2 + y^2 = ({r})^2", "(x/({r}))^2 + (y/({r}))^2 = 1"], 2,
+     ["c2"], None, SAME, "scale"),
+    ("a circle far away, and multiplied out", "x y", ["(x - {a})^2 + y^2 = 1", "x^2 - 2*{a}*x + {a}^2 + y^2 = 1"], 1,
+     ["c2"], None, SAME, "offset"),
+    ("a circle far away and its axis", "x y", ["(x - {a})^2 + y^2 = 1", "y = 0"], 0, [], None, SAME, "offset"),
+    ("two circles far away that touch", "x y", ["(x - {a})^2 + y^2 = 1", "(x - {a} - 2)^2 + y^2 = 1"], 0, [], None,
+     SAME, "offset"),
+    ("two circles far away that do not", "x y", ["(x - {a})^2 + y^2 = 1", "(x - {a} - 3)^2 + y^2 = 1"], -1, [], None,
+     SAME, "offset"),
+    ("planes of unlike coefficients", "x y z", ["x + ({r}) y = 0", "({r}) x + y = 0"], 1, [], None, SAME, "scale"),
+    ("dependent planes of unlike coefficients", "x y z", ["x + y = 1", "({r}) y + z = 0", "x - z/({r}) = 1"], 1, ["c3"],
+     None, SAME, "scale"),
+    ("forms", "x y z", ["({r}) dz - y dx = 0"], 3, None, False, "a contact form in any unit", "scale"),
+    ("exact forms", "x y z", ["(x - {a}) dy + (y + ({r})) dx + ({r}) dz = 0"], 2, None, True,
+     "the differential of (x - a)(y + b) + b z", "offset"),
+]  # fmt: skip
+#: The powers of ten by which finite relations are moved away.
+FAR = (3, 6, 9)
+
+
+def scales(quick: bool) -> Iterator[Construction]:
     """Circles and planes of any size, anywhere, in any unit: what follows from what does not change."""
     for power in (-9, 9) if quick else (-30, -9, -6, 3, 6, 9, 30):
-        r, at = f"1e{power}", f"1e{abs(power)}"
-        members: list[tuple[str, str, Sequence[str], int, Sequence[str], str]] = [
-            ("a circle, and again in another unit", "x y z", [f"x^2 + y^2 = ({r})^2", f"(x/({r}))^2 + (y/({r}))^2 = 1"],
-             2, ["c2"], "scale"),
-            ("a circle far away, and multiplied out", "x y", [f"(x - {at})^2 + y^2 = 1",
-             f"x^2 - 2*{at}*x + {at}^2 + y^2 = 1"], 1, ["c2"], "offset"),
-            ("a circle far away and its axis", "x y", [f"(x - {at})^2 + y^2 = 1", "y = 0"], 0, [], "offset"),
-            ("two circles far away that touch", "x y", [f"(x - {at})^2 + y^2 = 1", f"(x - {at} - 2)^2 + y^2 = 1"], 0,
-             [], "offset"),
-            ("two circles far away that do not", "x y", [f"(x - {at})^2 + y^2 = 1", f"(x - {at} - 3)^2 + y^2 = 1"], -1,
-             [], "offset"),
-            ("planes of unlike coefficients", "x y z", [f"x + ({r}) y = 0", f"({r}) x + y = 0"],
-             1, [], "scale"),
-            ("dependent planes of unlike coefficients", "x y z", ["x + y = 1", f"({r}) y + z = 0",
-             f"x - z/({r}) = 1"], 1, ["c3"], "scale"),
-        ]  # fmt: skip
-        for name, names, rows, dof, over, trait in members:
-            if trait == "offset" and power not in (3, 6, 9):
+        r, a = f"1e{power}", f"1e{abs(power)}"
+        for name, names, texts, dof, over, integrates, because, trait in SCALES:
+            if trait == "offset" and integrates is None and power not in FAR:
                 continue
-            yield from ask(
-                "scales",
+            yield Construction(
                 f"{name}, {r}",
-                scene(names.split(), *rows),
-                "a unit, or a place, changes nothing",
+                scene(names.split(), *(text.format(r=r, a=a) for text in texts)),
+                because,
                 (trait,),
                 swept={"scale": 10.0**power},
                 dof=dof,
-                redundancy=None if dof < 0 else over,
+                integrability=None if integrates is None else {"c1": integrates},
+                redundancy=over,
             )
-        yield from ask(
-            "scales",
-            f"forms, {r}",
-            scene(["x", "y", "z"], f"({r}) dz - y dx = 0"),
-            "a contact form in any unit",
-            ("scale",),
-            swept={"scale": 10.0**power},
-            dof=3,
-            integrability={"c1": False},
-        )
-        yield from ask(
-            "scales",
-            f"exact forms, {r}",
-            scene(["x", "y", "z"], f"(x - {at}) dy + (y + ({r})) dx + ({r}) dz = 0"),
-            "the differential of (x - a)(y + b) + b z",
-            ("offset",),
-            swept={"scale": 10.0**power},
-            dof=2,
-            integrability={"c1": True},
-        )
 
 
-def labels(quick: bool) -> Iterator[Trial]:
+def labels(quick: bool) -> Iterator[Construction]:
     """Relations without velocities are holonomic, inequalities never: nothing has to be computed."""
     for n in (2,) if quick else (2, 4, 8, 16):
         names = [f"x{k}" for k in range(n)]
         rows = [f"x{k}^2 + x{(k + 1) % n}^2 = {k + 2}" for k in range(0, n, 2)]
         walls = [f"x{k} >= {-k - 9}" for k in range(1, n, 2)]
-        yield from ask(
-            "walls",
+        yield Construction(
             f"{n} coordinates",
             scene(names, *rows, *walls),
             "inequalities reduce nothing and are not holonomic",

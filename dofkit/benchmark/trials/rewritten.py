@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from dofkit.benchmark.trials.making import KnownTruth, scene
+from dofkit.benchmark.trials.construction import KnownTruth, scene
 
 x, y, z, w, theta, phi, psi, r, a = sp.symbols("x y z w theta phi psi r a", real=True)
 Form = Mapping[sp.Symbol, sp.Expr]
@@ -144,7 +144,7 @@ REWRITINGS: Mapping[str, Rewriting] = {
 
 
 @cache
-def _made() -> tuple[KnownTruth, ...]:
+def _rewritten_truths() -> tuple[KnownTruth, ...]:
     found = []
     for base in _bases():
         for name, rewriting in REWRITINGS.items():
@@ -156,7 +156,7 @@ def _made() -> tuple[KnownTruth, ...]:
 
 def other_coordinates() -> Iterator[KnownTruth]:
     """Every base in every other way of writing it."""
-    return iter(_made())
+    return iter(_rewritten_truths())
 
 
 def _trial(base: Base, how: str) -> KnownTruth:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from dofkit.benchmark.trials.making import KnownTruth, scene
+from dofkit.benchmark.trials.construction import KnownTruth, scene
 
 #: The sizes of the step, as a person writes them.
 STEPS = ("1e-6", "1e-12", "1e-30", "1/7000000000000000000")

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
+from dofkit.benchmark.trials.construction import KnownTruth
 from dofkit.benchmark.trials.frameworks import Framework, Position, framework, written
-from dofkit.benchmark.trials.making import KnownTruth
 
 Move = Callable[[Position], Position]
 #: (dof, instantaneous_dof); None where it was not derived.
@@ -113,7 +113,7 @@ NEAR = [
         (6, 7),
         (6, 6),
     ),
-    # nine bars between three and three joints are dependent on a conic and nowhere else (Bolker and Roth 1980)
+    # nine bars between three and three joints are dependent on a conic and nowhere else [BolkerRoth1980]
     Near(
         "three and three on a circle",
         lambda e: framework(

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
-from dofkit.benchmark.trials.making import ask, scene
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Construction, Line, scene, tabled
 
-#: name, coordinates, rows, dof (-1: no motion), integrability by row, redundant, because, trait
-TIMED: list[tuple[str, str, Sequence[str], int, Sequence[bool] | None, Sequence[str] | None, str, str]] = [
+TIMED: list[Line] = [
     ("a line that turns", "x y", ["y cos(t) = x sin(t)"], 1, [True], [], "a line", "rheonomic"),
     ("a circle that grows", "x y", ["x^2 + y^2 = (1 + t)^2"], 1, [True], [], "a circle", "rheonomic"),
     ("a circle under a factor of time", "x y", ["exp(t)*(x^2 + y^2 - 1) = 0"], 1, [True], [], "the factor is not 0",
@@ -57,24 +55,12 @@ TIMED: list[tuple[str, str, Sequence[str], int, Sequence[bool] | None, Sequence[
 ]  # fmt: skip
 
 
-def rheonomic(quick: bool) -> Iterator[Trial]:
+def rheonomic(quick: bool) -> Iterator[Construction]:
     """Relations and forms with time in them."""
-    for name, names, rows, dof, holonomic, over, because, trait in TIMED[:: 4 if quick else 1]:
-        labels = None if holonomic is None else {f"c{i + 1}": value for i, value in enumerate(holonomic)}
-        yield from ask(
-            "time",
-            name,
-            scene(names.split(), *rows),
-            because,
-            (trait,),
-            size=len(rows),
-            dof=dof,
-            integrability=labels,
-            redundancy=over,
-        )
+    return map(tabled, TIMED[:: 4 if quick else 1])
 
 
-def hidden_by_time(quick: bool) -> Iterator[Trial]:
+def hidden_by_time(quick: bool) -> Iterator[Construction]:
     """Each coordinate the rate of the last: one finite relation at the start fixes all, and none leaves all free."""
     for n in (2, 3) if quick else (2, 3, 4, 6):
         names = [f"x{k}" for k in range(n)]
@@ -99,8 +85,7 @@ def hidden_by_time(quick: bool) -> Iterator[Trial]:
         ]
         for name, before, after, dof, integrate, because, traits in rows:
             constraints = [*before, *rates, *after]
-            yield from ask(
-                "rates of rates",
+            yield Construction(
                 f"{n} coordinates, {name}",
                 scene(names, *constraints),
                 because,

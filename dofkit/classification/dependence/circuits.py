@@ -178,7 +178,7 @@ class _Dispensable:
     """Which of some constraints can go together.
 
     Rows can go without loss of rank where they are independent in the dual matroid, whose matrix is that of the sums
-    of rows that are 0 (Whitney): as many rows at most as there are such sums, however many rows there are.
+    of rows that are 0 [Whitney1935]: as many rows at most as there are such sums, however many rows there are.
     """
 
     def __init__(self, parts: Sequence[OwnedRows], members: Sequence[int]) -> None:

@@ -11,36 +11,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
-from itertools import chain
-from itertools import product as cartesian
 
 from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.dependence.inequalities import same_side
 from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
+from dofkit.classification.dependence.regularity import Regularity
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.configuration.variety import field_jacobian, find
 from dofkit.exact.engines import BOTH, Engines
-from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.exact.points.field import NoPointError
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Row, split
-from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian, Piece
-from dofkit.relations.normal.zero_set import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
+from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 
 #: The share of the time that is left in which an answer may be found impossible.
 POSSIBLE = 0.3
-#: Choices of branches on which gradients are looked at.
-MAX_BRANCHES = 16
-
-#: Their equations also allow assemblies turned by half a turn, which nobody means: the drawn one is as good.
-JOINTS = frozenset({"revolute", "prismatic", "weld", "cylindrical", "screw", "universal", "spherical", "planar"})
 
 
 class Sameness(Enum):
@@ -203,7 +192,7 @@ class Equivalence:
             return Sameness.UNDECIDED
         if (mine.dof, mine.velocity_dof) != (asked.dof, asked.velocity_dof):
             return Sameness.STRONGER
-        return Sameness.SAME if all(r.constraint.type in JOINTS for r in self._wanted) else Sameness.BRANCH
+        return Sameness.SAME if all(r.constraint.facts.half_turns for r in self._wanted) else Sameness.BRANCH
 
     # differentials
 
@@ -241,48 +230,11 @@ class Equivalence:
         told = self._follow(standing, self._answer) if told else told
         return self._follow(moving, [*standing, *rates]) if told else told
 
-    # regularity
-
     def _regularity(self) -> Sameness:
         """The same set: is the answer's gradient as good there, on every branch?"""
-        if any(isinstance(p, Pfaffian) for n in self._answer for p in n.pieces):
-            return Sameness.IRREGULAR if any(map(_is_square, self._given)) else Sameness.SAME
-        if _lost(self._answer) and not _lost(self._all_wanted):
-            return Sameness.IRREGULAR
-        raw = [e.expr for r in self._given for e in r.constraint.relations]
-        branches = list(cartesian(*(n.branches for n in (*self._others, *self._all_wanted) if n.branches)))
-        told = {self._as_regular(choice, raw) for choice in branches[:MAX_BRANCHES]}
-        if None in told or len(branches) > MAX_BRANCHES:
-            return Sameness.UNDECIDED if any(n.notes for n in self._answer) else Sameness.SAME
-        return Sameness.IRREGULAR if False in told else Sameness.SAME
-
-    def _as_regular(self, choice: Sequence[Sequence[Piece]], raw: Sequence[Expr]) -> bool | None:
-        """Do the gradients of the answer as written span as much as those that were asked for, on one branch?"""
-        finite = [[p for p in branch if isinstance(p, Finite)] for branch in choice]
-        others = len([n for n in self._others if n.branches])
-        before = [p.expr for branch in finite[:others] for p in branch]
-        wanted = [p.expr for branch in finite[others:] for p in branch]
-        if not wanted:
-            return True
-        ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *wanted])
-        return None if ranks is None else ranks[0] >= ranks[1]
-
-    def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
-        """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""
         names = [c.name for c in self.system.coordinates]
-        blocks, _ = split(names, [Row(0, p) for p in on])
-        rows = tuple(row for b in blocks for row in b.rows)
-        whole = blocks[0].__class__(tuple(n for n in names if any(n in b.coordinates for b in blocks)), rows)
-        chart = make_chart(whole, self.setting, more=list(chain(*sets)))
-        found = find(chart, {}, 7)
-        if not found.samples:
-            return None
-        try:
-            point = found.samples[0]
-            jacobians = [field_jacobian(chart, point, [chart.ring.node(e) for e in s]) for s in sets]
-        except (ZeroDivisionError, NoPointError):
-            return None
-        return [rank_of_rows(j, point.p) for j in jacobians]
+        found = Regularity(self._others, self._all_wanted, self._given, self.setting, names).irregular()
+        return Sameness.UNDECIDED if found is None else Sameness.IRREGULAR if found else Sameness.SAME
 
     # inequalities
 
@@ -314,15 +266,5 @@ def _finite(normals: Sequence[Normal]) -> list[Expr]:
 def _differential(g: Expr) -> Normal:
     """dg as a Pfaffian form."""
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
-    slopes = {str(s.args[1]): ex.diff(g, s) for s in moving}
-    return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, ex.diff(g, ex.TIME)),),))
-
-
-def _lost(normals: Sequence[Normal]) -> bool:
-    """Was a relation a power or a sum of squares in exponentials? Points over GF(p) do not know the zeros of those."""
-    return any(EXPONENT_NOTE in n.notes and not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes) for n in normals)
-
-
-def _is_square(r: Reduced) -> bool:
-    """Was a relation between velocities a power or a sum of squares of forms?"""
-    return any(n.notes and all(isinstance(p, Pfaffian) for p in n.pieces) for n in r.normals)
+    slopes = {str(s.args[1]): diff(g, s) for s in moving}
+    return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, diff(g, ex.TIME)),),))

@@ -16,10 +16,10 @@ from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.through_reference import all_of, conditional, through_reference
 from dofkit.configuration.states import States, value_at, vanishes
 from dofkit.exact.points.balls import BallPoint
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.field import FieldPoint
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, reduced
+from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, ways_of
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
@@ -49,7 +49,7 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
     told: list[bool | None] = []
     for choice in choices:
         rows = [Row(k, p) for k, b in enumerate(choice) for p in b if not isinstance(p, Inequality)]
-        ways = reduced(rows, setting.positive)
+        ways = ways_of(rows, setting.positive)
         if len(ways) >= MAX_WAYS:
             return None
         for way in ways:
@@ -81,8 +81,8 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
     try:
         states = States(sorted({*names, *moving}), way.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
-        held = _held(states, branches, written, given, asked, smaller)
-    except (OutOfTimeError, ArithmeticError, NoPointError):
+        held = _vanishes_on_states(states, branches, written, given, asked, smaller)
+    except (OutOfTimeError, ArithmeticError):
         return None
     return held if held or known else None
 
@@ -113,7 +113,7 @@ def at_state(piece: Finite | Pfaffian | Nonlinear) -> Expr:
     return form_rate(piece) if isinstance(piece, Pfaffian) else piece.expr
 
 
-def _held(
+def _vanishes_on_states(
     states: States,
     branches: Sequence[Sequence[Expr]],
     written: Sequence[Expr],

@@ -6,10 +6,11 @@ import random
 from collections.abc import Iterator, Sequence
 
 from flint import arb
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.classification.dependence.implication import follows
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
@@ -54,7 +55,7 @@ def _signs(a: Expr, b: Expr, finite: Sequence[Expr], setting: Setting) -> Iterat
         point = _point(ring, nodes, symbols, setting, k)
         try:
             at = None if point is None else values(ring, point)
-        except (OutsideDomainError, DomainError, ZeroDivisionError, OverflowError, ValueError):
+        except (NoValueError, OverflowError, ValueError):
             continue
         if at is not None and not at[first].contains(0) and not at[second].contains(0):
             yield bool(at[first] > 0), bool(at[second] > 0)

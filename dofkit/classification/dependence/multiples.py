@@ -10,10 +10,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from flint import fmpq, fmpq_poly
-from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError
-from dofkit.exact.ring.ring import POW, Ring
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon, Poly
+from dofkit.exact.ring.instructions import POW
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian
 from dofkit.relations.reduced import Reduced
@@ -53,7 +54,7 @@ def power_of(given: Sequence[Reduced], wanted: Sequence[Reduced], positive: froz
     canon = Canon(ring)
     try:
         (h, over), (g, under) = canon.quotient(nodes[0]), canon.quotient(nodes[1])
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return None
     digits = _digits(h, g) if over.is_constant() and under.is_constant() and not g.is_constant() else None
     return None if digits is None else _only_root(fmpq_poly(digits))
@@ -119,7 +120,7 @@ def _proportional(a: Sequence[tuple[str, Expr]], b: Sequence[tuple[str, Expr]], 
     canon = Canon(ring)
     try:
         found = [(canon.quotient(x)[0], canon.quotient(y)[0]) for x, y in nodes]
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return False
     if any((x == 0) != (y == 0) for x, y in found):
         return False

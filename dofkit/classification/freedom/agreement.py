@@ -17,7 +17,7 @@ DIFFER = "functions or numbers that occur are related in a way that exact arithm
 OPEN = "functions or numbers that occur may be related in a way that exact arithmetic modulo primes does not show"
 
 
-def held(field: Answer, balls: Answer) -> Answer:
+def agreed(field: Answer, balls: Answer) -> Answer:
     """The answer of both engines, held against that of balls alone."""
     by_rank = field.consistent is False and bool(field.matrix)
     if field.consistent is not True and balls.consistent is not True and not by_rank:

@@ -6,27 +6,23 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
-from dofkit.classification.freedom.agreement import held, numeric
+from dofkit.classification.freedom.agreement import agreed, numeric
 from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.finite_blocks import finite_answer
-from dofkit.configuration.variety import Variety, find
+from dofkit.configuration.search import find
+from dofkit.configuration.variety import Variety
 from dofkit.exact.engines import BALLS, BOTH
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.errors import NoPointError
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.differential_blocks import (
-    Codistribution,
-    SampledSpan,
-    ball_labels,
-    codistribution,
-    confined,
-    field_labels,
-    first_order,
-    prolong,
-    span_at,
-)
+from dofkit.integrability.codistribution import Codistribution, codistribution, first_order
+from dofkit.integrability.labels_by_balls import ball_labels
+from dofkit.integrability.labels_by_field import field_labels
+from dofkit.integrability.lie_algebra_at_points import SampledSpan, span_at
 from dofkit.integrability.nonlinear_velocities import bend
+from dofkit.integrability.prolongation import confined, prolong
 from dofkit.mobility.frameworks import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
@@ -65,7 +61,7 @@ def _engines(block: Block, setting: Setting) -> Answer:
             raise
         return numeric(_answer(block, alone))
     if found.doubt and setting.engines == BOTH and setting.tolerance is None:
-        return held(found, _answer(block, alone))
+        return agreed(found, _answer(block, alone))
     return found
 
 

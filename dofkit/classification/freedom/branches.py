@@ -8,19 +8,17 @@ from itertools import product as cartesian
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.domain import within
+from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import alike, retold
 from dofkit.classification.freedom.through_reference import through_reference
-from dofkit.exact.points.field import NoPointError
 from dofkit.expressions import tree as ex
 from dofkit.integrability.modulo_others import verified
 from dofkit.relations.answer import Answer
-from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow
-from dofkit.relations.beside_others import reduced as reduced_velocities
-from dofkit.relations.blocks import Block, Row, parted, split
+from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
+from dofkit.relations.blocks import Block, Row, blocks_of, split
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Still
-from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
@@ -112,7 +110,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 impossible.append(i)
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
-        ways = reduced_velocities(with_rows(rows, constants), positive)
+        ways = ways_of(with_rows(rows, constants), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in ways:
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
@@ -186,7 +184,7 @@ def _scaled(piece: object) -> object:
 def _answered(
     names: Sequence[str], rows: list[Row], impossible: list[int], setting: Setting, known: AnsweredBlocks
 ) -> Outcome:
-    blocks, untouched = parted(names, rows, setting.reductions)
+    blocks, untouched = blocks_of(names, rows, setting.reductions)
     compared = len(blocks) > 1 and "twins" in setting.reductions
     answers = [known.answer(block, setting, compared) for block in blocks]
     return Outcome(rows, blocks, answers, untouched, impossible)
@@ -224,8 +222,8 @@ def in_time(block: Block, setting: Setting) -> Answer:
     """The block's answer; undecided where the time is used up."""
     try:
         check()
-        return within(block, answer(block, setting), setting)
+        return restricted_to_domain(block, answer(block, setting), setting)
     except OutOfTimeError as error:
         return Answer(None, verdict="undecided", reasons=[str(error)], late=True)
-    except (ArithmeticError, NoPointError):
+    except ArithmeticError:
         return Answer(None, verdict="undecided", reasons=["an expression has no value at the points that were tried"])

@@ -11,13 +11,12 @@ from dataclasses import replace
 from typing import Literal
 
 from flint import arb
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.classification.freedom.block import answer
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
-from dofkit.configuration.variety import find
-from dofkit.exact.points.balls import OutsideDomainError, RealPoint, RealSearch
-from dofkit.exact.points.field import NoPointError
+from dofkit.configuration.search import find
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
@@ -34,7 +33,7 @@ from dofkit.relations.setting import Setting
 SEEDS = 6
 
 
-def within(block: Block, result: Answer, setting: Setting) -> Answer:
+def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answer:
     """The answer where the block's conditions hold; inconsistent where they hold nowhere, undecided where unknown."""
     if not block.conditions or result.consistent is not True:
         return result
@@ -46,7 +45,7 @@ def within(block: Block, result: Answer, setting: Setting) -> Answer:
         if None in holds and False not in holds:
             return _open(result, block.conditions)
         elsewhere = replace(setting, reference=None, pose={})
-        result = within(block, answer(block, elsewhere), elsewhere)
+        result = restricted_to_domain(block, answer(block, elsewhere), elsewhere)
         result.reasons.append(OFF_REFERENCE)
         return result
     return _somewhere(block, result, setting)
@@ -62,7 +61,7 @@ def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
     if dead:
         return _nowhere(result, dead, "probable" if relations else "proved")
     left = [(n, c) for n, c, z in zip(nodes, block.conditions, zero, strict=True) if not z]
-    if _found(chart, left):
+    if _point_within(chart, left):
         return result
     wanted = [c.expr for c in block.conditions if c.sense != "!="]
     if no_solution(relations, setting.positive, wanted):
@@ -77,20 +76,20 @@ def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:
     for point in samples:
         try:
             at = values(chart.ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             return [False] * len(nodes)
         found = [z and at[n] == 0 for z, n in zip(found, nodes, strict=True)]
     return found
 
 
-def _found(chart: Chart, left: Sequence[tuple[int, DomainCondition]]) -> bool:
+def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]]) -> bool:
     """Is there a certified regular point, of the largest rank that was seen, at which all conditions hold strictly?"""
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
     points = []
     for seed in range(SEEDS):
         try:
             point = search.search(seed)
-        except (OverflowError, ValueError, DomainError):
+        except (OverflowError, ValueError, NoValueError):
             continue
         if point is not None and point.certified and point.consistent:
             points.append(point)
@@ -101,20 +100,20 @@ def _found(chart: Chart, left: Sequence[tuple[int, DomainCondition]]) -> bool:
 def _strictly(chart: Chart, found: RealPoint, left: Sequence[tuple[int, DomainCondition]]) -> bool:
     try:
         at = values(chart.ring, found.point)
-    except (OutsideDomainError, ZeroDivisionError):
+    except NoValueError:
         return False
     return all(at[n] > 0 if c.sense != "!=" else not arb(at[n]).contains(0) for n, c in left)
 
 
-def _shown(conditions: Sequence[DomainCondition]) -> str:
+def _conditions_text(conditions: Sequence[DomainCondition]) -> str:
     return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in conditions)
 
 
 def _nowhere(result: Answer, conditions: Sequence[DomainCondition], verdict: Literal["proved", "probable"]) -> Answer:
-    why = f"as written the relations ask for {_shown(conditions)}, which holds nowhere where they do"
+    why = f"as written the relations ask for {_conditions_text(conditions)}, which holds nowhere where they do"
     return Answer(False, verdict=verdict, hidden=result.hidden, reasons=[*result.reasons, why])
 
 
 def _open(result: Answer, conditions: Sequence[DomainCondition]) -> Answer:
-    why = f"no configuration was found at which the relations hold and, as they ask, {_shown(conditions)}"
+    why = f"no configuration was found at which the relations hold and, as they ask, {_conditions_text(conditions)}"
     return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why])

@@ -6,6 +6,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, coordinates_of, expressions
@@ -28,7 +29,7 @@ def alike(block: Block, setting: Setting, roles: Mapping[str, tuple[str | None, 
     owners: dict[str | None, int] = {}
     return (
         tuple(_renamed(row.piece, names) for row in block.rows),
-        tuple((c.sense, ex.substitute(c.expr, names)) for c in block.conditions),
+        tuple((c.sense, substitute(c.expr, names)) for c in block.conditions),
         tuple(_value(setting.pose, s) for s in (*symbols, *generic)),
         None if setting.reference is None else tuple(_value(setting.reference, s) for s in (*symbols, *generic)),
         tuple(_role(roles.get(c), owners) for c in block.coordinates),
@@ -53,9 +54,9 @@ def _kind(p: Expr, setting: Setting) -> Hashable:
 
 def _renamed(piece: Piece, names: Mapping[Expr, Expr]) -> Hashable:
     if isinstance(piece, Pfaffian):
-        forms = tuple((ex.substitute(s, names), ex.substitute(a, names)) for s, a in piece.items())
+        forms = tuple((substitute(s, names), substitute(a, names)) for s, a in piece.items())
         return (type(piece).__name__, forms)
-    return (type(piece).__name__, ex.substitute(piece.expr, names))
+    return (type(piece).__name__, substitute(piece.expr, names))
 
 
 def nameless(piece: Piece) -> Hashable:
@@ -75,7 +76,7 @@ def retold(a: Answer, own: Sequence[str], other: Sequence[str]) -> Answer:
         a,
         labels=dict(a.labels),
         reasons=list(a.reasons),
-        hidden=[ex.substitute(g, symbols) for g in a.hidden],
+        hidden=[substitute(g, symbols) for g in a.hidden],
         dependent=tuple(names.get(c, c) for c in a.dependent),
         size=Size(),
     )

@@ -35,7 +35,7 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         distances={} if system.tolerance else system.distances,
         links=_links(system),
         reductions=reductions,
-        welds=frozenset(i for i, c in enumerate(system.constraints) if c.type == "weld"),
+        welds=frozenset(i for i, c in enumerate(system.constraints) if c.facts.welded),
     )
     return reduced, setting
 
@@ -54,14 +54,13 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
     fresh = _fresh(system)
     for i, constraint in enumerate(system.constraints):
         normals, inequalities = [], []
-        written = constraint.type in ("equation", "on")
         for relation in constraint.relations:
             check()
             if relation.sense != "=":
                 inequalities.append(Inequality(relation.expr, relation.sense == ">"))
                 continue
             try:
-                normals.append(_normal(relation.expr, positive, written, fresh))
+                normals.append(_normal(relation.expr, positive, constraint.facts.written, fresh))
             except TextError as error:
                 faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
         found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))

@@ -8,9 +8,11 @@ from dataclasses import replace
 from itertools import product as cartesian
 
 from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
-from dofkit.configuration.variety import on_variety, pose_point
+from dofkit.configuration.generic_points import on_variety, pose_point
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
@@ -49,8 +51,8 @@ def _at_kinks(normal: Normal, known: Mapping[Expr, Expr], positive: frozenset[Ex
 def _folded(e: Expr, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> list[Expr]:
     """The arguments of absolute values that vanish at the reference."""
     try:
-        return [u for u in arguments_of(e) if is_zero(ex.substitute(u, known), positive)]
-    except ZeroDivisionError:
+        return [u for u in arguments_of(e) if is_zero(substitute(u, known), positive)]
+    except NoValueError:
         return []
 
 

@@ -8,9 +8,8 @@ from itertools import chain, count, islice
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.block import answer
-from dofkit.exact.points.field import NoPointError
 from dofkit.expressions.text import to_text
-from dofkit.integrability.differential_blocks import codistribution
+from dofkit.integrability.codistribution import codistribution
 from dofkit.integrability.first_integrals import FirstIntegral, assigned, first_integrals
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
@@ -56,7 +55,7 @@ class Companionship:
         try:
             kept = self._needed(constraint, block, owners)
             integral = self._integral(constraint, block, kept)
-        except (OutOfTimeError, ArithmeticError, NoPointError):
+        except (OutOfTimeError, ArithmeticError):
             return Together()
         companions = tuple(o for o in kept if o != constraint)
         if integral is None:
@@ -70,7 +69,7 @@ class Companionship:
             return Together()
         try:
             integral = self._integral(constraint, block, owners)
-        except (OutOfTimeError, ArithmeticError, NoPointError):
+        except (OutOfTimeError, ArithmeticError):
             return Together()
         return Together() if integral is None else Together((), equation(integral, block), integral.identically)
 
@@ -99,7 +98,7 @@ class Companionship:
     def _integral(self, constraint: int, block: Block, owners: Sequence[int]) -> FirstIntegral | None:
         """The integral of the one form that a constraint wrote, among those of some constraints."""
         own = _forms_of(constraint, block)
-        return self._found(block, owners).by_row.get(own[0]) if len(own) == 1 else None
+        return self._integrals_of(block, owners).by_row.get(own[0]) if len(own) == 1 else None
 
     def basis(self, block: Block) -> list[str]:
         """Independent integrals of all the block's rows together, as text."""
@@ -107,19 +106,19 @@ class Companionship:
         if len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES or block.nonlinear:
             return []
         try:
-            integrals = self._found(block, owners).integrals
-        except (OutOfTimeError, ArithmeticError, NoPointError):
+            integrals = self._integrals_of(block, owners).integrals
+        except (OutOfTimeError, ArithmeticError):
             return []
         return [equation(f, block, i if len(integrals) > 1 else None) for i, f in enumerate(integrals)]
 
-    def _found(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
+    def _integrals_of(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
         """The integrals of a block's rows that some constraints wrote."""
         key = (id(block), *owners)
         if key not in self._integrals:
-            self._integrals[key] = self._sought(block, owners)
+            self._integrals[key] = self._searched(block, owners)
         return self._integrals[key]
 
-    def _sought(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
+    def _searched(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
         numbers = [i for i, r in enumerate(block.rows) if r.constraint in owners]
         part = Block(block.coordinates, tuple(block.rows[i] for i in numbers))
         plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Hashable, Sequence
 from functools import partial
 
 from dofkit.base.deadline import OutOfTimeError, check
@@ -13,11 +13,9 @@ from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.isomorphic_blocks import nameless
 from dofkit.classification.labels.companions import Companionship
-from dofkit.classification.labels.entry import LabelledRow, entry, label_in_system, unfinished
-from dofkit.classification.labels.equation_names import said
+from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
+from dofkit.classification.labels.equation_names import in_words
 from dofkit.classification.labels.reasons import Others
-from dofkit.exact.points.field import NoPointError
-from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import label
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
@@ -48,11 +46,11 @@ def entries_of(
     circuits = {i: c for found in dependent for i, c in found.circuits.items()}
     left_open = {i for found in dependent for i in found.undecided}
     following = _following(dependent)
-    told = _told(len(reduced), outcome, setting)
+    told = _labelled_rows(len(reduced), outcome, setting)
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    told_of = _Remembered(setting).traits
+    traits_of = _Remembered(setting).traits
     entries, consistent = [], outcome.consistent
     for i, r in enumerate(reduced):
         number = independent[i] if i in known else None if told[i] else 0
@@ -60,11 +58,14 @@ def entries_of(
         try:
             check()
             beside = partial(_with_others, i, told[i], company, names)
-            made = _one(i, r, told[i], setting, consistent, number, circuit, constants, told_of, beside)
+            evidence = Evidence(
+                told[i], _by_itself(i, r, told[i], setting), number, circuit, constants, traits_of, beside
+            )
+            made = entry(r, evidence, setting, consistent)
             made = _with_open_dependence(made) if i in left_open else _with_equations(made, r, following.get(i))
             entries.append(made)
         except OutOfTimeError as error:
-            entries.append(unfinished(r.constraint, r.normals, r.inequalities, str(error)))
+            entries.append(unfinished(r, str(error)))
     return entries
 
 
@@ -72,7 +73,7 @@ def labels_in_system(
     reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
 ) -> list[tuple[bool | None, Verdict]]:
     """Whether each constraint is holonomic in the system, and how sure; what needs an integral found is left None."""
-    told = _told(len(reduced), outcome, setting)
+    told = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
     return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
@@ -92,7 +93,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     if following is None or made.independent is None or len(following) != made.equations - made.independent:
         return made
     written = [relation for relation in r.constraint.relations if relation.sense == "="]
-    names = [said(written[k], r.constraint.text) for k in sorted(following)]
+    names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
         many = "follows" if len(names) == 1 else "follow"
@@ -112,39 +113,15 @@ def _unmeasured(outcome: Outcome) -> set[int]:
     return {r.constraint for block in open_blocks for r in block.rows}
 
 
-def _one(
-    i: int,
-    r: Reduced,
-    told: list[LabelledRow],
-    setting: Setting,
-    consistent: bool | None,
-    independent: int | None,
-    circuit: list[str] | None,
-    constants: Mapping[str, Expr],
-    told_of: Callable[[Piece], Traits],
-    with_others: Callable[[bool], Others],
-) -> ConstraintEntry:
-    by_itself = None
+def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], setting: Setting) -> Answer | None:
+    """What a constraint that is not finite says without the others."""
     written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
     if any(isinstance(row.piece, Nonlinear) for row in written):
         still = [t.row for t in told if isinstance(t.row.piece, Still)]
-        by_itself = _curved(told) or _alone_in_time([*written, *still], setting)
-    elif any(isinstance(t.row.piece, Pfaffian) for t in told):
-        by_itself = _inherited(told) or _alone_in_time([t.row for t in told], setting)
-    return entry(
-        r.constraint,
-        r.normals,
-        r.inequalities,
-        told,
-        by_itself,
-        setting,
-        independent,
-        circuit,
-        consistent,
-        constants,
-        told_of,
-        with_others,
-    )
+        return _curved(told) or _alone_in_time([*written, *still], setting)
+    if any(isinstance(t.row.piece, Pfaffian) for t in told):
+        return _inherited(told) or _alone_in_time([t.row for t in told], setting)
+    return None
 
 
 def _with_others(
@@ -177,7 +154,7 @@ class _Remembered:
         return found
 
 
-def _told(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
+def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
     """Every constraint's rows with their labels; a copy has those of its original.
 
     What the other constraints reduce is labelled as it was written.
@@ -212,7 +189,7 @@ def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
     try:
         check()
         return alone(own, setting, coordinates)
-    except (OutOfTimeError, ArithmeticError, NoPointError):
+    except (OutOfTimeError, ArithmeticError):
         return Answer(None, verdict="undecided")
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.classification.labels.reasons import Labels, Others, joined, reason_of
@@ -24,9 +25,9 @@ from dofkit.relations.normal.normal_form import (
     Still,
     with_constants,
 )
+from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, Form
-from dofkit.system import Constraint
 
 
 @dataclass(frozen=True)
@@ -52,66 +53,114 @@ def form_of(piece: Piece) -> Form:
     return "nonlinear" if isinstance(piece, Nonlinear) else "inequality"
 
 
-def entry(
-    constraint: Constraint,
-    normals: Sequence[Normal],
-    inequalities: Sequence[Inequality],
-    told: Sequence[LabelledRow],
-    by_itself: Answer | None,
-    setting: Setting,
-    independent: int | None,
-    circuit: list[str] | None,
-    consistent: bool | None,
-    constants: Mapping[str, Expr],
-    told_of: Callable[[Piece], Traits],
-    with_others: Callable[[bool], Others],
-) -> ConstraintEntry:
-    """Everything that is told of one constraint.
+@dataclass(frozen=True)
+class Evidence:
+    """What was found of one constraint: its rows as they were labelled, and its rows by themselves (None: finite).
 
-    ``constants`` of integration that the system fixes have values; ``told_of`` gives the labels that a piece carries
-    by itself, ``with_others`` what the other constraints do for a form that is holonomic in the system, or is not.
+    ``independent`` equations and ``circuit``, None where unknown or none; ``constants`` of integration that the system
+    fixes have values; ``traits_of`` gives what a piece carries by itself, ``companions_of`` what the other constraints
+    do for a form that is holonomic in the system, or is not.
     """
-    pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(inequalities)
+
+    rows: Sequence[LabelledRow]
+    by_itself: Answer | None
+    independent: int | None
+    circuit: list[str] | None
+    constants: Mapping[str, Expr]
+    traits_of: Callable[[Piece], Traits]
+    companions_of: Callable[[bool], Others]
+
+
+def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bool | None) -> ConstraintEntry:
+    """Everything that is told of one constraint."""
+    constraint, normals = reduced.constraint, reduced.normals
+    pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
-    forms = [p for p in pieces if isinstance(p, Pfaffian)]
-    own_constants = {c: constants.get(c, ex.parameter(c)) for normal in normals for c in normal.constants}
+    own_constants = {c: evidence.constants.get(c, ex.parameter(c)) for c in reduced.constants}
     shown = [with_constants(p, own_constants) for p in pieces]
-    proofs = _proofs(form, [p for p in shown if isinstance(p, Pfaffian)], by_itself, setting)
-    traits = [told_of(p) for p in shown]
-    times = [t.scleronomic for t in traits]
-    in_system, sure = label_in_system(told, inequalities, proofs, forms)
-    own, sure_own = _alone(form, by_itself, proofs, forms, inequalities)
-    if consistent is False and in_system is None:
-        in_system, sure = own, sure_own
-    still = [t.catastatic for t in traits if t.catastatic is not None and form == "pfaffian"]
-    closed = [t.exact for t in traits if t.exact is not None and form == "pfaffian"]
-    equations = len(normals)
-    integral = joined([p.integral for p in proofs])
-    others = Others()
-    if form == "pfaffian" and in_system is not None and consistent and not (own and integral):
-        others = with_others(in_system)
-    if own and integral is None:
-        integral = others.integral
-    verdict = weakest(sure, sure_own, *(v for _, v in (*times, *still, *closed)), *(t.answer.verdict for t in told))
+    proofs = _proofs(form, [p for p in shown if isinstance(p, Pfaffian)], evidence.by_itself, setting)
+    labels = _labels_of(reduced, evidence, form, proofs, consistent)
+    traits = _traits_together([evidence.traits_of(p) for p in shown], form == "pfaffian")
+    integrals = _integrals_of(form, labels, proofs, evidence, bool(consistent))
+    reasons = _labels(labels.in_system, labels.alone, evidence.rows)
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,
         text=constraint.text,
         form=form,
-        holonomic=in_system,
-        holonomic_alone=own,
-        scleronomic=_together([t for t, _ in times]),
-        catastatic=_together([c for c, _ in still]) if form == "pfaffian" else None,
-        bilateral=not inequalities,
-        exact=_together([c for c, _ in closed]) if form == "pfaffian" else None,
+        holonomic=labels.in_system,
+        holonomic_alone=labels.alone,
+        scleronomic=traits.scleronomic,
+        catastatic=traits.catastatic,
+        bilateral=not reduced.inequalities,
+        exact=traits.exact,
         integrating_factor=joined([p.factor for p in proofs]),
-        integral=integral if own else others.integral if in_system else None,
-        circuit=circuit,
-        equations=equations,
-        independent=None if independent is None else min(independent, equations),
-        verdict=verdict,
-        reason=_once(normals) + reason_of(form, _labels(in_system, own, told), proofs, circuit, others),
+        integral=integrals.integral,
+        circuit=evidence.circuit,
+        equations=reduced.equations,
+        independent=None if evidence.independent is None else min(evidence.independent, reduced.equations),
+        verdict=weakest(*labels.verdicts, *traits.verdicts, *(t.answer.verdict for t in evidence.rows)),
+        reason=_once(normals) + reason_of(form, reasons, proofs, evidence.circuit, integrals.others),
     )
+
+
+class _EntryLabels(NamedTuple):
+    """Holonomic in the system and alone, and how sure each is."""
+
+    in_system: bool | None
+    alone: bool | None
+    verdicts: tuple[Verdict, Verdict]
+
+
+def _labels_of(
+    reduced: Reduced, evidence: Evidence, form: Form, proofs: Sequence[Integrability], consistent: bool | None
+) -> _EntryLabels:
+    forms = [p for normal in reduced.normals for p in normal.pieces if isinstance(p, Pfaffian)]
+    in_system, sure = label_in_system(evidence.rows, reduced.inequalities, proofs, forms)
+    own, sure_own = _alone(form, evidence.by_itself, proofs, forms, reduced.inequalities)
+    if consistent is False and in_system is None:
+        in_system, sure = own, sure_own
+    return _EntryLabels(in_system, own, (sure, sure_own))
+
+
+class _EntryTraits(NamedTuple):
+    """What all pieces of a constraint carry by themselves, and how sure it is."""
+
+    scleronomic: bool | None
+    catastatic: bool | None
+    exact: bool | None
+    verdicts: tuple[Verdict, ...]
+
+
+def _traits_together(traits: Sequence[Traits], pfaffian: bool) -> _EntryTraits:
+    times = [t.scleronomic for t in traits]
+    still = [t.catastatic for t in traits if t.catastatic is not None and pfaffian]
+    closed = [t.exact for t in traits if t.exact is not None and pfaffian]
+    return _EntryTraits(
+        _together([t for t, _ in times]),
+        _together([c for c, _ in still]) if pfaffian else None,
+        _together([c for c, _ in closed]) if pfaffian else None,
+        tuple(v for _, v in (*times, *still, *closed)),
+    )
+
+
+class _EntryIntegrals(NamedTuple):
+    """The finite relation that a constraint integrates to, and what the others do for it."""
+
+    integral: str | None
+    others: Others
+
+
+def _integrals_of(
+    form: Form, labels: _EntryLabels, proofs: Sequence[Integrability], evidence: Evidence, consistent: bool
+) -> _EntryIntegrals:
+    own = joined([p.integral for p in proofs])
+    others = Others()
+    if form == "pfaffian" and labels.in_system is not None and consistent and not (labels.alone and own):
+        others = evidence.companions_of(labels.in_system)
+    if labels.alone:
+        return _EntryIntegrals(others.integral if own is None else own, others)
+    return _EntryIntegrals(others.integral if labels.in_system else None, others)
 
 
 def _once(normals: Sequence[Normal]) -> str:
@@ -119,11 +168,10 @@ def _once(normals: Sequence[Normal]) -> str:
     return "".join(f"{n.once[:1].upper()}{n.once[1:]}. " for n in normals if n.once)
 
 
-def unfinished(
-    constraint: Constraint, normals: Sequence[Normal], inequalities: Sequence[Inequality], why: str
-) -> ConstraintEntry:
+def unfinished(reduced: Reduced, why: str) -> ConstraintEntry:
     """An entry without labels: there was no time for them."""
-    pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(inequalities)
+    constraint = reduced.constraint
+    pieces: list[Piece] = [p for normal in reduced.normals for p in normal.pieces] + list(reduced.inequalities)
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,
@@ -133,12 +181,12 @@ def unfinished(
         holonomic_alone=None,
         scleronomic=None,
         catastatic=None,
-        bilateral=not inequalities,
+        bilateral=not reduced.inequalities,
         exact=None,
         integrating_factor=None,
         integral=None,
         circuit=None,
-        equations=len(normals),
+        equations=reduced.equations,
         independent=None,
         verdict="undecided",
         reason=f"Not decided: {why}.",

@@ -32,11 +32,11 @@ _ABOUT = {
 }
 
 
-def said(relation: Relation, otherwise: str) -> str:
+def in_words(relation: Relation, otherwise: str) -> str:
     """A relation in words; ``otherwise`` for one without a name.
 
     >>> from dofkit.expressions.tree import ONE, ZERO
-    >>> said(Relation(ZERO, part="axis", vector=(ONE, ZERO, ZERO)), "")
+    >>> in_words(Relation(ZERO, part="axis", vector=(ONE, ZERO, ZERO)), "")
     'no rotation about (1, 0, 0)'
     """
     word, _, rest = relation.part.partition(" ")

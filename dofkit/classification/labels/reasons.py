@@ -21,7 +21,7 @@ class Others:
     identically: bool = True
 
     @property
-    def shown(self) -> str:
+    def text(self) -> str:
         """The integral with how it was checked."""
         return f"{self.integral}{'' if self.identically else _CHECKED}"
 
@@ -84,7 +84,7 @@ def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -
         return _integrable(proofs, others)
     if labels.in_system:
         with_whom = "the other constraints" if not others.names else " and ".join(others.names)
-        then = "" if others.integral is None else f", which gives {others.shown}"
+        then = "" if others.integral is None else f", which gives {others.text}"
         return (
             f"Alone it is not integrable; it is integrable only together with {with_whom}{then}: "
             f"in this system it is holonomic, and {_INITIAL}."
@@ -93,7 +93,7 @@ def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -
         return "Alone it is integrable."
     modulo = ""
     if others.integral is not None:
-        modulo = f" It is integrable modulo the others: with them it says {others.shown}."
+        modulo = f" It is integrable modulo the others: with them it says {others.text}."
     return (
         "Its curvature does not vanish on the velocities that are left (Frobenius): no function of the coordinates "
         f"has it as a consequence, so it is non-holonomic and limits velocities only.{modulo}"
@@ -101,7 +101,7 @@ def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -
 
 
 def _integrable(proofs: Sequence[Integrability], others: Others) -> str:
-    found = joined([p.integral for p in proofs]) or (others.integral and others.shown)
+    found = joined([p.integral for p in proofs]) or (others.integral and others.text)
     if found:
         return f"It integrates to {found}: holonomic; {_INITIAL}."
     how = next((p.reason for p in proofs if p.reason), "d(omega) ^ omega = 0")

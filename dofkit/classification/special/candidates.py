@@ -8,11 +8,10 @@ from functools import partial
 from itertools import combinations
 from math import comb
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.classification.special.common_zeros import MAX_READ, Leaf, common_zeros
 from dofkit.classification.special.minors import MAX_MINORS, EliminatedTable, MinorTable, curvatures
-from dofkit.exact.ring.canonical import Poly, TooLargeError
+from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.ring.canonical import Poly
 from dofkit.exact.ring.minors import determinant
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -62,6 +61,8 @@ def _simple(leaf: Leaf) -> bool:
 
 
 class CandidateSearch:
+    """The search for candidates in one table; what is too large finds nothing."""
+
     def __init__(self, table: MinorTable) -> None:
         self.table, self.reals = table, table.reals
         self.found = Candidates()
@@ -69,8 +70,8 @@ class CandidateSearch:
     def attempt(self, work: Callable[[], None]) -> None:
         """Do it; what is too large finds nothing."""
         try:
-            work()
-        except (TooLargeError, DomainError):
+            raising_no_value(work)()
+        except NoValueError:
             return
 
     def agreements(self) -> None:
@@ -155,7 +156,7 @@ class CandidateSearch:
             return []
         try:
             ways = common_zeros(self.reals, relations)
-        except TooLargeError:
+        except NoValueError:
             return [[]]
         conditions = [way.conditions(self.table.canon) for way in ways]
         return [

@@ -7,8 +7,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.deadline import OutOfTimeError, expired, limited
 from dofkit.base.errors import DofkitError
 from dofkit.base.verdicts import Verdict, weakest
@@ -29,14 +27,14 @@ from dofkit.classification.special.parameters import (
     differences,
 )
 from dofkit.classification.special.wording import drop, flag, order_of, where
-from dofkit.exact.points.field import NoPointError
-from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError
+from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, expressions
 from dofkit.relations.normal.normal_form import Inequality
-from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import Report, SpecialCase
@@ -50,7 +48,7 @@ MAX_VALUES, MAX_PLACES = 8, 6
 MAX_SCENE, MAX_SECONDS = 40, 10.0
 SEARCHED = "special cases by the zeros of minors and of curvature"
 
-_UNFINISHED = (TooLargeError, DomainError, ArithmeticError, ValueError, NoPointError, OutOfTimeError)
+_UNFINISHED = (ArithmeticError, ValueError, OutOfTimeError)
 
 Again = Callable[[System], Report]
 
@@ -70,7 +68,7 @@ class GenericAnswer:
         values = {canon.ring.var_expr[i]: canon.to_expr(v) for i, v in leaf.solved}
         known = {s: v for s, v in values.items() if s.op == "sym"}
         positive = self.setting.positive
-        return not any(never_holds(ex.substitute(q.expr, known), q.strict, positive) for q in self.inequalities)
+        return not any(never_holds(substitute(q.expr, known), q.strict, positive) for q in self.inequalities)
 
     def names(self, constraints: Sequence[int]) -> list[str]:
         return [self.system.constraints[i].name for i in constraints]
@@ -210,19 +208,19 @@ def _places(found: SearchedBlock, told: GenericAnswer) -> Iterator[SpecialCase]:
         return
     dropped: list[Leaf] = []
     for leaf in found.candidates.ranks[:MAX_PLACES]:
-        seen = _seen(found, told, leaf, 0)
+        seen = _locus_of(found, told, leaf, 0)
         if seen is not None and seen.rank < found.rank:
             dropped.append(leaf)
             yield from _dropping(found, told, leaf, seen)
     for leaf in found.candidates.bends[:MAX_PLACES] if found.curved else ():
-        seen = None if leaf in dropped else _seen(found, told, leaf, found.rank)
+        seen = None if leaf in dropped else _locus_of(found, told, leaf, found.rank)
         if seen is not None:
             yield from _bending(found, told, leaf, seen)
     for row, below in found.candidates.poles[:MAX_PLACES]:
         yield from _pole(found, told, row, below)
 
 
-def _seen(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
+def _locus_of(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
     canon, reals = found.table.canon, found.table.reals
     left = [g for g in found.table.relations if not _holds(reals, leaf, g)]
     if len(leaf.conditions(canon)) + len(left) > len(found.block.coordinates):

@@ -12,10 +12,12 @@ from dataclasses import dataclass
 from itertools import product as cartesian
 
 from dofkit.base.deadline import check
-from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError
+from dofkit.exact.errors import TooLargeError
+from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.zero_set import Signs, sum_of_even, zero_set
+from dofkit.relations.normal.semidefinite import Signs, sum_of_even
+from dofkit.relations.normal.zero_set import zero_set
 
 #: Polynomials with more terms, or of a higher degree, are not factored.
 MAX_TERMS, MAX_DEGREE = 48, 12

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dofkit.exact.ring.canonical import Canon, Poly, Quotient, TooLargeError
-from dofkit.exact.ring.ring import Var
+from dofkit.exact.errors import TooLargeError
+from dofkit.exact.ring.canonical import Canon, Poly, Quotient
+from dofkit.exact.ring.instructions import Var
 from dofkit.expressions.tree import Expr
 
 

@@ -9,14 +9,17 @@ from typing import Any
 from flint import arb, ctx, nmod, nmod_mat
 
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.variety import on_variety
+from dofkit.configuration.generic_points import on_variety
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.balls import PRECISION, BallPoint, OutsideDomainError, RealSearch
-from dofkit.exact.points.field import FieldPoint, NoPointError
+from dofkit.exact.points.balls import PRECISION, BallPoint
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame, rank_over
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import AdmissibleCurve, columns_of
 from dofkit.relations.answer import Answer
@@ -75,6 +78,7 @@ class Locus:
     least: tuple[int, ...] = ()
 
 
+@raising_no_value
 def place(
     block: Block, a: Answer, setting: Setting, conditions: Sequence[Expr], relations: Sequence[Expr], grows: int
 ) -> Locus | None:
@@ -92,7 +96,7 @@ def place(
         with ctx.workprec(PRECISION):
             balls = rows.matrix(values(chart.ring, found.real), arb(0))
             certified = certified_rank(_part(balls, n)), certified_rank(balls)
-    except (ZeroDivisionError, NoPointError, OutsideDomainError):
+    except NoValueError:
         return None
     rank, whole = rank_of(_part(matrix, n), point.p), rank_of(matrix, point.p)
     if certified != (rank, whole):
@@ -119,7 +123,7 @@ def _rows(
     if uses_time(block) or any(ex.TIME in g.symbols for g in (*finite, *conditions)):
         symbols.append(ex.TIME)
     place_of = {s: i for i, s in enumerate(symbols)}
-    entries = [{place_of[s]: ex.diff(g, s) for s in symbols if s in g.symbols} for g in finite]
+    entries = [{place_of[s]: diff(g, s) for s in symbols if s in g.symbols} for g in finite]
     entries += [{place_of[s]: e for s, e in r.piece.items()} for r in block.forms if isinstance(r.piece, Pfaffian)]
     chart = _chart(block, setting, [*relations, *conditions], [e for row in entries for e in row.values()])
     if len(chart.symbols) < len(symbols):
@@ -186,7 +190,7 @@ def _least(rows: FormRows, balls: list[list[arb]], frame: Pivots, point: BallPoi
         vectors = [v for k in range(3) for v in columns_of(flow.pulled[k])]
         size = len(frame.free)
         return tuple(rank_over(vectors[: size * (k + 1)], flow.sample) for k in range(3))
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return ()
 
 
@@ -212,7 +216,7 @@ def undefined(
         at = values(chart.ring, found.field)
         with ctx.workprec(PRECISION):
             balls = values(chart.ring, found.real)
-    except (ZeroDivisionError, NoPointError, OutsideDomainError):
+    except NoValueError:
         return None
     if not any(at[node] != 0 and not balls[node].contains(0) for node in nodes):
         return None

@@ -15,7 +15,8 @@ from math import comb
 from dofkit.base.deadline import check
 from dofkit.classification.special.common_zeros import Reals
 from dofkit.classification.special.derivatives import Derivation
-from dofkit.exact.ring.canonical import Canon, Poly, Quotient, TooLargeError
+from dofkit.exact.errors import TooLargeError, raising_no_value
+from dofkit.exact.ring.canonical import Canon, Poly, Quotient
 from dofkit.exact.ring.minors import cleared, determinant
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -54,6 +55,7 @@ class MinorTable:
         return sum(s != ex.TIME for s in self.symbols)
 
 
+@raising_no_value
 def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: frozenset[Expr]) -> MinorTable:
     """The polynomials of a block without nonlinear rows. Raises TooLargeError."""
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(hidden)

@@ -10,9 +10,10 @@ from dofkit.classification.special.common_zeros import Leaf, Reals
 from dofkit.classification.special.wording import tuple_of
 from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Report
-from dofkit.system import Constraint, Sign, System
+from dofkit.system import Sign, System
 
 Values = Mapping[Expr, Expr]
 #: Labels whose change is told, after the change to holonomic.
@@ -104,14 +105,13 @@ def _angles(canon: Canon, index: int, value: Expr) -> list[dict[Expr, Expr]]:
 
 
 def at_values(system: System, values: Values) -> System:
-    """The system with parameters replaced. Raises ZeroDivisionError where it has no meaning for them."""
+    """The system with parameters replaced. Raises PoleError where it has no meaning for them."""
 
     def put(e: Expr) -> Expr:
-        return ex.substitute(e, values)
+        return substitute(e, values)
 
     constraints = tuple(
-        Constraint(c.name, c.type, c.text, tuple(replace(r, expr=put(r.expr)) for r in c.relations), c.notes)
-        for c in system.constraints
+        replace(c, relations=tuple(replace(r, expr=put(r.expr)) for r in c.relations)) for c in system.constraints
     )
     gone = {str(s.args[1]) for s in values}
     return replace(

@@ -78,4 +78,5 @@ def flag(
 
 
 def tuple_of(numbers: Sequence[int]) -> str:
+    """``(2, 3, 4)``."""
     return f"({', '.join(map(str, numbers))})"

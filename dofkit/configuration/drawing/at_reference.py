@@ -12,14 +12,17 @@ from flint import arb, ctx
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.drawing.dependent_classes import chart_of, dependent_parts
 from dofkit.configuration.drawing.fewer_coordinates import smaller
-from dofkit.configuration.local.dimension import INDEPENDENT, WHOLE, numeric_dimension
+from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.local.dimension import local_at, numeric_dimension
+from dofkit.configuration.local.first_order import INDEPENDENT, WHOLE
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.configuration.reality import BALL_COLUMNS
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
-from dofkit.configuration.variety import BALL_COLUMNS, field_jacobian, local_at, on_variety, pose_point
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import rank_of, without_time
 from dofkit.exact.matrices.sparse import SparseRow, echelon, rank_of_rows, sparse
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, jacobian, precision
+from dofkit.exact.points.balls import BallPoint, jacobian, precision
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values
@@ -59,9 +62,13 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
 
     With measured geometry (not ``exact``) the relations need not hold there to the last digit.
     """
-    known = {**reference, ex.TIME: ex.ZERO}
-    if "field" not in chart.engines:
-        return by_balls(chart, known, exact)
+    with ctx.workprec(precision()):
+        known = {**reference, ex.TIME: ex.ZERO}
+        return (_by_field if "field" in chart.engines else by_balls)(chart, known, exact)
+
+
+def _by_field(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:
+    """`at_reference` with a point over GF(p), and balls where signs are asked for."""
     point = pose_point(chart, known, 3)
     if point is None or (exact and not on_variety(chart, point)):
         return None
@@ -119,8 +126,8 @@ def _by_parts(
 ) -> tuple[LocalDimension, FollowedClasses] | None:
     """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
 
-    See `separate`. None where one does not, or is not known to, or is all there is: then all have to be looked at
-    together.
+    See `dependent_classes`. None where one does not, or is not known to, or is all there is: then all have to be
+    looked at together.
     """
     dimension = len(chart.columns) - rank
     if rank == len(matrix):
@@ -197,7 +204,7 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
 def _followed(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
     try:
         return numeric_dimension(manifold, rigid, time)
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return LocalDimension(
             None, "undecided", "the relations could not be followed along a curve through this configuration"
         )
@@ -211,7 +218,7 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
             return None
         present = [c for c in chart.columns if c >= 0]
         found = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
-    except (ZeroDivisionError, OutsideDomainError):
+    except NoValueError:
         return None
     place = {c: i for i, c in enumerate(present)}
     return [[row[place[c]] if c >= 0 else arb(0) for c in chart.columns] for row in found]
@@ -219,7 +226,11 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
 
 def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
     """The reference configuration with balls; symbols without a value get random ones."""
-    ctx.prec = precision()
+    with ctx.workprec(precision()):
+        return _ball_point(chart, known, rng)
+
+
+def _ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
     symbols: dict[Expr, Any] = {}
     for var in chart.ring.vars:
         if var.kind != "symbol":
@@ -233,6 +244,6 @@ def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> 
         constants = {v.key: arb(3) / 4 for v in ring.vars if v.kind == "symbol"}
         try:
             symbols[var.key] = values(ring, BallPoint(constants, 0))[node]
-        except (OutsideDomainError, ZeroDivisionError):
+        except NoValueError:
             return None
     return BallPoint(symbols, 0)

@@ -2,9 +2,10 @@
 
 Let B be a basis of the rows of the Jacobian at P, and M the manifold on which the relations of B vanish. The set that
 all relations cut out is M if those outside B vanish on M too. One of them that is a combination of rows S of B is
-looked at together with any set of relations that holds S: where these alone cut out the manifold M' of their part of B,
-it vanishes on M', and M lies in M'. So relations in no dependent set (coloops) need not be looked at: what hangs on a
-mechanism as a tree, or is determined one by one, never enters, and mechanisms that share nothing are apart.
+looked at together with any set of relations that holds S: where these alone cut out the manifold M' of their part of B
+[ImplicitFunctions], it vanishes on M', and M lies in M'. So relations in no dependent set (coloops) need not be looked
+at: what hangs on a mechanism as a tree, or is determined one by one, never enters, and mechanisms that share nothing
+are apart.
 
 Two rows are in one class where a minimal dependent set holds both. Beside a class those relations are kept that
 mention its coordinates only: without them a bar across a square could not tell that the square is held.

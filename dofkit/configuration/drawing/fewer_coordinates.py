@@ -1,9 +1,10 @@
 """A drawn block with fewer coordinates: relations on fewer of them that cut out the same set near the drawing.
 
-- A relation c q + (a sum of others and a number) = 0 makes the set a graph over the other coordinates: q goes. So go
-  the angles of bodies that do not turn (theta = 0), bodies welded to others (x_B = x_A, theta_B = theta_A), z = 0.
-- Particles of the plane with links between them that are infinitesimally rigid at the drawing move as one body (Asimow
-  and Roth 1978): near the drawing the links hold where the first two keep their distance |d| and each other one is
+- A relation c q + (a sum of others and a number) = 0 makes the set a graph over the other coordinates: q goes
+  [ImplicitFunctions]. So go the angles of bodies that do not turn (theta = 0), bodies welded to others (x_B = x_A,
+  theta_B = theta_A), z = 0.
+- Particles of the plane with links between them that are infinitesimally rigid at the drawing move as one body
+  [AsimowRoth1978]: near the drawing the links hold where the first two keep their distance |d| and each other one is
   p = p_A + a (p_B - p_A) + b J (p_B - p_A), with the a and b of the drawing and J the quarter turn.
 
 Coordinates and independent relations go together, so the dimension of the set near the drawing is the same.
@@ -19,6 +20,7 @@ from typing import NamedTuple
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.graph.answers import linkage
 from dofkit.relations.chart import Chart
@@ -97,7 +99,7 @@ def _without_explicit(chart: Chart, said: Sequence[Said]) -> tuple[set[Expr], li
         for k in users.pop(q) - {i}:
             if k not in left:
                 continue
-            changed = ex.substitute(left[k].relation, {q: value})
+            changed = substitute(left[k].relation, {q: value})
             for symbol in changed.symbols & own:
                 users.setdefault(symbol, set()).add(k)
             left[k] = left[k]._replace(relation=changed)

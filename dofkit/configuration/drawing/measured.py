@@ -98,6 +98,17 @@ class _Scene:
         return f / norms, j / norms[:, None]
 
 
+@dataclass(frozen=True)
+class _MeasuredDrawing:
+    """The relations as drawn: the Jacobian ``j`` at ``at``, and its ``rank`` within the tolerance."""
+
+    scene: _Scene
+    at: Mapping[Expr, float]
+    j: Any
+    rank: int
+    tolerance: float
+
+
 def measure(
     chart: Chart, at: Mapping[Expr, float], roles: Sequence[Coordinate], tolerance: float, size: float, rigid: int
 ) -> Measured:
@@ -120,31 +131,30 @@ def measure(
     first = n - rank
     whole = scene.whole(at)
     rigid = min(rigid, len(_own(whole, tolerance)))
-    dimension, reason = _finite(scene, at, j, rank, tolerance, rigid, lever > LEVER or scene.blurs(at) > tolerance)
+    drawn = _MeasuredDrawing(scene, at, j, rank, tolerance)
+    dimension, reason = _finite(drawn, rigid, lever > LEVER or scene.blurs(at) > tolerance)
     return Measured(first, dimension, pattern, columns, gap, reason)
 
 
-def _finite(
-    scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance: float, rigid: int, far: bool
-) -> tuple[int | None, str]:
+def _finite(drawn: _MeasuredDrawing, rigid: int, far: bool) -> tuple[int | None, str]:
     """(dimension of the finite motion, why); nothing is followed where that is ``far`` from the origin."""
-    first = j.shape[1] - rank
-    if rank == j.shape[0]:
+    rank, (full, columns) = drawn.rank, drawn.j.shape
+    first = columns - rank
+    if rank == full:
         return first, "all relations are independent within the tolerance"
     if first == rigid:
         return first, "nothing but motions of the whole is possible to first order"
     if far:
         return None, "the drawing is too far from the origin, by its size, to follow a motion in floating point"
-    stride = max(STEP, (FAR * tolerance) ** HALF)
+    stride = max(STEP, (FAR * drawn.tolerance) ** HALF)
     if stride > LONGEST:
         return None, "the tolerance is too coarse to tell a motion from one of first order only"
-    ranks = [_followed(scene, at, j, rank, tolerance, stride, seed) for seed in range(WAYS)]
+    ranks = [_rank_away(drawn, stride, seed) for seed in range(WAYS)]
     if all(r == rank for r in ranks):
         return first, "the motion was followed for a finite step within the tolerance"
-    full = j.shape[0]
     # one dependence leaves a cone of one dimension less, or nothing: wherever it can be entered, that is the motion
     if set(ranks) == {full} or (rank == full - 1 and full in ranks and rank not in ranks):
-        return j.shape[1] - full, "branches cross here; beside it all relations are independent within the tolerance"
+        return columns - full, "branches cross here; beside it all relations are independent within the tolerance"
     if first - rigid == 1 and set(ranks) == {BLOCKED}:
         return rigid, "the one motion left to first order breaks the relations beyond the tolerance"
     return None, "some of the motions to first order are no finite motions; which was not decided"
@@ -170,20 +180,19 @@ def _rank(j: Any, tolerance: float) -> int | None:
     return int(np.sum(singular > tolerance * SLACK))
 
 
-def _followed(
-    scene: _Scene, at: Mapping[Expr, float], j: Any, rank: int, tolerance: float, stride: float, seed: int
-) -> int | None:
+def _rank_away(drawn: _MeasuredDrawing, stride: float, seed: int) -> int | None:
     """The rank a stride away along some motion to first order; `BLOCKED` where the relations cannot be met there.
 
     None where the rank is undecided.
     """
+    scene, at, tolerance = drawn.scene, drawn.at, drawn.tolerance
     rng = random.Random(f"dofkit measured {seed}")
-    _, _, right = np.linalg.svd(j)
-    null = _beside(right[rank:], scene.whole(at), tolerance)
+    _, _, right = np.linalg.svd(drawn.j)
+    null = _beside(right[drawn.rank :], scene.whole(at), tolerance)
     direction = np.array([rng.uniform(-1, 1) for _ in null]) @ null
     direction *= stride / np.linalg.norm(direction)
     moved = {**at}
-    step, there = direction, j
+    step, there = direction, drawn.j
     residual = float("inf")
     for _ in range(ROUNDS):
         check()

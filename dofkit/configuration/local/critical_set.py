@@ -3,7 +3,7 @@
 On M let f_1, ..., f_k be the dependent relations, with Hessians H_i at the point. Rows of the H_i that are independent
 give equations df_i/dx_j = 0 that can be solved for as many of M's coordinates: N, tangent to the common kernel. Where
 all f_i vanish on N, it is a branch of the set on which every pose is singular. For one relation N is the critical
-set of the splitting lemma: f = Q(y) + g with Q the second-order part and g the relation's values on N.
+set of the splitting lemma [GromollMeyer1969]: f = Q(y) + g Q the second-order part and g the relation's values on N.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from flint import nmod_mat
 from dofkit.configuration.local.manifold import Form, Manifold, inverse, product
 from dofkit.exact.points.frames import pivots
 from dofkit.exact.points.series import Series, monomial
-from dofkit.exact.ring.ring import Scalar
+from dofkit.exact.ring.instructions import Scalar
 
 
 @dataclass(frozen=True)

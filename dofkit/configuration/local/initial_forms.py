@@ -1,48 +1,62 @@
 """Dependent relations that begin at some higher order, where two motions are in question: their initial forms.
 
 On a plane across the motions of the whole let f_i begin with the binary form h_i of degree k_i. A curve of the set
-leaves along a common zero of the h_i, so there is none where they have no common zero: over the complex numbers a gcd
-of 1 says so, over the reals one h_i that is definite.
+[CurveSelection] leaves along a common zero of the h_i, so there is none where they have no common zero: over the
+complex numbers a gcd of 1 says so, over the reals one h_i that is definite.
 """
 
 from __future__ import annotations
 
 import random
 from collections.abc import Sequence
+from functools import reduce
+from typing import NamedTuple
 
 from flint import arb, arb_mat, arb_poly, nmod, nmod_mat, nmod_poly
 
 from dofkit.base.deadline import check
-from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.configuration.local.manifold import Manifold
 from dofkit.exact.points.series import Series
 
 #: The order to which the relations are followed, and halvings of an interval on which a form's sign is looked for.
 ORDER, HALVINGS = 12, 10
-APART = "the initial forms of the dependent relations have no common zero: no finite motion"
-DEFINITE = "a dependent relation begins with a definite form of degree {k}: no finite motion"
 
 
-def by_initial_forms(field: Manifold, ball: Manifold, rigid: int) -> LocalDimension | None:
-    """``rigid`` where the initial forms leave no other motion; None where they do not tell."""
-    if field.dimension - rigid != 2:
-        return None
+class InitialForms(NamedTuple):
+    """On a plane spanned by two directions: the order at which each f_i begins, and the h_i known as polynomials.
+
+    ``forms`` maps the number i of a relation to h_i(1, b) over GF(p), where f_i begins below the order followed.
+    """
+
+    plane: list[list[int]]
+    orders: list[int]
+    forms: dict[int, nmod_poly]
+
+
+def initial_forms(field: Manifold) -> InitialForms:
+    """The initial forms of the dependent relations on a random plane."""
     rng = random.Random("dofkit initial forms")
     plane = [[rng.choice((-1, 1)) * rng.randint(1, 9) for _ in range(field.dimension)] for _ in range(2)]
     along = _rows(field, plane)
     orders = [min(_order(row[i]) for row in along) for i in range(len(field.others))]
     known = [i for i, k in enumerate(orders) if k < ORDER]
-    if not known:
-        return None
-    forms = [_interpolated([row[i].coefficient(orders[i]) for row in along[: orders[i] + 1]]) for i in known]
-    common = forms[0]
-    for form in forms[1:]:
-        common = common.gcd(form)
-    if common.degree() == 0 and any(f.degree() == orders[i] for i, f in zip(known, forms, strict=True)):
-        return LocalDimension(rigid, "probable", APART)
-    for i in known:
-        if orders[i] % 2 == 0 and _definite(ball, plane, i, orders[i]):
-            return LocalDimension(rigid, "probable", DEFINITE.format(k=orders[i]))
-    return None
+    forms = {i: _interpolated([row[i].coefficient(orders[i]) for row in along[: orders[i] + 1]]) for i in known}
+    return InitialForms(plane, orders, forms)
+
+
+def have_no_common_zero(found: InitialForms) -> bool:
+    """Have the h_i no common zero over the complex numbers but (0, 0)? Their gcd is 1, and not all vanish at (0, 1)."""
+    if not found.forms:
+        return False
+    first, *others = found.forms.values()
+    common = reduce(lambda a, b: a.gcd(b), others, first)
+    return common.degree() == 0 and any(form.degree() == found.orders[i] for i, form in found.forms.items())
+
+
+def definite_degree(ball: Manifold, found: InitialForms) -> int | None:
+    """The degree of an h_i of even degree that has no real zero but (0, 0)."""
+    definite = (k for i in found.forms if (k := found.orders[i]) % 2 == 0 and _definite(ball, found.plane, i, k))
+    return next(definite, None)
 
 
 def _rows(manifold: Manifold, plane: Sequence[Sequence[int]]) -> list[list[Series]]:

@@ -15,6 +15,7 @@ import numpy as np
 
 from dofkit.base.deadline import check
 from dofkit.configuration.local.manifold import Manifold
+from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.points.balls import FloatPoint
 from dofkit.exact.ring.program import gradient, values
 
@@ -29,7 +30,7 @@ FloatRow = dict[int, float]
 
 
 class SparseColumns:
-    """Rows solved for as many columns; raises ZeroDivisionError where they are nearly dependent."""
+    """Rows solved for as many columns; raises PoleError where they are nearly dependent."""
 
     def __init__(self, rows: Sequence[FloatRow]) -> None:
         self._weight = Counter(c for row in rows for c in row)
@@ -56,7 +57,7 @@ class SparseColumns:
                     heappush(pending, k)
         most = max(map(abs, work.values()), default=0.0)
         if most < TINY:
-            raise ZeroDivisionError("the relations are nearly dependent")
+            raise PoleError("the relations are nearly dependent")
         good = [c for c, v in work.items() if abs(v) >= THRESHOLD * most]
         column = min(good, key=lambda c: (self._weight[c], c))
         of[column] = len(self._rows)
@@ -142,7 +143,7 @@ def _walk(here: Wide, ahead: np.ndarray, reach: float) -> np.ndarray | None:
         rows, norms = here.slopes(u, here.ball.rows)
         try:
             solver = SparseColumns(rows)
-        except ZeroDivisionError:
+        except NoValueError:
             return None
         tangent = _tangent(rows, solver, ahead)
         moved = u + (reach / STEPS) * tangent / max(float(np.linalg.norm(tangent)), TINY)

@@ -11,11 +11,13 @@ from flint import arb, arb_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import FactoredMatrix
 from dofkit.exact.points.frames import Pivots, solve
 from dofkit.exact.points.series import Series, SeriesPoint, monomial, series_values, zero_poly
+from dofkit.exact.ring.instructions import Scalar
 from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.ring.ring import Ring, Scalar
+from dofkit.exact.ring.ring import Ring
 
 Form = list[list[Scalar]]
 
@@ -171,8 +173,9 @@ class Manifold:
         return [s.coefficient(2) for s in self.follow(direction, 3)]
 
 
+@raising_no_value
 def inverse(rows: list[list[Scalar]]) -> Any:
-    """The inverse of a square matrix over GF(p) or balls; raises ZeroDivisionError."""
+    """The inverse of a square matrix over GF(p) or balls; raises PoleError."""
     if not rows:
         return None
     if isinstance(rows[0][0], nmod):

@@ -11,7 +11,7 @@ from dofkit.base.deadline import check
 from dofkit.configuration.local.critical_set import Split
 from dofkit.configuration.local.long_paths import fails_afar
 from dofkit.configuration.local.manifold import Manifold
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, jacobian
+from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 
@@ -19,7 +19,7 @@ from dofkit.expressions.tree import Expr
 FAR, NEAR, STEPS = 0.5, 2.0**-24, 8
 #: The least cosine between steps, and what a correction may add to one.
 STRAIGHT = 0.9
-#: What counts as not 0 there, relative to the relation's gradient; with more relations floats have to do (`wide`).
+#: What counts as not 0 there, relative to the relation's gradient; with more relations floats do (`long_paths`).
 SURE, MANY = 2.0**-150, 60
 #: Bits that large numbers which cancel may cost: a million sizes from the origin, squared, and more.
 LOST = 90
@@ -29,7 +29,7 @@ DEEP, DEEP_SURE = 1024, 2.0**-900
 WIDE = 256
 #: The step of a difference of gradients, and rounds of Newton's method on the critical set.
 DIFFERENCE, ROUNDS = 2.0**-80, 8
-FAULTS = (ValueError, ZeroDivisionError, OverflowError, OutsideDomainError, np.linalg.LinAlgError)
+FAULTS = (ArithmeticError, ValueError)
 
 
 class Neighbourhood:
@@ -124,7 +124,7 @@ class Neighbourhood:
     def residual(self, symbols: Mapping[Expr, arb], nodes: Sequence[int]) -> float:
         """The largest of the relations, relative to their gradients."""
         at = values(self.ring, BallPoint(symbols, 0))
-        return max((abs(float(at[n].mid())) / self.norm_of[n] for n in nodes), default=0.0)
+        return max((abs(float(at[n].mid())) / float(self.norm_of[n]) for n in nodes), default=0.0)
 
 
 def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool | None:

@@ -1,7 +1,7 @@
 """The cone of second-order flexes {v: Q_1(v) = ... = Q_k(v) = 0} of quadratic forms.
 
-The tangent cone of a set lies in it, so its dimension bounds that of the set, whether it is looked at over the complex
-numbers (where the bound is a rank) or over the reals (where a definite combination leaves 0 alone).
+The tangent cone of a set lies in it, so its dimension bounds that of the set [TangentCone], whether it is looked at
+over the complex numbers (where the bound is a rank) or over the reals (where a definite combination leaves 0 alone).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from flint import arb, nmod, nmod_mat
 
 from dofkit.base.deadline import check
-from dofkit.exact.ring.ring import Scalar
+from dofkit.exact.ring.instructions import Scalar
 
 Form = Sequence[Sequence[Scalar]]
 #: The most linear conditions by which the complex cone is cut: their Macaulay matrix has comb(2 c, c + 1) columns.
@@ -30,7 +30,7 @@ def bound(forms: Sequence[Form], rigid: int) -> int:
     """An upper bound of the cone's dimension over the complex numbers, from forms over GF(p).
 
     The cone has at most dimension d where a linear subspace of codimension d meets it in 0 alone. On c = m - d
-    variables that holds if and only if the forms' multiples span all polynomials of degree c + 1 (Macaulay);
+    variables that holds if and only if the forms' multiples span all polynomials of degree c + 1 [Macaulay1902];
     full rank modulo p is full rank.
     """
     m = len(forms[0])
@@ -69,7 +69,7 @@ def _only_zero(forms: Sequence[Form], c: int, p: int) -> bool:
 def definite_combination(forms: Sequence[Form], rank_wanted: int) -> bool:
     """Is a combination of the forms, over balls, definite of the given rank? True is a proof.
 
-    In linkages: a stress whose form is definite on the flexes (prestress stability, Connelly and Whiteley 1996).
+    In linkages: a stress whose form is definite on the flexes (prestress stability [ConnellyWhiteley1996]).
     """
     m = len(forms[0])
     for weights in _candidates(forms, rank_wanted):
@@ -127,7 +127,10 @@ def _search(forms: Sequence[Form], rank_wanted: int) -> np.ndarray | None:
 
 
 def signature_of(form: Form) -> tuple[int, int]:
-    """Certified numbers of positive and negative squares (Lagrange's reduction with pivots that exclude 0)."""
+    """Certified numbers of positive and negative squares, by Lagrange's reduction with pivots that exclude 0.
+
+    However they are found, they are the same [Sylvester1852].
+    """
     n = len(form)
     work = [list(row) for row in form]
     left = set(range(n))

@@ -13,6 +13,7 @@ from heapq import heapify, heappop, heappush
 from typing import Any
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import PoleError
 
 SparseRow = dict[int, int]
 #: For every row that depends on rows before it a minimal set of those; told where it is asked for.
@@ -211,7 +212,7 @@ class _Reduction:
 class FactoredMatrix:
     """A square matrix over GF(p) without its zeros, factored once to be solved often; rows are equations.
 
-    Raises ZeroDivisionError where it is singular.
+    Raises PoleError where it is singular.
     """
 
     def __init__(self, rows: Sequence[Mapping[int, int]], p: int) -> None:
@@ -222,7 +223,7 @@ class FactoredMatrix:
                 check()
             rest, used = self._found.reduced(row)
             if not rest:
-                raise ZeroDivisionError("the matrix is singular")
+                raise PoleError("the matrix is singular")
             self._found.add(i, rest, used)
 
     def solve(self, right: Sequence[int]) -> list[int]:

@@ -1,4 +1,4 @@
-"""Random points over GF(p): zero here is zero of the function, with error at most degree/p a point.
+"""Random points over GF(p): zero here is zero of the function, with error at most degree/p a point [SchwartzZippel].
 
 Primes have 61 bits and are drawn at random (a fixed prime is a trap: x^(p-1) - 1), with p = 1 modulo the
 orders of the roots of unity that the scene mentions. sin and cos of a basic angle are a random point of
@@ -18,8 +18,10 @@ from math import gcd, lcm
 from flint import fmpz, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
+from dofkit.exact.errors import NoPointError, NoValueError
+from dofkit.exact.ring.instructions import Scalar, Var
 from dofkit.exact.ring.program import value_of
-from dofkit.exact.ring.ring import Ring, Scalar, Var
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 
 PRIME_BITS = 61
@@ -40,10 +42,6 @@ def primes_of(bits: int) -> Iterator[None]:
         yield
     finally:
         _bits.reset(token)
-
-
-class NoPointError(Exception):
-    """No point was found at this draw (a radicand is no square, a division by zero)."""
 
 
 def circle_order(rings: Iterable[Ring]) -> int:
@@ -180,7 +178,7 @@ class FieldPoint:
         return self.rng.choice(roots)[0]
 
     def _root_in_circle(self, prime: int) -> Scalar | None:
-        """sqrt(prime) through the roots of unity, where those contain it (Gauss's quadratic sum)."""
+        """sqrt(prime) through the roots of unity, where those contain it (Gauss's quadratic sum [GaussSum])."""
         if prime == 2 and self.order % 4 == 0:
             self._setup_unity()
             eighth = self._zeta ** (self.order // 4)
@@ -217,6 +215,6 @@ def _nested(ring: Ring, var: Var) -> bool:
 def _exists(ring: Ring, var: Var, point: FieldPoint) -> bool:
     try:
         value_of(ring, point, ring.var_node[var.index])
-    except (NoPointError, ZeroDivisionError):
+    except NoValueError:
         return False
     return True

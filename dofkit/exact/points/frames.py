@@ -9,9 +9,11 @@ from typing import Any
 from flint import arb, arb_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import PoleError, raising_no_value
 from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
 from dofkit.exact.points.series import Series
-from dofkit.exact.ring.ring import Ring, Scalar
+from dofkit.exact.ring.instructions import Scalar
+from dofkit.exact.ring.ring import Ring
 
 
 @dataclass(frozen=True)
@@ -123,8 +125,9 @@ def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list
     return found
 
 
+@raising_no_value
 def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
-    """a^-1 b for scalars or series, by elimination with invertible pivots; raises ZeroDivisionError."""
+    """a^-1 b for scalars or series, by elimination with invertible pivots; raises PoleError."""
     n = len(a)
     if n and isinstance(a[0][0], nmod) and b[0]:
         p = a[0][0].modulus()
@@ -142,7 +145,7 @@ def _eliminate(work: list[list[Any]], n: int) -> list[list[Any]]:
         check()
         pivot = next((r for r in range(c, n) if _invertible(work[r][c])), None)
         if pivot is None:
-            raise ZeroDivisionError("no pivot")
+            raise PoleError("no pivot")
         work[c], work[pivot] = work[pivot], work[c]
         inverse = 1 / work[c][c]
         work[c] = [*work[c][: c + 1], *(v * inverse for v in work[c][c + 1 :])]

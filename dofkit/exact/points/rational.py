@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from dofkit.exact.errors import PoleError
+
 
 class Rational:
     """A quotient of polynomials in one unknown over GF(p)."""
@@ -38,7 +40,7 @@ class Rational:
 
     def __rtruediv__(self, other: Any) -> Rational:
         if self.top == 0:
-            raise ZeroDivisionError
+            raise PoleError
         return self._pair(other) * Rational(self.bottom, self.top)
 
     def numerator(self) -> Any:

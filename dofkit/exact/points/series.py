@@ -9,8 +9,10 @@ from typing import Any
 
 from flint import arb, arb_poly, nmod, nmod_poly
 
+from dofkit.exact.errors import PoleError
+from dofkit.exact.ring.instructions import Point, Scalar, Var
 from dofkit.exact.ring.program import values
-from dofkit.exact.ring.ring import Point, Ring, Scalar, Var
+from dofkit.exact.ring.ring import Ring
 
 #: An unknown function's composition uses this many of its derivatives by several arguments at most.
 MAX_JET = 400
@@ -53,9 +55,9 @@ class Series:
         return total
 
     def inverse(self) -> Series:
-        """1/self; raises ZeroDivisionError where the constant term is 0."""
+        """1/self; raises PoleError where the constant term is 0."""
         if not self.invertible:
-            raise ZeroDivisionError("a series without constant term has no inverse")
+            raise PoleError("a series without constant term has no inverse")
         if isinstance(self.poly, nmod_poly):
             return Series(self.poly.inverse_series_trunc(self.order), self.order)
         first = 1 / self.poly[0]

@@ -10,7 +10,7 @@ from dofkit.expressions.tree import Expr
 
 
 class Builder(Protocol):
-    """Instructions are numbered; see `dofkit.exact.ring.Ring`."""
+    """Instructions are numbered; see `dofkit.exact.ring.ring.Ring`."""
 
     positive: frozenset[Expr]
     alias: Mapping[Expr, Expr]

@@ -12,12 +12,14 @@ from functools import cached_property
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError, PoleError, TooLargeError, raising_no_value
+from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW
 from dofkit.exact.ring.program import reachable
-from dofkit.exact.ring.ring import ADD, MUL, NUM, POW, Ring
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 
 MAX_TERMS = 3000
@@ -29,10 +31,6 @@ FACTORED_DEGREES = 400
 
 Poly = Any
 Quotient = tuple[Poly, Poly]
-
-
-class TooLargeError(Exception):
-    """The canonical form grew past its bound, or needs a root of a quotient."""
 
 
 class Canon:
@@ -48,6 +46,7 @@ class Canon:
         self._memo: dict[int, Quotient] = {}
         self._relations: list[Poly] | None = None
 
+    @raising_no_value
     def quotient(self, node: int) -> Quotient:
         """(numerator, denominator) of a node, both reduced."""
         for i in reversed(reachable(self.ring, [node], through_generators=False)):
@@ -88,7 +87,7 @@ class Canon:
         top, bottom = self._memo[base]
         if exponent < 0:
             if top == 0:
-                raise ZeroDivisionError("division by zero")
+                raise PoleError
             top, bottom, exponent = bottom, top, -exponent
         if exponent > MAX_POWER:
             raise TooLargeError
@@ -118,6 +117,7 @@ class Canon:
         return found
 
     @property
+    @raising_no_value
     def relations(self) -> list[Poly]:
         """cos^2 + sin^2 - 1, root^d - radicand, sign^2 - 1; later generators first."""
         if self._relations is None:
@@ -151,6 +151,7 @@ class Canon:
             terms.append(ex.mul(ex.num(number), *factors))
         return ex.add(*terms) if terms else ex.ZERO
 
+    @raising_no_value
     def factors(self, poly: Poly) -> list[tuple[Poly, int]]:
         """Irreducible factors over the rationals, with multiplicities; constants left out.
 
@@ -172,22 +173,43 @@ def soon_factored(poly: Poly) -> bool:
     return first * second <= FACTORED_DEGREES
 
 
+@raising_no_value
+def divided(top: Any, bottom: Any) -> Any:
+    """top / bottom for polynomials or numbers; raises NoValueError where that is none."""
+    return top / bottom
+
+
+@raising_no_value
+def remainder(poly: Poly, divisor: Poly) -> Poly:
+    """What a division leaves; raises PoleError for the divisor 0."""
+    return divmod(poly, divisor)[1]
+
+
+@raising_no_value
+def lowest_terms(top: Poly, bottom: Poly) -> Quotient:
+    """A quotient divided by the common divisor of its terms; raises PoleError for 0/0."""
+    common = top.gcd(bottom)
+    return top / common, bottom / common
+
+
 def canonical(ring: Ring) -> Canon:
     """The canonical forms of a finished ring (later generators do not enter)."""
     return Canon(ring)
 
 
 def is_identically_zero(expression: Expr, positive: frozenset[Expr] = frozenset()) -> bool | None:
-    """True: proved zero. False: not zero in the ring. None: too large to say."""
+    """True: proved zero. False: not zero in the ring. None: too large to say. Raises PoleError."""
     ring = Ring([expression], positive)
     try:
         node = ring.node(expression)
         return Canon(ring).is_zero(node)
-    except (TooLargeError, DomainError):
+    except PoleError:
+        raise
+    except NoValueError:
         return None
 
 
 def substitute_all(expressions: Mapping[str, Expr], mapping: Mapping[Expr, Expr]) -> dict[str, Expr]:
     """A substitution in every value of a mapping, zeros left out."""
-    replaced = {name: ex.substitute(e, mapping) for name, e in expressions.items()}
+    replaced = {name: substitute(e, mapping) for name, e in expressions.items()}
     return {name: e for name, e in replaced.items() if not e.is_zero}

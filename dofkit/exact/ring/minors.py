@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.canonical import Canon, Poly, Quotient
 
 
+@raising_no_value
 def cleared(canon: Canon, row: Sequence[Quotient]) -> tuple[list[Poly], Poly]:
     """(a row's entries times their common denominator, that denominator)."""
     whole = canon.one

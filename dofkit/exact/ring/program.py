@@ -8,11 +8,14 @@ from math import prod
 from flint import arb
 
 from dofkit.base.deadline import check
-from dofkit.exact.ring.ring import ADD, MUL, NUM, POW, VAR, Point, Ring, Scalar, Var, reachable
+from dofkit.exact.errors import raising_no_value
+from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW, VAR, Point, Scalar, Var, reachable
+from dofkit.exact.ring.ring import Ring
 
 
+@raising_no_value
 def value_of(ring: Ring, point: Point, node: int) -> Scalar:
-    """The value of one instruction, from those only that it needs; raises ZeroDivisionError at a pole."""
+    """The value of one instruction, from those only that it needs; raises PoleError at a pole."""
     out: dict[int, Scalar] = {}
     for i in reversed(reachable(ring, [node])):
         op, payload = ring.code[i]
@@ -31,8 +34,9 @@ def value_of(ring: Ring, point: Point, node: int) -> Scalar:
     return out[node]
 
 
+@raising_no_value
 def values(ring: Ring, point: Point, upto: int | None = None) -> list[Scalar]:
-    """The value of every instruction at ``point``; raises ZeroDivisionError at a pole.
+    """The value of every instruction at ``point``; raises PoleError at a pole.
 
     ``upto`` stops after that many instructions.
     """
@@ -107,6 +111,7 @@ def _derivative(ring: Ring, var: Var, i: int, at: Sequence[Scalar], point: Point
     return point.generator(other, [at[j] for j in var.args])
 
 
+@raising_no_value
 def gradient(ring: Ring, at: Sequence[Scalar], point: Point, seeds: Iterable[tuple[int, Scalar]]) -> dict[int, Scalar]:
     """The gradient of ``sum seed * value(node)`` by every symbol: ``{generator index: value}``."""
     check()

@@ -10,7 +10,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit.exact.ring.builder import Builder
 from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import interval, is_constant
+from dofkit.expressions.enclosures import interval_of, is_constant
 from dofkit.expressions.terms import content, linear_terms, sorted_sum
 from dofkit.expressions.tree import Expr
 
@@ -158,7 +158,7 @@ def sign(ring: Builder, e: Expr) -> int:
 
 def _sign_of_constant(e: Expr) -> int:
     """1 or -1 where a ball tells; 0 where ``e`` is no constant or no ball tells."""
-    found = interval(e) if is_constant(e) else None
+    found = interval_of(e) if is_constant(e) else None
     if found is None or found.contains(0):
         return 0
     return 1 if found > 0 else -1

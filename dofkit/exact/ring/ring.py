@@ -6,53 +6,22 @@ roots, inverse functions, unknown functions, pi. Arguments are split over a rati
 (``sin(theta + 2 phi)`` is a polynomial in the sines and cosines of theta and phi), so that most
 identities hold in the ring; then *zero in the ring implies zero of the function*. A relation among
 generators that is missed can only make a false non-zero, which the balls find out.
-
-The program runs over any numbers with ``+ - * /``: a `Point` supplies the generators' values.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from math import gcd
-from typing import Any, Protocol
 
 from dofkit.exact.ring.angles import MAX_MULTIPLE, exact_turn, multiple, of_inverse, rotated, turn_of_twelfths
+from dofkit.exact.ring.instructions import ADD, MUL, NUM, Instructions, Var
 from dofkit.exact.ring.inverses import inverse_function, log, over_primes, split_logs
 from dofkit.exact.ring.radicals import root, sign
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.terms import linear_terms, sorted_sum
 from dofkit.expressions.tree import Expr
-
-#: A value of whatever the program runs over: an element of GF(p), a ball, a float, a truncated series.
-Scalar = Any
-
-NUM, VAR, ADD, MUL, POW = range(5)
-
-
-@dataclass(frozen=True)
-class Var:
-    """A generator.
-
-    ``kind``: symbol, cos, sin, exp, log, root (``degree``-th), asin, atan, atan2, sign, call or pi;
-    ``key`` identifies it; ``args`` are the nodes of its arguments; ``partner`` is the cos of a sin and
-    the sin of a cos.
-    """
-
-    index: int
-    kind: str
-    key: Any
-    args: tuple[int, ...] = ()
-    partner: int = -1
-    degree: int = 1
-
-
-class Point(Protocol):
-    """Supplies the values of generators, each asked for once its arguments are known."""
-
-    def number(self, value: Fraction) -> Scalar: ...
-    def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar: ...
 
 
 def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
@@ -67,7 +36,7 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
             family = _family(node)
             if family:
                 argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
-                for rest, factor in linear_terms(over_primes(ex.substitute(argument, alias))).items():
+                for rest, factor in linear_terms(over_primes(substitute(argument, alias))).items():
                     factor = exact_turn(factor)[1] if rest == ex.PI and family == "cis" else factor
                     old = denominators.get((family, rest), 1)
                     denominators[family, rest] = old * factor.denominator // gcd(old, factor.denominator)
@@ -86,7 +55,7 @@ def _family(node: Expr) -> str | None:
     return "exp" if node.args[0] in ("exp", "sinh", "cosh", "tanh") else None
 
 
-class Ring:
+class Ring(Instructions):
     """The program and its generators.
 
     ``expressions`` are all that will be asked for (their angles fix the basis). ``positive`` symbols are
@@ -100,20 +69,14 @@ class Ring:
         positive: frozenset[Expr] = frozenset(),
         alias: Mapping[Expr, Expr] | None = None,
     ) -> None:
+        super().__init__()
         self.related = False
         self.positive = positive
         self.alias = alias or {}
-        self.var_expr: list[Expr] = []
-        self.code: list[tuple[int, Any]] = []
-        self.vars: list[Var] = []
-        self.var_node: list[int] = []
         given = [e for e in expressions if _has_functions(e)]
         self._denominators = _angle_arguments(given, self.alias)
         self._split = split_logs(given, positive)
         self._memo: dict[Expr, int] = {}
-        self._orders: dict[tuple[int, ...], list[int]] = {}
-        self._interned: dict[tuple[int, Any], int] = {}
-        self._var_of: dict[tuple[Any, ...], int] = {}
         self._building: dict[str, Callable[[Expr], int]] = {
             "num": lambda e: self.emit(NUM, e.args[0]),
             "sym": self.symbol,
@@ -125,82 +88,12 @@ class Ring:
             "call": self._call,
         }
 
-    # -- the program ------------------------------------------------------------------------
-
     def node(self, e: Expr) -> int:
-        """The number of the instruction that computes ``e``."""
+        """The number of the instruction that computes ``e``; raises PoleError where it divides by 0."""
         found = self._memo.get(e)
         if found is None:
             found = self._memo[e] = self._building[e.op](e)
         return found
-
-    def emit(self, op: int, payload: Any) -> int:
-        key = (op, payload)
-        found = self._interned.get(key)
-        if found is None:
-            found = self._interned[key] = len(self.code)
-            self.code.append(key)
-        return found
-
-    def order(self, roots: tuple[int, ...]) -> list[int]:
-        """Every instruction that the roots depend on, the last first: worked out once, for gradients at many points."""
-        found = self._orders.get(roots)
-        if found is None:
-            found = self._orders[roots] = reachable(self, roots)
-        return found
-
-    def negative(self, node: int) -> int:
-        """The node of minus a node."""
-        return self.emit(MUL, (self.emit(NUM, Fraction(-1)), node))
-
-    def replaced(self, node: int, mapping: Mapping[int, int]) -> int:
-        """A node with generators (by index) replaced by nodes; arguments of other generators are left."""
-        new: dict[int, int] = {}
-        for i in reversed(reachable(self, [node], through_generators=False)):
-            op, payload = self.code[i]
-            if op in (ADD, MUL):
-                new[i] = self.emit(op, tuple(new[j] for j in payload))
-            elif op == POW:
-                new[i] = self.emit(POW, (new[payload[0]], payload[1]))
-            else:
-                new[i] = mapping.get(payload, i) if op == VAR else i
-        return new[node]
-
-    def generator(self, kind: str, key: Any, shown: Expr, args: tuple[int, ...] = (), degree: int = 1) -> int:
-        """The node of a generator, made at first use; ``shown`` is it as an expression."""
-        found = self._var_of.get((kind, key))
-        if found is None:
-            found = len(self.vars)
-            self._var_of[kind, key] = found
-            self.vars.append(Var(found, kind, key, args, -1, degree))
-            self.var_expr.append(shown)
-            self.var_node.append(self.emit(VAR, found))
-        return self.var_node[found]
-
-    def symbol(self, e: Expr) -> int:
-        """The node of a symbol."""
-        return self.generator("symbol", e, e)
-
-    def var_index(self, e: Expr) -> int | None:
-        """The generator of a symbol, if it occurs."""
-        return self._var_of.get(("symbol", e))
-
-    def number(self, value: Fraction | int) -> int:
-        return self.emit(NUM, Fraction(value))
-
-    def total(self, *parts: int) -> int:
-        return self.emit(ADD, parts)
-
-    def product(self, *parts: int) -> int:
-        return self.emit(MUL, parts)
-
-    def power_node(self, base: int, exponent: int) -> int:
-        """The node of an integer power of a node."""
-        if exponent == 1:
-            return base
-        return self.number(1) if exponent == 0 else self.emit(POW, (base, exponent))
-
-    # -- what is not rational ---------------------------------------------------------------
 
     def _constant(self, e: Expr) -> int:
         if e.args[0] == "E":
@@ -243,7 +136,7 @@ class Ring:
 
     def _exp(self, u: Expr) -> int:
         """exp of a sum as the product of powers of the basic exponentials; exp(r log x) = x^r."""
-        u = over_primes(ex.substitute(u, self.alias))
+        u = over_primes(substitute(u, self.alias))
         parts = []
         for rest, factor in linear_terms(u).items():
             if rest.op == "fn" and rest.args[0] == "log":
@@ -261,7 +154,7 @@ class Ring:
 
     def _cis(self, u: Expr) -> tuple[int, int]:
         """(cos u, sin u) as polynomials in those of the basic angles."""
-        u = ex.substitute(u, self.alias)
+        u = substitute(u, self.alias)
         total = (self.number(1), self.number(0))
         for rest, factor in linear_terms(u).items():
             if rest == ex.PI:
@@ -294,27 +187,3 @@ class Ring:
         name, orders, arguments = e.args
         key = (name, orders, tuple(sorted_sum(a) for a in arguments))
         return self.generator("call", key, e, tuple(self.node(a) for a in arguments))
-
-
-def reachable(ring: Ring, roots: Iterable[int], through_generators: bool = True) -> list[int]:
-    """Every instruction that the roots depend on, the last first.
-
-    Without ``through_generators`` the walk stops at generators: what they depend on is left out.
-    """
-    seen: set[int] = set()
-    stack = list(roots)
-    while stack:
-        node = stack.pop()
-        if node in seen:
-            continue
-        seen.add(node)
-        op, payload = ring.code[node]
-        if op in (ADD, MUL):
-            stack.extend(payload)
-        elif op == POW:
-            stack.append(payload[0])
-        elif op == VAR and through_generators:
-            stack.extend(ring.vars[payload].args)
-            if ring.vars[payload].partner >= 0:
-                stack.append(ring.var_node[ring.vars[payload].partner])
-    return sorted(seen, reverse=True)

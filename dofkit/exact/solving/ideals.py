@@ -1,4 +1,4 @@
-"""Ideals of polynomials in a ring's generators, by Groebner bases (Buchberger 1965).
+"""Ideals of polynomials in a ring's generators, by Groebner bases [Buchberger1965].
 
 Elimination divides by what it solves for and sees no part of a set where that is 0; a Groebner basis sees every part.
 """
@@ -13,10 +13,10 @@ from math import lcm
 from typing import Any
 
 from flint import Ordering, fmpz_mpoly_ctx, fmpz_mpoly_vec
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 
 #: Relations, unknowns, degree and terms of what is looked at.
@@ -65,7 +65,7 @@ class _Polynomials:
         canon = Canon(ring)
         try:
             own = [canon.quotient(node)[0] for node in nodes]
-        except (TooLargeError, ZeroDivisionError, DomainError):
+        except NoValueError:
             return None
         used = sorted({i for p in own for i in canon.generators_in(p)})
         if any(len(p) > MAX_LENGTH or p.total_degree() > MAX_DEGREE for p in own) or sum(map(_is_curved, own)) < 2:
@@ -73,7 +73,7 @@ class _Polynomials:
         kept = _unknowns(ring, used, moving)
         if kept is None or len(kept) > MAX_UNKNOWNS:
             return None
-        seen, pairs = _seen(ring, kept)
+        seen, pairs = _coordinates_and_pairs(ring, kept)
         rng = random.Random("dofkit ideals")
         values = {i: Fraction(rng.randint(2, LARGEST)) for i in used if i not in kept}
         place = {i: k for k, i in enumerate(kept)}
@@ -108,7 +108,7 @@ def _angle(ring: Ring, index: int) -> int | None:
     return ring.var_index(ring.vars[index].key[0])
 
 
-def _seen(ring: Ring, kept: Sequence[int]) -> tuple[set[int | None], list[tuple[int, int]]]:
+def _coordinates_and_pairs(ring: Ring, kept: Sequence[int]) -> tuple[set[int | None], list[tuple[int, int]]]:
     """The coordinates that are seen, and the pairs of cosine and sine."""
     pairs = [(i, ring.vars[i].partner) for i in kept if ring.vars[i].kind == "cos"]
     seen = {i if ring.vars[i].kind == "symbol" else _angle(ring, i) for i in kept}

@@ -2,8 +2,8 @@
 
 A number built from integers by + - * / and roots is U / L with algebraic integers U and L. All conjugates of U, of
 which there are at most D (the product of the roots' degrees), have a size of at most u, and those of L of at most l; a
-norm is an integer, so a number that is not 0 has a size of at least 1 / (u^(D-1) l): the separation bound of Burnikel,
-Funke, Mehlhorn, Schirra and Schmitt (2001). A ball below that proves 0.
+norm is an integer, so a number that is not 0 has a size of at least 1 / (u^(D-1) l): the separation bound [BFMSS2001].
+A ball below that proves 0.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from math import lcm, log2
 from flint import arb
 
 from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import interval, is_constant
+from dofkit.expressions.enclosures import interval_of, is_constant
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 
@@ -45,7 +45,7 @@ def proved_zero(e: Expr) -> bool:
 
 
 def _may_be_zero(e: Expr) -> bool:
-    found = interval(e, bits=FIRST)
+    found = interval_of(e, bits=FIRST)
     return found is not None and bool(found.contains(0))
 
 
@@ -87,7 +87,7 @@ def _below_the_bound(e: Expr) -> bool:
     bits = int(upper * (known.degree - 1) + lower) + 2
     if bits > MAX_BITS:
         return False
-    found = interval(e, bits=bits + FIRST)
+    found = interval_of(e, bits=bits + FIRST)
     return found is not None and bool(found.abs_upper() < arb(2) ** -bits)
 
 
@@ -178,7 +178,7 @@ def _arcs_vanish(terms: dict[Expr, Fraction]) -> bool:
     scaled = _scaled(_over_asin(terms))
     if scaled is None:
         return False
-    total = interval(ex.add(*(ex.num(n) * term for term, n in scaled.items())), bits=FIRST)
+    total = interval_of(ex.add(*(ex.num(n) * term for term, n in scaled.items())), bits=FIRST)
     if total is None or not total.contains(0) or not total.abs_upper() < 1:
         return False
     real, imaginary = ex.ONE, ex.ZERO

@@ -5,13 +5,14 @@ from __future__ import annotations
 from fractions import Fraction
 
 from flint import ctx
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.engines import BOTH, Engines
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch, fixed_bits
-from dofkit.exact.points.field import NoPointError, field_point
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.balls import BallPoint, fixed_bits
+from dofkit.exact.points.field import field_point
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.constants import proved_zero
@@ -24,30 +25,30 @@ PRECISIONS = (256, 1024)
 
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Is the expression zero identically, as far as can be told? See `told_zero` for how sure that is."""
-    return bool(told_zero(e, positive)[0])
+    """Is the expression zero identically, as far as can be told? See `zero_and_verdict` for how sure that is."""
+    return bool(zero_and_verdict(e, positive)[0])
 
 
-def told_zero(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
+def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
     """(zero?, how sure); None only where one engine alone cannot tell.
 
     Zero in the canonical ring is a proof, and so is zero of every coefficient there (`proved_zero`); so is not zero
     there where the generators are independent, or where a ball at some real point excludes 0. What is 0 at random
-    points over GF(p) is probably zero; what no ball tells from 0 is so numerically.
+    points over GF(p) is probably zero [SchwartzZippel]; what no ball tells from 0 is so numerically.
     """
     if e.op == "num":
         return e.is_zero, "proved"
     ring = Ring([e], positive)
     node = ring.node(e)
     if engines != BOTH:
-        return _told_by_one(ring, node, positive, engines)
+        return _by_one_engine(ring, node, positive, engines)
     canon = Canon(ring)
     try:
         if canon.is_zero(node):
             return True, "proved"
         if independent_generators(ring):
             return False, "proved"
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         pass
     if excludes_zero(ring, node, positive):
         return False, "proved"
@@ -65,12 +66,12 @@ def _coefficients_vanish(canon: Canon, node: int) -> bool:
             moving = tuple(int(k) if shown[i].symbols else 0 for i, k in enumerate(exponents))
             fixed = [ex.power(shown[i], ex.num(int(k))) for i, k in enumerate(exponents) if k and not moving[i]]
             groups.setdefault(moving, []).append(ex.mul(ex.num(Fraction(int(value.p), int(value.q))), *fixed))
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return False
     return all(proved_zero(ex.add(*terms)) for terms in groups.values())
 
 
-def _told_by_one(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
+def _by_one_engine(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
     """Zero over GF(p) is probable, non-zero only for independent generators; a ball proves non-zero only."""
     if "balls" in engines:
         return (False, "proved") if excludes_zero(ring, node, positive) else (True, "numeric")
@@ -100,7 +101,7 @@ def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
 def _excluded_at(ring: Ring, node: int, point: BallPoint) -> bool:
     try:
         return not values(ring, point)[node].contains(0)
-    except (OutsideDomainError, ZeroDivisionError):
+    except NoValueError:
         return False
 
 
@@ -111,7 +112,7 @@ def _zero_at_points(ring: Ring, node: int) -> bool | None:
         try:
             if values(ring, field_point([ring], seed))[node] != 0:
                 return False
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         seen += 1
         if seen == 3:

@@ -7,12 +7,14 @@ from itertools import combinations
 from typing import Any, Literal
 
 from flint import nmod_poly
-from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.points.field import FieldPoint, NoPointError, field_point
+from dofkit.exact.errors import NoPointError, NoValueError
+from dofkit.exact.points.field import FieldPoint, field_point
+from dofkit.exact.ring.instructions import VAR, Var, reachable
 from dofkit.exact.ring.program import value_of
-from dofkit.exact.ring.ring import VAR, Ring, Var, reachable
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 
 Doubt = Literal["numbers", "functions"]
@@ -28,7 +30,7 @@ def odd_constants(ring: Ring) -> bool:
 def independent_generators(ring: Ring) -> bool:
     """True where the generators are algebraically independent up to the relations that the ring knows.
 
-    Symbols, sines, cosines and exponentials of different terms are (Ax 1971), and so are unknown functions, square
+    Symbols, sines, cosines and exponentials of different terms are [Ax1971], and so are unknown functions, square
     roots of different primes and one root of what is linear in a symbol, so no power itself. False says that a
     relation may have been missed: other roots, inverse functions, logarithms, transcendental constants.
     """
@@ -53,7 +55,7 @@ def _root_of_more(var: Var) -> bool:
 
 def _linear_somewhere(e: Expr) -> bool:
     """Is ``e`` of degree 1 in one of its symbols?"""
-    slopes = ((s, ex.diff(e, s)) for s in e.symbols)
+    slopes = ((s, diff(e, s)) for s in e.symbols)
     return any(not slope.is_zero and s not in slope.symbols for s, slope in slopes)
 
 
@@ -62,7 +64,7 @@ def doubt(ring: Ring) -> Doubt | None:
 
     Of numbers only, or of functions: these may be 0 in one region and not in another, so that no point decides. Less is
     asked than of `independent_generators`: no proof rests on the answer, but where it is None no relation among the
-    generators is known to be possible. Roots and logarithms of pairwise coprime polynomials have none (Ostrowski 1946),
+    generators is known to be possible. Roots and logarithms of pairwise coprime polynomials have none [Ostrowski1946],
     and a square root of what is no square is as good as its negative.
     """
     if _related_functions(ring):
@@ -170,7 +172,7 @@ def _along(ring: Ring, var: Var, index: int, squares: bool) -> Any:
             polynomial = value_of(ring, point, var.args[0])
         except NoPointError:
             return None
-        except (ZeroDivisionError, DomainError, TypeError):
+        except (NoValueError, TypeError):
             continue
         return _odd_part(polynomial, var.degree) if squares else polynomial
     return None

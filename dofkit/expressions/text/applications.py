@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NoReturn
 
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text.arithmetic import UndefinedError, applied, inverse, product
 from dofkit.expressions.text.derivatives import by_time, over_dt, raise_order, size, total_differential
 from dofkit.expressions.text.limits import MAX_DIFFERENTIATED, MAX_ORDER
 from dofkit.expressions.text.reader import TextReader
 from dofkit.expressions.text.tokens import Token
-from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, diff, mul
+from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, mul
 
 _BARE = frozenset({"number", "value", "motion", "call", "function", "root", "frac", "|"})
 
@@ -184,7 +185,7 @@ def unknown(parser: TextReader, token: Token) -> Expr:
         hint = f"write `diff({name}(...), x)` with the argument that is meant"
         parser.fail(f"`{name}` has {wanted} arguments, so a prime does not say by which to differentiate", primes, hint)
     found = call(name, given, (primes.amount,) if primes is not None else None)
-    return moved(parser, token, found, token.amount)
+    return time_derivative_of(parser, token, found, token.amount)
 
 
 def own_arguments(parser: TextReader, token: Token) -> list[Expr]:
@@ -210,16 +211,16 @@ def own_arguments(parser: TextReader, token: Token) -> list[Expr]:
     return given
 
 
-def moved(parser: TextReader, token: Token, found: Expr, order: int) -> Expr:
+def time_derivative_of(parser: TextReader, token: Token, found: Expr, order: int) -> Expr:
     """``found`` differentiated ``order`` times by time; its differential for -1."""
     if order == -1:
-        return kept(parser, token, total_differential(found))
+        return allowed_derivative(parser, token, total_differential(found))
     for _ in range(order):
-        found = kept(parser, token, by_time(found))
+        found = allowed_derivative(parser, token, by_time(found))
     return found
 
 
-def kept(parser: TextReader, token: Token, found: Expr | None) -> Expr:
+def allowed_derivative(parser: TextReader, token: Token, found: Expr | None) -> Expr:
     """A derivative that exists and holds only what is allowed."""
     if found is None:
         hint = "write the derivative of an expression in coordinates, velocities and t"
@@ -232,7 +233,7 @@ def kept(parser: TextReader, token: Token, found: Expr | None) -> Expr:
 # Derivatives
 
 
-def derived(parser: TextReader, token: Token) -> Expr:
+def derivative_call(parser: TextReader, token: Token) -> Expr:
     """`diff(x, t)`, `diff(h(s), s)`, `diff(h(a, b), a, 2, b)`, `partial(h(x, t), t)`, `partial(h(x, x), 1)`."""
     name = token.name
     if parser.next.kind != "(":
@@ -265,7 +266,7 @@ def once(parser: TextReader, token: Token, found: Expr, symbol: Expr) -> Expr:
     if size(found, MAX_DIFFERENTIATED) >= MAX_DIFFERENTIATED:
         parser.fail("this is too long to be differentiated here", token, "write the derivative out")
     if symbol == TIME and token.name == "diff":
-        return kept(parser, token, by_time(found))
+        return allowed_derivative(parser, token, by_time(found))
     return diff(found, symbol)
 
 
@@ -296,7 +297,7 @@ def by_place(parser: TextReader, token: Token, found: Expr, steps: list[Expr]) -
 READERS: dict[str, Callable[[TextReader, Token], Expr]] = {
     "function": function,
     "call": unknown,
-    "operator": derived,
+    "operator": derivative_call,
     "root": root,
     "frac": fraction,
 }

@@ -87,12 +87,12 @@ def applied(name: str, arguments: list[Expr]) -> Expr:
         )
         if bad:
             raise UndefinedError(
-                f"`{name}` has no real value at {', '.join(map(_shown, arguments))}", "check its argument"
+                f"`{name}` has no real value at {', '.join(map(_short_text, arguments))}", "check its argument"
             )
     return fn(name, *arguments)
 
 
-def _shown(e: Expr) -> str:
+def _short_text(e: Expr) -> str:
     return str(e.args[0]) if e.op == "num" else "..."
 
 

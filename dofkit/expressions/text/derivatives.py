@@ -2,21 +2,8 @@
 
 from __future__ import annotations
 
-from dofkit.expressions.tree import (
-    DT,
-    ONE,
-    TIME,
-    ZERO,
-    Expr,
-    add,
-    call,
-    diff,
-    differential,
-    mul,
-    nodes,
-    sym,
-    velocity,
-)
+from dofkit.expressions.calculus import diff
+from dofkit.expressions.tree import DT, ONE, TIME, ZERO, Expr, add, call, differential, mul, nodes, sym, velocity
 
 
 def size(e: Expr, limit: int) -> int:

@@ -122,11 +122,11 @@ class Lookup:
     def _find(self, word: str) -> Meaning | None:
         found = self._declared.get(word)
         if found is None:
-            found = _fixed(word)
+            found = _built_in(word)
         if found is None and (DOT in word or TWO_DOTS in word):
             return self._dotted(word)
         if found is None:
-            found = self._derived(word)
+            found = self._marked_derivative(word)
         if found is None and word == "E":
             found = Meaning("value", E)
         return found
@@ -136,20 +136,20 @@ class Lookup:
         if match is None:
             return None
         order = sum(1 if mark == DOT else 2 for mark in match[2])
-        return self._moved(match[1] + (match[3] or ""), order)
+        return self._time_derivative(match[1] + (match[3] or ""), order)
 
-    def _derived(self, word: str) -> Meaning | None:
+    def _marked_derivative(self, word: str) -> Meaning | None:
         """`dq`, `qdot`, `q_dot`, `qdot_A`, `qddot` of a declared q."""
         if word[0] == "d":
-            found = self._moved(word[1:], -1)
+            found = self._time_derivative(word[1:], -1)
             if found is not None:
                 return found
         match = _SUFFIXED.fullmatch(word) if "dot" in word else None
         if match is None:
             return None
-        return self._moved(match[1] + (match[3] or ""), 1 if match[2] == "dot" else 2)
+        return self._time_derivative(match[1] + (match[3] or ""), 1 if match[2] == "dot" else 2)
 
-    def _moved(self, word: str, order: int) -> Meaning | None:
+    def _time_derivative(self, word: str, order: int) -> Meaning | None:
         """The ``order``-th derivative by time of the declared ``word``; -1 for its differential."""
         base = self._declared.get(word)
         if base is None:
@@ -174,7 +174,7 @@ def derivative(name: str, order: int) -> Expr | None:
     return sym("acceleration", name) if order == 2 else None
 
 
-def _fixed(word: str) -> Meaning | None:
+def _built_in(word: str) -> Meaning | None:
     if word in ELEMENTARY:
         return Meaning("function", name=ELEMENTARY[word])
     if word == "t":
@@ -200,7 +200,7 @@ def _declared(names: Names) -> dict[str, Meaning]:
         match = _NUMBERED.fullmatch(word)
         if match is not None:
             twin = f"{match[1]}{'' if match[2] else '_'}{match[3]}"
-            if twin not in found and _fixed(twin) is None:
+            if twin not in found and _built_in(twin) is None:
                 twins[twin] = meaning
     return {**twins, **found}
 

@@ -124,7 +124,7 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
             if kind == "prime" and (not found or found[-1].end != start):
                 hint = "text needs no quotes; a prime stands right after a name: `x'`"
                 raise TextError("a quote cannot stand here", columns[start], hint)
-            found.append(_other(kind, match[kind], start, end, columns, text, lookup))
+            found.append(_other(match, columns, text, lookup))
             if kind == "end":
                 _check_size(found, columns)
                 return found
@@ -164,8 +164,10 @@ def _second_derivative(match: re.Match[str], lookup: Lookup, columns: Sequence[i
     raise TextError(message, columns[match.start("name")], "declare it under coordinates")
 
 
-def _other(kind: str, found: str, start: int, end: int, columns: Sequence[int], text: str, lookup: Lookup) -> Token:
+def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Lookup) -> Token:
     """A number, primes, superscript digits, or the end."""
+    kind = match.lastgroup or ""
+    found, (start, end) = match[kind], match.span(kind)
     column = columns[start]
     if kind == "number":
         _check_number(found, text, end, column, lookup)

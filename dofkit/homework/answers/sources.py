@@ -70,13 +70,13 @@ def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], known: C
     if isinstance(source, Mapping):
         return of_value(source, "")
     path = os.fspath(source)
-    found = list(islice((one for h in handed([path], known) for one in h.submissions()), 2))
+    found = list(islice((one for h in hand_ins([path], known) for one in h.submissions()), 2))
     if len(found) == 1:
         return found[0]
     return refused(_stem(clean(path)), FilePlace(clean(path)), "it holds more than one submission")
 
 
-def handed(sources: Sequence[str], known: Columns, others: Iterable[str | os.PathLike[str]] = ()) -> Iterator[Handed]:
+def hand_ins(sources: Sequence[str], known: Columns, others: Iterable[str | os.PathLike[str]] = ()) -> Iterator[Handed]:
     """All submissions of files, folders and standard input (``-``), in the order given; those of a folder sorted.
 
     ``others``: paths within the folders that hold no submissions, such as that of the results.

@@ -44,7 +44,7 @@ class FilePlace:
     def __str__(self) -> str:
         return f"{self.file}, line {self.line}" if self.line else self.file
 
-    def told(self, fault: Fault) -> str:
+    def message(self, fault: Fault) -> str:
         """A fault within what stands here, with its line in the file."""
         line = (fault.line or 1) + max(self.line, 1) - 1
         where = f", line {line}" if self.line or fault.line else ""
@@ -76,7 +76,7 @@ def of_text(data: bytes | str, name: str, place: FilePlace) -> list[Submission]:
     if faults:
         found = _STUDENT.search(document.text[:100_000])
         student = clean(next(g for g in found.groups() if g is not None).strip()) if found else name
-        told = "; ".join(place.told(_ours(fault)) for fault in faults[:MOST_FAULTS])
+        told = "; ".join(place.message(_ours(fault)) for fault in faults[:MOST_FAULTS])
         return [Submission(student, error=told, place=place)]
     if not isinstance(value, list):
         return [of_value(value, name, place, document)]
@@ -99,7 +99,7 @@ def of_value(
         if document is not None:
             line, column = document.place((*path, *where), key=key)
             fault = Fault(message, line=line - (place.line - 1 if path else 0), column=column)
-        return Submission(student, error=place.told(fault), place=place)
+        return Submission(student, error=place.message(fault), place=place)
 
     student = _student(value.get("student"), name, document, path)
     if not student or isinstance(value.get("student"), (Mapping, list, tuple, bool)):
@@ -114,7 +114,7 @@ def of_value(
     found: dict[str, dict[str, Given]] = {}
     for problem, given in answers.items():
         if isinstance(given, Mapping):
-            found[clean(str(problem))] = {clean(str(q)): _given(a) for q, a in given.items() if a is not None}
+            found[clean(str(problem))] = {clean(str(q)): _plain_answer(a) for q, a in given.items() if a is not None}
         elif given is not None:
             shown = clean(str(problem))[:60]
             return bad(f"the answers to problem '{shown}' are a mapping of questions to answers", "answers", problem)
@@ -123,7 +123,7 @@ def of_value(
 
 def refused(name: str, place: FilePlace, message: str, hint: str | None = None) -> Submission:
     """A submission that could not be read."""
-    return Submission(name, error=place.told(Fault(message, hint=hint)), place=place)
+    return Submission(name, error=place.message(Fault(message, hint=hint)), place=place)
 
 
 def reason(error: OSError | ValueError) -> str:
@@ -137,7 +137,7 @@ def clean(text: str) -> str:
     return text if text.isascii() else _SURROGATES.sub("\ufffd", text)
 
 
-def _given(answer: Any, depth: int = 0) -> Given:
+def _plain_answer(answer: Any, depth: int = 0) -> Given:
     """An answer as plain texts and exact numbers."""
     if isinstance(answer, str):
         return clean(answer)
@@ -146,7 +146,7 @@ def _given(answer: Any, depth: int = 0) -> Given:
     if isinstance(answer, Integral | Decimal | Fraction):
         return _exact(answer)
     if isinstance(answer, list | tuple) and depth < DEEPEST:
-        return tuple(_given(part, depth + 1) for part in answer)
+        return tuple(_plain_answer(part, depth + 1) for part in answer)
     return NO_ANSWER
 
 
@@ -182,7 +182,7 @@ def _mended(document: Document) -> tuple[Any, tuple[Fault, ...]]:
     if not document.faults or not isinstance(document.value, Mapping):
         return document.value, document.faults
     value, left = document.value, list(document.faults)
-    for problem, question in list(_asked(value.get("answers"))):
+    for problem, question in list(_answered_questions(value.get("answers"))):
         path = ("answers", problem, question)
         if path not in document.places:
             continue
@@ -194,7 +194,7 @@ def _mended(document: Document) -> tuple[Any, tuple[Fault, ...]]:
     return value, tuple(left)
 
 
-def _asked(answers: object) -> Iterator[tuple[str, str]]:
+def _answered_questions(answers: object) -> Iterator[tuple[str, str]]:
     for problem, given in answers.items() if isinstance(answers, Mapping) else ():
         yield from ((problem, question) for question in given if isinstance(given, Mapping))
 

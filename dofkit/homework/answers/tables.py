@@ -140,14 +140,14 @@ def _header(lines: _Lines, known: Columns) -> Header:
     if error is not None or STUDENT not in lower:
         shown = clean(", ".join(names))[:80]
         raise TableError(error or f"its header has no column '{STUDENT}' but {shown}")
-    return _asked(delimiter, names, lower.index(STUDENT), known, lines.number)
+    return _header_of(delimiter, names, lower.index(STUDENT), known, lines.number)
 
 
 def _names(line: str, delimiter: str) -> list[str]:
     return [cell.strip(' "\r\n').lower() for cell in line.split(delimiter)]
 
 
-def _asked(delimiter: str, names: list[str], student: int, known: Columns, line: int) -> Header:
+def _header_of(delimiter: str, names: list[str], student: int, known: Columns, line: int) -> Header:
     twice = next(
         (n for i, n in enumerate(names) if n and (n in names[:i] or (i > student and n.lower() == STUDENT))), ""
     )

@@ -17,7 +17,7 @@ from typing import Any
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import write_documents
-from dofkit.homework.formats.wording import line, open_points, plain, standing, title, told
+from dofkit.homework.formats.wording import line, open_points, plain, remark, standing, title
 from dofkit.homework.result import Item, Result
 
 
@@ -68,7 +68,7 @@ def _test(item: Item, place: str | None) -> dict[str, Any]:
         found["score"] = item.score
         found["max_score"] = item.max_score
         found["status"] = "passed" if item.status == "right" else "failed"
-    output = told(item)
+    output = remark(item)
     if item.score is None:
         output = f"{output}\nOpen: {item.max_score:g} points."
     return {

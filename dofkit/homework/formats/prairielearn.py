@@ -14,7 +14,7 @@ from typing import Any
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import text, write_documents
-from dofkit.homework.formats.wording import line, plain, shortened, standing, title, told
+from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
 
 #: PrairieLearn takes no more than a megabyte; and the characters of one text where that is too much.
@@ -55,7 +55,7 @@ def _test(item: Item) -> dict[str, Any]:
         "description": f"Read as: {line(item.read_as)}" if item.read_as else "",
         "points": item.score,
         "max_points": item.max_score,
-        "message": told(item),
+        "message": remark(item),
         "output": "",
     }
 

@@ -91,9 +91,9 @@ def standing(result: Result) -> str:
     """How the submission stands, in a sentence or two."""
     if result.error is not None:
         return f"This submission could not be graded: {plain(result.error)}"
-    told = f"Points: {number(result.score or 0.0)} of {number(result.max_score)}."
+    comment = f"Points: {number(result.score or 0.0)} of {number(result.max_score)}."
     if not result.needs_review:
-        return told
+        return comment
     answers = "1 answer" if result.needs_review == 1 else f"{result.needs_review} answers"
     waits = "waits" if result.needs_review == 1 else "wait"
     return (
@@ -103,7 +103,7 @@ def standing(result: Result) -> str:
     )
 
 
-def told(item: Item) -> str:
+def remark(item: Item) -> str:
     """What is said of one answer: how it was read, and the feedback."""
     where = "" if item.column is None else f" (column {item.column})"
     lines = [f"{STATUSES[item.status].capitalize()}{where}."]
@@ -121,7 +121,7 @@ def feedback(result: Result) -> str:
 
 def _answers(result: Result) -> Iterator[str]:
     for item in result.items:
-        yield f"{title(item)}: {points(item)}. {told(item)}"
+        yield f"{title(item)}: {points(item)}. {remark(item)}"
 
 
 def title(item: Item) -> str:

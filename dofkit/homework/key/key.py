@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import Literal
 
 from dofkit.base.errors import DofkitError
-from dofkit.classification.passes import classify
 from dofkit.expressions.text import Names
-from dofkit.homework.key.equations_of_motion import Sought, sought_or_why
+from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
+from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.names import coordinate_table, vocabulary_of
 from dofkit.scene.scene import Scene
@@ -62,14 +62,14 @@ class Key:
         return [c.name for c in coordinate_table(self.scene).coordinates]
 
     @cached_property
-    def motion(self) -> Sought | DofkitError:
+    def motion(self) -> RightMotion | DofkitError:
         """What is right of the equations of motion, or why that is not known."""
-        return sought_or_why(self.scene)
+        return right_motion_or_why(self.scene)
 
     @cached_property
-    def whole_motion(self) -> Sought | DofkitError:
+    def whole_motion(self) -> RightMotion | DofkitError:
         """The same with nothing eliminated: every constraint keeps its multiplier."""
-        return sought_or_why(self.scene, whole=True)
+        return right_motion_or_why(self.scene, whole=True)
 
     @cached_property
     def constraints(self) -> dict[str, ConstraintEntry]:

@@ -28,93 +28,38 @@ class Misconception(NamedTuple):
     anyway: bool = False
 
 
+def _more(count: Callable[[SceneCounts], int]) -> Callable[[SceneCounts], Numbers]:
+    """As many degrees of freedom too many, where that is not 0."""
+    return lambda f: iter([f.dof + count(f)] if count(f) else [])
+
+
+def _less(count: Callable[[SceneCounts], int | Fraction]) -> Callable[[SceneCounts], Numbers]:
+    """As many too few."""
+    return lambda f: iter([f.dof - count(f)] if count(f) else [])
+
+
 def _all_links(f: SceneCounts) -> Numbers:
-    if f.links > f.n - f.dof and f.naive < f.dof:
+    if f.bars.links > f.n - f.dof and f.naive < f.dof:
         yield f.naive
 
 
 def _rod_three(f: SceneCounts) -> Numbers:
-    if f.links and f.naive > f.dof:
+    if f.bars.links and f.naive > f.dof:
         yield f.naive
 
 
-def _curve_one(f: SceneCounts) -> Numbers:
-    if f.surplus_surfaces:
-        yield f.dof + f.surplus_surfaces
-
-
-def _param_count(f: SceneCounts) -> Numbers:
-    if f.on_curves:
-        yield f.dof - f.on_curves
-
-
 def _plane_forgotten(f: SceneCounts) -> Numbers:
-    if f.planes and f.d == 3:
-        yield f.dof + f.planes
+    if f.surfaces.planes and f.d == 3:
+        yield f.dof + f.surfaces.planes
     if f.d == 2 and f.particles:
         yield f.dof + f.particles
 
 
-def _plane_twice(f: SceneCounts) -> Numbers:
-    if f.d == 2 and f.particles:
-        yield f.dof - f.particles
-
-
-def _no_spin(f: SceneCounts) -> Numbers:
-    if f.d == 3 and f.bodies + f.clusters:
-        yield f.dof - f.bodies - f.clusters
-
-
-def _rod_spin(f: SceneCounts) -> Numbers:
-    if f.d == 3 and f.rods:
-        yield f.dof + f.rods
-
-
-def _bar_two(f: SceneCounts) -> Numbers:
-    if f.links:
-        yield f.dof - f.links
-
-
-def _bar_point(f: SceneCounts) -> Numbers:
-    if f.links and f.d > 1:
-        yield f.dof - (f.d - 1) * f.links
-
-
-def _point_six(f: SceneCounts) -> Numbers:
-    if f.particles and f.d > 1:
-        yield f.dof + f.particles * (f.body_freedom - f.d)
-
-
-def _nh_subtract(f: SceneCounts) -> Numbers:
-    if f.nonholonomic:
-        yield f.dof - f.nonholonomic
-
-
-def _nh_half(f: SceneCounts) -> Numbers:
-    if f.nonholonomic:
-        yield f.dof - Fraction(f.nonholonomic, 2)
-
-
-def _walls(f: SceneCounts) -> Numbers:
-    if f.walls:
-        yield f.dof - f.walls
-
-
-def _roll_nh(f: SceneCounts) -> Numbers:
-    if f.integrable:
-        yield f.dof + f.integrable
-
-
 def _sum_of_squares(f: SceneCounts) -> Numbers:
-    if not f.links and f.naive > f.dof and not f.integrable and not f.nonholonomic:
+    if not f.bars.links and f.naive > f.dof and not f.integrable and not f.nonholonomic:
         yield f.naive
-    elif f.surplus_surfaces:
-        yield f.dof + f.surplus_surfaces
-
-
-def _springs(f: SceneCounts) -> Numbers:
-    if "spring" in f.forces:
-        yield f.dof - f.forces.count("spring")
+    elif f.surfaces.surplus:
+        yield f.dof + f.surfaces.surplus
 
 
 def _trajectory(f: SceneCounts) -> Numbers:
@@ -134,16 +79,6 @@ def _pulley(f: SceneCounts) -> Numbers:
         yield f.n - f.strings
 
 
-def _driven(f: SceneCounts) -> Numbers:
-    if f.drives:
-        yield f.dof + f.drives
-
-
-def _cart_fixed(f: SceneCounts) -> Numbers:
-    if f.guides and f.dof > 1:
-        yield f.dof - f.guides
-
-
 def _ground(f: SceneCounts) -> Numbers:
     if f.joints:
         yield f.dof - f.body_freedom
@@ -161,37 +96,51 @@ ERRORS: tuple[Misconception, ...] = (
     Misconception("ROD_3", "Of masses on one straight rod fewer distances are independent, and more conditions hold "
                   "than their count says: they stay in line.", _rod_three),
     Misconception("NH_SUBTRACT", "A non-holonomic constraint ties velocities only: it leaves all configurations within "
-                  "reach and does not reduce the dimension of the configuration space.", _nh_subtract),
-    Misconception("NH_HALF", "A non-holonomic constraint does not take half a degree of freedom away.", _nh_half, True),
+                  "reach and does not reduce the dimension of the configuration space.",
+                  _less(lambda f: f.nonholonomic)),
+    Misconception("NH_HALF", "A non-holonomic constraint does not take half a degree of freedom away.",
+                  _less(lambda f: Fraction(f.nonholonomic, 2)), True),
     Misconception("ROLL_NH", "This differential constraint integrates to a relation between coordinates, which counts.",
-                  _roll_nh),
-    Misconception("INEQ_SUBTRACT", "An inequality bounds the motion but takes no degree of freedom away.", _walls),
-    Misconception("INEQ_AS_EQ", "An inequality is no equation: inside its bound everything can still move.", _walls),
-    Misconception("SPRING", "A spring is no rod: it exerts a force and constrains nothing.", _springs),
-    Misconception("DRIVEN", "A prescribed motion is no degree of freedom: it is given as a function of time.", _driven),
+                  _more(lambda f: f.integrable)),
+    Misconception("INEQ_SUBTRACT", "An inequality bounds the motion but takes no degree of freedom away.",
+                  _less(lambda f: f.walls)),
+    Misconception("INEQ_AS_EQ", "An inequality is no equation: inside its bound everything can still move.",
+                  _less(lambda f: f.walls)),
+    Misconception("SPRING", "A spring is no rod: it exerts a force and constrains nothing.",
+                  _less(lambda f: f.forces.count("spring"))),
+    Misconception("DRIVEN", "A prescribed motion is no degree of freedom: it is given as a function of time.",
+                  _more(lambda f: f.drives)),
     Misconception("PULLEY", "What hangs on a string: count every pulley that moves, and every direction in which a "
                   "weight is guided.", _pulley),
-    Misconception("CART_FIXED", "The support moves freely along its guide: its motion is not prescribed.", _cart_fixed),
+    Misconception("CART_FIXED", "The support moves freely along its guide: its motion is not prescribed.",
+                  _less(lambda f: f.guides if f.dof > 1 else 0)),
     Misconception("ROD_SPIN", "Two particles on a rod are no rigid body: turning about the rod's own axis changes "
-                  "nothing.", _rod_spin),
-    Misconception("NO_SPIN", "A rigid body also turns about its own axis.", _no_spin),
+                  "nothing.", _more(lambda f: f.bars.rods if f.d == 3 else 0)),
+    Misconception("NO_SPIN", "A rigid body also turns about its own axis.",
+                  _less(lambda f: f.bodies + f.bars.clusters if f.d == 3 else 0)),
     Misconception("PLANE_FORGOT", "That the motion stays in a plane is a constraint, and counts.", _plane_forgotten),
-    Misconception("CURVE_ONE", "A curve in space is where two surfaces meet: it takes two equations.", _curve_one),
+    Misconception("CURVE_ONE", "A curve in space is where two surfaces meet: it takes two equations.",
+                  _more(lambda f: f.surfaces.surplus)),
     Misconception("SUM_SQ", "A sum of squares that is zero is several equations in one: every square vanishes.",
                   _sum_of_squares),
     Misconception("GROUND", "The ground is a link that does not move: count it neither as free nor not at all.",
                   _ground),
     Misconception("SPATIAL_GRUBLER", "In the plane a body has three degrees of freedom and a joint takes two.",
                   _spatial_grubler),
-    Misconception("PLANE_TWICE", "With two coordinates for each particle the plane is counted already.", _plane_twice),
-    Misconception("BAR_TWO", "A bar between two particles takes one degree of freedom away, not two.", _bar_two),
-    Misconception("BAR_POINT", "Two particles joined by a bar are not one particle: they can turn.", _bar_point),
-    Misconception("PARAM_COUNT", "A parametric curve brings its parameter as one more unknown.", _param_count),
+    Misconception("PLANE_TWICE", "With two coordinates for each particle the plane is counted already.",
+                  _less(lambda f: f.particles if f.d == 2 else 0)),
+    Misconception("BAR_TWO", "A bar between two particles takes one degree of freedom away, not two.",
+                  _less(lambda f: f.bars.links)),
+    Misconception("BAR_POINT", "Two particles joined by a bar are not one particle: they can turn.",
+                  _less(lambda f: (f.d - 1) * f.bars.links)),
+    Misconception("PARAM_COUNT", "A parametric curve brings its parameter as one more unknown.",
+                  _less(lambda f: f.surfaces.on_curves)),
     Misconception("MOTION", "The trajectory follows from forces and the initial state: it is no constraint.",
                   _trajectory),
     Misconception("CONSERVATION", "That energy is conserved follows from the motion: it is no constraint.",
                   _conservation),
-    Misconception("POINT_6", "A particle has d degrees of freedom: only a body also turns.", _point_six),
+    Misconception("POINT_6", "A particle has d degrees of freedom: only a body also turns.",
+                  _more(lambda f: f.particles * (f.body_freedom - f.d))),
 )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.branches import solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.freedom.through_reference import all_of
-from dofkit.classification.passes import classify
+from dofkit.methods.classify import classify
 from dofkit.relations.normal.normal_form import Finite, Normal
 from dofkit.report import Report
 from dofkit.scene.added_equations import read_equations, with_equations
@@ -27,7 +27,7 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
     basis = report.integrable_part.basis if report.integrable_part is not None else []
     if basis is None:
         return None
-    held = [Equation(type="equation", name=f"held {name}", text=f"d{name} = 0") for name in names]
+    held = [Equation(name=f"held {name}", text=f"d{name} = 0") for name in names]
     named = [c.model_copy(update={"name": e.name}) for c, e in zip(scene.constraints, report.constraints, strict=True)]
     whole = _with(scene, [*named, *held])
     if basis:

@@ -62,9 +62,9 @@ class EquationQuestion(QuestionBase):
         yield from _unknown(self.constraint, key)
 
     def read(self, answer: Given, key: Key) -> str:
-        return self._read(answer, key).shown
+        return self._reading(answer, key).shown
 
-    def _read(self, answer: Given, key: Key) -> Read:
+    def _reading(self, answer: Given, key: Key) -> Read:
         texts = _texts(answer)
         constants = any(key.constraints[name].form == "pfaffian" for name in self.constraint)
         read = read_equations(texts, key.names, constants)
@@ -75,8 +75,8 @@ class EquationQuestion(QuestionBase):
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        read = self._read(answer, key)
-        found = _beside(
+        read = self._reading(answer, key)
+        found = _with_answer(
             key,
             read,
             lambda posed: compare(posed.system, posed.system.numbers_of(*self.constraint), posed.own, read.constants),
@@ -110,9 +110,9 @@ class IntegralQuestion(QuestionBase):
             yield Fault(f"'{self.constraint}' is not differential", ("constraint",), hint=hint)
 
     def read(self, answer: Given, key: Key) -> str:
-        return "none" if _none(answer) else self._read(answer, key).shown
+        return "none" if _none(answer) else self._reading(answer, key).shown
 
-    def _read(self, answer: Given, key: Key) -> Read:
+    def _reading(self, answer: Given, key: Key) -> Read:
         return read_equations(_texts(answer), key.names, constants=True)
 
     def solution(self, key: Key) -> str:
@@ -129,10 +129,10 @@ class IntegralQuestion(QuestionBase):
                 return needs_review("none", "dofkit does not know whether the constraint integrates.")
             told = "The constraint does integrate to a finite relation."
             return wrong("none", told, "INTEGRABLE") if entry.holonomic else right("none")
-        read = self._read(answer, key)
+        read = self._reading(answer, key)
         if entry.holonomic is False:
             return wrong(read.shown, "The constraint does not integrate to a finite relation.", "NOT_INTEGRABLE")
-        found = _beside(
+        found = _with_answer(
             key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(self.constraint), posed.own)
         )
         if found is None:
@@ -160,7 +160,7 @@ def _none(answer: Given) -> bool:
     return is_none(split_words(answer)) if isinstance(answer, str) else False
 
 
-def _beside(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
+def _with_answer(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
     """What is found of the scene with the answer. Raises TextError where the scene cannot hold it."""
     try:
         system = lower(with_equations(key.scene, read, ANSWER))

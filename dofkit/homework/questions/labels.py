@@ -82,7 +82,7 @@ class LabelQuestion(QuestionBase):
 
     def read(self, answer: Given, key: Key) -> str:
         del key
-        return _shown(read_labels(answer))
+        return _label_text(read_labels(answer))
 
     def solution(self, key: Key) -> str:
         truth = truths(key.constraints[self.constraint])
@@ -92,7 +92,7 @@ class LabelQuestion(QuestionBase):
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         given, entry = read_labels(answer), key.constraints[self.constraint]
-        truth, shown = truths(entry), _shown(given)
+        truth, shown = truths(entry), _label_text(given)
         if any(truth[p] is None for p in self.parts):
             return needs_review(shown, "dofkit does not know the label for certain.")
         good = [p for p in self.parts if given.get(p) == frozenset({truth[p]})]
@@ -160,5 +160,5 @@ def _word(part: str, holds: bool) -> str:
     return TERMS[part].holds if holds else TERMS[part].fails
 
 
-def _shown(given: dict[str, frozenset[bool]]) -> str:
+def _label_text(given: dict[str, frozenset[bool]]) -> str:
     return ", ".join(_word(part, holds) for part in TERMS for holds in sorted(given.get(part, ()), reverse=True))

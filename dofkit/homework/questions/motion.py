@@ -15,9 +15,10 @@ from dofkit.expressions.text import Comparison, Names, UnknownNameError, parse_e
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
-from dofkit.homework.key.equations_of_motion import Answered, Sought, is_zero, same_lagrangian
-from dofkit.homework.key.equations_of_motion import MotionSameness as Found
+from dofkit.homework.key.compared_motion import AnsweredMotion, same_lagrangian
+from dofkit.homework.key.compared_motion import MotionSameness as Found
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.right_motion import RightMotion, is_zero
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.scene.added_equations import as_text
 from dofkit.scene.fields import suggestion
@@ -44,15 +45,15 @@ class _MotionQuestion(QuestionBase):
         shown = self.read(answer, key)
         if isinstance(key.motion, DofkitError):
             return needs_review(shown, f"dofkit has no equations of motion here ({key.motion}).")
-        return self._judged(answer, key, key.motion, shown)
+        return self._judgement(answer, key, key.motion, shown)
 
-    def _judged(self, answer: Given, key: Key, known: Sought, shown: str) -> Judgement:
+    def _judgement(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
         raise NotImplementedError
 
     def solution(self, key: Key) -> str:
         return "" if isinstance(key.motion, DofkitError) else self._solution(key.motion)
 
-    def _solution(self, known: Sought) -> str:
+    def _solution(self, known: RightMotion) -> str:
         raise NotImplementedError
 
 
@@ -62,10 +63,10 @@ class _Value(_MotionQuestion):
     def read(self, answer: Given, key: Key) -> str:
         return to_text(_value(answer, key))
 
-    def _judged(self, answer: Given, key: Key, known: Sought, shown: str) -> Judgement:
-        return self._compared(known.inserted(_value(answer, key)), known, shown)
+    def _judgement(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
+        return self._comparison(known.in_kept(_value(answer, key)), known, shown)
 
-    def _compared(self, given: Expr, known: Sought, shown: str) -> Judgement:
+    def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
         raise NotImplementedError
 
 
@@ -82,7 +83,7 @@ class Lagrangian(_Value):
 
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
 
-    def _compared(self, given: Expr, known: Sought, shown: str) -> Judgement:
+    def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
         same = same_lagrangian(given, known.lagrangian, known)
         if same:
             return right(shown)
@@ -96,7 +97,7 @@ class Lagrangian(_Value):
             shown, "It is another Lagrangian: Euler's equation of the difference is not 0.", "WRONG_LAGRANGIAN"
         )
 
-    def _solution(self, known: Sought) -> str:
+    def _solution(self, known: RightMotion) -> str:
         return f"For example: L = {to_text(known.lagrangian)}."
 
 
@@ -105,13 +106,13 @@ class _OfCoordinate(_Value):
 
     coordinate: str = Field(description="the coordinate it belongs to")
 
-    def _right(self, known: Sought) -> Expr | None:
+    def _right(self, known: RightMotion) -> Expr | None:
         raise NotImplementedError
 
-    def _unreduced(self, known: Sought) -> Expr:
+    def _unreduced(self, known: RightMotion) -> Expr:
         raise NotImplementedError
 
-    def _compared(self, given: Expr, known: Sought, shown: str) -> Judgement:
+    def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
         wanted = self._right(known)
         reduced = known.motions and wanted is not None
         if wanted is None:
@@ -133,7 +134,7 @@ class _OfCoordinate(_Value):
     def _code(self) -> str:
         raise NotImplementedError
 
-    def _solution(self, known: Sought) -> str:
+    def _solution(self, known: RightMotion) -> str:
         wanted = self._right(known)
         return f"For example: {to_text(self._unreduced(known) if wanted is None else wanted)}."
 
@@ -143,10 +144,10 @@ class Momentum(_OfCoordinate):
 
     ask: Literal["momentum"] = Field(description="a generalized momentum")
 
-    def _right(self, known: Sought) -> Expr | None:
+    def _right(self, known: RightMotion) -> Expr | None:
         return known.momenta.get(self.coordinate)
 
-    def _unreduced(self, known: Sought) -> Expr:
+    def _unreduced(self, known: RightMotion) -> Expr:
         return known.unreduced[self.coordinate][0]
 
     def _feedback(self) -> str:
@@ -161,10 +162,10 @@ class GeneralizedForce(_OfCoordinate):
 
     ask: Literal["force"] = Field(description="a generalized force")
 
-    def _right(self, known: Sought) -> Expr | None:
+    def _right(self, known: RightMotion) -> Expr | None:
         return known.forces.get(self.coordinate)
 
-    def _unreduced(self, known: Sought) -> Expr:
+    def _unreduced(self, known: RightMotion) -> Expr:
         return known.unreduced[self.coordinate][1]
 
     def _feedback(self) -> str:
@@ -183,23 +184,23 @@ class MotionQuestion(_MotionQuestion):
     def read(self, answer: Given, key: Key) -> str:
         return "; ".join(as_text(c) for c in _equations(answer, key)[0])
 
-    def _judged(self, answer: Given, key: Key, known: Sought, shown: str) -> Judgement:
+    def _judgement(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
         relations, own = _equations(answer, key)
         if any(c.relation != "=" for c in relations):
             return wrong(shown, "An equation of motion is an equation, not an inequality.", "INEQUALITY")
         equations = tuple(c.left - c.right for c in relations)
-        answered = Answered(known, equations, own)
+        answered = AnsweredMotion(known, equations, own)
         found = answered.follow()
-        if found is None and self.coordinate is None and isinstance(key.whole_motion, Sought):
+        if found is None and self.coordinate is None and isinstance(key.whole_motion, RightMotion):
             known = key.whole_motion
-            found = Answered(known, equations, own).follow()
+            found = AnsweredMotion(known, equations, own).follow()
         if found is None:
             return needs_review(shown, "whether these are the equations of motion was not decided.")
         if self.coordinate is not None and self.coordinate in known.names:
             return self._one(answered, found[0], known, shown)
         return _all(found, known, shown)
 
-    def _one(self, answered: Answered, told: Sequence[Found], known: Sought, shown: str) -> Judgement:
+    def _one(self, answered: AnsweredMotion, told: Sequence[Found], known: RightMotion, shown: str) -> Judgement:
         """One coordinate's equation: it holds that coordinate's acceleration, and is not the equation of another."""
         if answered.own or known.multipliers:
             return needs_review(shown, "one equation with multipliers may be written in many ways.")
@@ -214,19 +215,19 @@ class MotionQuestion(_MotionQuestion):
             return wrong(shown, "This is the equation of another coordinate.", "OTHER_COORDINATE")
         return right(shown)
 
-    def _of_another(self, row: Sequence[Expr], answered: Answered, known: Sought, place: int) -> bool:
+    def _of_another(self, row: Sequence[Expr], answered: AnsweredMotion, known: RightMotion, place: int) -> bool:
         """Is the row a multiple of another coordinate's equation, and not of the one asked for?"""
         told = [_proportional(row[:-1], other[:-1], known.positive) for other in answered.right]
         return not told[place] and any(told)
 
-    def _solution(self, known: Sought) -> str:
+    def _solution(self, known: RightMotion) -> str:
         given = known.equations
         own = None if self.coordinate is None else given.get(self.coordinate)
         chosen = list(given.values()) if own is None else [own]
         return "For example: " + "; ".join(f"{to_text(e)} = 0" for e in chosen) + "."
 
 
-def _all(found: tuple[list[Found], int], known: Sought, shown: str) -> Judgement:
+def _all(found: tuple[list[Found], int], known: RightMotion, shown: str) -> Judgement:
     """All equations: as many points as accelerations are fixed by those that follow."""
     told, rank = found
     wanted = len(known.names) - len(known.rows)

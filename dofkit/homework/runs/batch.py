@@ -74,7 +74,7 @@ class GradingTask:
     careful: bool = False
 
 
-def graded(task: GradingTask) -> Iterator[Json]:
+def batch_results(task: GradingTask) -> Iterator[Json]:
     """The answers that come next, from time to time; at the end ``{"lines": ...}``, a list for each of ``handed``."""
     grader = _grader(task.orders)
     grader.condemned = task.condemned

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import sqlite3
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from concurrent.futures import Future
-from types import TracebackType
-from typing import Protocol
 
-from dofkit.base.workers.crews import Threads
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.runs.batch import Orders, ResultLine
-from dofkit.homework.runs.keeper import Graded, Keeper
+from dofkit.homework.runs.crew import GradingCrew
+from dofkit.homework.runs.keeper import Graded
 
 #: Seconds that a batch should take, and the most submissions and bytes in one.
 BATCH_SECONDS, MOST_IN_BATCH, MOST_BYTES = 0.5, 256, 1_000_000
@@ -20,58 +18,21 @@ BATCH_SECONDS, MOST_IN_BATCH, MOST_BYTES = 0.5, 256, 1_000_000
 AHEAD = 3
 
 
-class Runner(Protocol):
-    """What grades batches, some at a time."""
-
-    width: int
-
-    def submit(self, handed: Sequence[Handed]) -> Awaited:
-        """Begin with a batch."""
-
-
-class Awaited(Protocol):
-    """A batch that is being graded."""
-
-    def result(self) -> Graded:
-        """What was found, when it is there."""
-
-
-class LocalRunner:
-    """Workers on this machine."""
-
-    def __init__(self, keeper: Keeper, workers: int) -> None:
-        self.width = workers
-        self._keeper = keeper
-        self._threads = Threads(workers, keeper.close)
-
-    def submit(self, handed: Sequence[Handed]) -> Future[Graded]:
-        """Begin with a batch."""
-        return self._threads.submit(self._keeper.graded, handed)
-
-    def __enter__(self) -> LocalRunner:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._threads.__exit__(kind, error, trace)
-
-
-def in_order(runner: Runner, handed: Iterable[Handed]) -> Iterator[tuple[Handed, list[ResultLine]]]:
+def in_order(crew: GradingCrew, handed: Iterable[Handed]) -> Iterator[tuple[Handed, list[ResultLine]]]:
     """Everything handed in with its lines, in order; no more of it is taken than the workers can use soon.
 
     Batches are so large that each takes about half a second: what is in one makes no difference to its results.
     """
     stream = iter(handed)
-    under_way: deque[tuple[list[Handed], Awaited]] = deque()
+    under_way: deque[tuple[list[Handed], Future[Graded]]] = deque()
     size = 1
     while True:
-        while len(under_way) < AHEAD * runner.width and (batch := _batch(stream, size)):
-            under_way.append((batch, runner.submit(batch)))
+        while len(under_way) < AHEAD * crew.width and (batch := _batch(stream, size)):
+            under_way.append((batch, crew.submit(batch)))
         if not under_way:
             return
-        batch, awaited = under_way.popleft()
-        found = awaited.result()
+        batch, future = under_way.popleft()
+        found = future.result()
         yield from zip(batch, found.lines, strict=True)
         wanted = int(len(batch) * BATCH_SECONDS / max(found.seconds, 1e-3))
         size = max(1, min(MOST_IN_BATCH, 2 * size, wanted))
@@ -89,7 +50,7 @@ def _batch(stream: Iterator[Handed], size: int) -> list[Handed]:
     return found
 
 
-def once(
+def without_repeats(
     orders: Orders, graded: Iterable[tuple[Handed, list[ResultLine]]], seen: HandedIn
 ) -> Iterator[tuple[Handed, list[ResultLine]]]:
     """The same, but a student's second submission is refused, and both places are named."""

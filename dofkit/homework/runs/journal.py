@@ -56,7 +56,7 @@ class Journal:
         path.parent.mkdir(parents=True, exist_ok=True)
         known = self._head() == mark and path.exists()
         self._marks: BinaryIO = self.ledger.open("r+b" if known else "a+b")
-        _alone(self._marks, path)
+        _locked(self._marks, path)
         self._results: BinaryIO = path.open("r+b" if known else "w+b")
         if not known:
             self._marks.truncate(0)
@@ -68,7 +68,7 @@ class Journal:
             return marks.readline().decode("ascii", "replace").rstrip("\n")
         return None
 
-    def taken_over(self, handed: Iterator[Handed], seen: HandedIn) -> Iterator[Handed]:
+    def remaining(self, handed: Iterator[Handed], seen: HandedIn) -> Iterator[Handed]:
         """What is left of ``handed`` after what was graded before; who is behind that is noted in ``seen``."""
         self._marks.readline()
         for one in handed:
@@ -119,7 +119,7 @@ class Journal:
         self.ledger.unlink(missing_ok=True)
 
 
-def _alone(file: BinaryIO, path: Path) -> None:
+def _locked(file: BinaryIO, path: Path) -> None:
     """Let no other run write to the same file, where the system can tell."""
     if sys.platform != "win32":
         try:

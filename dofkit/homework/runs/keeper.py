@@ -12,7 +12,7 @@ from dofkit.base.workers import MEMORY, Job, JobOutcome, Pool
 from dofkit.base.workers.crews import StoppedError
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.grading import Spot
-from dofkit.homework.runs.batch import GradingTask, Orders, ResultLine, graded
+from dofkit.homework.runs.batch import GradingTask, Orders, ResultLine, batch_results
 
 #: What a student reads of an answer that broke its worker, by how that ended.
 _ENDED = {
@@ -47,17 +47,17 @@ class Keeper:
         """Start the workers as copies of this process, where that is safe."""
         self._pool.fork()
 
-    def graded(self, handed: Sequence[Handed]) -> Graded:
+    def grade(self, handed: Sequence[Handed]) -> Graded:
         """The lines of everything handed in, in order, and the seconds it took. Raises StoppedError."""
         start = time.monotonic()
         outcome = self._run(tuple(handed), careful=False)
         if outcome.finished:
             lines = [[ResultLine(*line) for line in lines] for lines in outcome.value["lines"]]
         else:
-            lines = [self._alone(one) for one in handed]
+            lines = [self._lines_of(one) for one in handed]
         return Graded(lines, time.monotonic() - start)
 
-    def _alone(self, one: Handed) -> list[ResultLine]:
+    def _lines_of(self, one: Handed) -> list[ResultLine]:
         """One at a time, and telling of every answer before it is judged: so one that breaks the worker is found."""
         while True:
             outcome = self._run((one,), careful=True)
@@ -66,10 +66,10 @@ class Keeper:
             spot = outcome.value["next"] if outcome.value else None
             with self._lock:
                 if spot is None or spot in self._condemned:
-                    return [self._lost(one, outcome)]
+                    return [self._refusal(one, outcome)]
                 self._condemned[spot] = _ENDED[outcome.ended]
 
-    def _lost(self, one: Handed, outcome: JobOutcome) -> ResultLine:
+    def _refusal(self, one: Handed, outcome: JobOutcome) -> ResultLine:
         return self.orders.refused(one.name, f"{one.place}: it could not be graded: {_ENDED[outcome.ended]}")
 
     def _run(self, handed: tuple[Handed, ...], careful: bool) -> JobOutcome:
@@ -78,7 +78,7 @@ class Keeper:
         if self._stopped:
             raise StoppedError("grading was stopped")
         task = GradingTask(self.orders, handed, condemned, careful)
-        outcome = self._pool.run(Job(graded, task, self.orders.wall))
+        outcome = self._pool.run(Job(batch_results, task, self.orders.wall))
         if self._stopped:
             raise StoppedError("grading was stopped")
         if outcome.ended == "absent":

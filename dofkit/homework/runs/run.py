@@ -13,13 +13,13 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base.workers.pool import cores
-from dofkit.homework.answers.sources import Handed, handed
+from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.result import Result
 from dofkit.homework.runs.batch import Orders, ResultLine
-from dofkit.homework.runs.cluster import GradingCluster
-from dofkit.homework.runs.in_order import HandedIn, LocalRunner, Runner, in_order, once
+from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
+from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
 from dofkit.homework.runs.journal import Journal, fingerprint, ledger
 from dofkit.homework.runs.keeper import Keeper
 
@@ -72,9 +72,9 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
             raise FormatError(f"--out would overwrite {path}, which is read")
     prepared = load_assignment(assignment)
     orders = Orders.of(prepared, options.check_only)
-    stream = handed(sources, prepared.columns(), [assignment, *options.written])
-    with _runner(orders, options) as runner, closing(HandedIn()) as seen:
-        one = _Run(form, prepared, orders, runner, seen)
+    stream = hand_ins(sources, prepared.columns(), [assignment, *options.written])
+    with _crew(orders, options) as crew, closing(HandedIn()) as seen:
+        one = _Run(form, prepared, orders, crew, seen)
         if options.out is None:
             one.to_stdout(stream)
         else:
@@ -83,16 +83,16 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
 
 
 @contextmanager
-def _runner(orders: Orders, options: GradingOptions) -> Iterator[Runner]:
+def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
     if options.scheduler is not None:
-        with GradingCluster(options.scheduler, orders) as cluster:
-            yield cluster
+        with cluster_crew(options.scheduler, orders) as crew:
+            yield crew
         return
     workers = options.workers or cores()
     with Keeper(orders, workers) as keeper:
         keeper.fork()
-        with LocalRunner(keeper, workers) as local:
-            yield local
+        with local_crew(keeper, workers) as crew:
+            yield crew
 
 
 @dataclass
@@ -102,13 +102,13 @@ class _Run:
     form: Format
     prepared: Prepared
     orders: Orders
-    runner: Runner
+    crew: GradingCrew
     seen: HandedIn
     failed: int = 0
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
         """Print results as they come."""
-        lines = (line.text for _, found in self._graded(stream, sys.stdout.isatty()) for line in found)
+        lines = (line.text for _, found in self._with_lines(stream, sys.stdout.isatty()) for line in found)
         if self.form.name != NATIVE:
             self.form.write(map(Result.model_validate_json, lines), self.prepared, sys.stdout)
             return
@@ -120,20 +120,20 @@ class _Run:
         """Write to a path what is not there yet; a format other than our own is made of our own at the end."""
         path = _native(self.form, out)
         with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only))) as journal:
-            left = journal.taken_over(stream, self.seen)
+            left = journal.remaining(stream, self.seen)
             self.failed += journal.failed
-            for one, lines in self._graded(left, False):
+            for one, lines in self._with_lines(left, False):
                 journal.write(one, lines)
         if self.form.name != NATIVE:
             self.form.write(_results(path), self.prepared, out)
             path.unlink()
         journal.finish()
 
-    def _graded(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[ResultLine]]]:
+    def _with_lines(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[ResultLine]]]:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            for one, lines in once(self.orders, in_order(self.runner, stream), self.seen):
+            for one, lines in without_repeats(self.orders, in_order(self.crew, stream), self.seen):
                 self.failed += sum(line.failed for line in lines)
                 yield one, lines
                 bar.update(task, advance=len(lines))

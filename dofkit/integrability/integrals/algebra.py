@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterable, Sequence
 from math import isqrt
 from typing import Any, TypeVar
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError, soon_factored
+from dofkit.exact.errors import NoValueError, TooLargeError, raising_no_value
+from dofkit.exact.ring.canonical import Canon, soon_factored
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 
 Poly = Any
@@ -57,8 +57,8 @@ class Algebra:
     def attempt(self, work: Callable[[], T]) -> T | None:
         """The result of ``work``, None where an expression has no canonical form or divides by zero."""
         try:
-            return work()
-        except (TooLargeError, ZeroDivisionError, DomainError):
+            return raising_no_value(work)()
+        except NoValueError:
             return None
 
     def spend(self, expressions: Iterable[Expr]) -> None:
@@ -118,9 +118,7 @@ class Algebra:
     def closed(self, form: dict[Expr, Expr]) -> bool:
         """True where d(omega) = 0 is proved."""
         items = list(form.items())
-        return all(
-            self.vanishes(ex.diff(b, s) - ex.diff(a, u)) for i, (s, a) in enumerate(items) for u, b in items[i + 1 :]
-        )
+        return all(self.vanishes(diff(b, s) - diff(a, u)) for i, (s, a) in enumerate(items) for u, b in items[i + 1 :])
 
 
 def bounded(poly: Poly) -> bool:

@@ -5,11 +5,21 @@ from __future__ import annotations
 from fractions import Fraction
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, replace
-from dofkit.integrability.integrals.rational import linear, rational, root_of_quadratic
-from dofkit.integrability.integrals.trigonometry import powers, sin_cos, to_sum
+from dofkit.integrability.integrals.elementary import (
+    as_power,
+    collected_powers,
+    of_call,
+    of_exponential_wave,
+    of_function,
+    of_power,
+    of_waves,
+)
+from dofkit.integrability.integrals.rational import linear, rational
+from dofkit.integrability.integrals.trigonometry import powers, to_sum
 
 MAX_DEPTH = 9
 MAX_CANDIDATES = 6
@@ -52,30 +62,11 @@ def _by_terms(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
 
 
 def _term(work: Algebra, term: Expr, x: Expr, depth: int) -> Expr | None:
-    constants, factors = _split(term, x)
+    constants, factors = collected_powers(term, x)
     if not factors:
         return term * x
     found = _single(work, factors[0], x, depth) if len(factors) == 1 else _product(work, factors, x, depth)
     return None if found is None else ex.mul(constants, found)
-
-
-def as_power(e: Expr) -> tuple[Expr, Fraction]:
-    """(base, exponent) for a numeric exponent."""
-    if e.op == "pow" and e.args[1].op == "num":
-        return e.args[0], e.args[1].args[0]
-    return e, Fraction(1)
-
-
-def _split(term: Expr, x: Expr) -> tuple[Expr, list[Expr]]:
-    """The factors free of x, and the others with the powers of equal bases collected."""
-    constants, bases = [], dict[Expr, Fraction]()
-    for factor in term.args if term.op == "mul" else (term,):
-        if x in factor.symbols:
-            base, exponent = as_power(factor)
-            bases[base] = bases.get(base, Fraction(0)) + exponent
-        else:
-            constants.append(factor)
-    return ex.mul(*constants), [ex.power(base, ex.num(k)) for base, k in bases.items() if k]
 
 
 # -- one factor ------------------------------------------------------------------------------------
@@ -85,14 +76,14 @@ def _single(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
     if e == x:
         return x * x / 2
     if e.op == "pow":
-        return _power(work, e, x) or _inverse_by_parts(work, ex.ONE, e, x, depth)
+        return of_power(work, e, x) or _inverse_by_parts(work, ex.ONE, e, x, depth)
     if e.op == "call":
-        return _call(e, x)
+        return of_call(e, x)
     if e.op != "fn":
         return None
     straight = linear(e.args[1], x) if len(e.args) == 2 else None
     if straight is not None:
-        found = _of_function(e.args[0], e.args[1])
+        found = of_function(e.args[0], e.args[1])
         return None if found is None else found / straight[0]
     return _inverse_by_parts(work, ex.ONE, e, x, depth)
 
@@ -101,68 +92,17 @@ def _names(e: Expr) -> frozenset[str]:
     return frozenset(n.args[0] for n in ex.nodes(e) if n.op == "fn")
 
 
-def _of_function(name: str, u: Expr) -> Expr | None:
-    """The antiderivative of a function by its argument."""
-    if name == "exp":
-        return ex.fn("exp", u)
-    if name in ("sinh", "cosh"):
-        return ex.fn("cosh" if name == "sinh" else "sinh", u)
-    if name == "tanh":
-        return ex.fn("log", ex.fn("cosh", u))
-    if name == "abs":
-        return u * ex.fn("abs", u) / 2
-    if name == "log":
-        return u * ex.fn("log", u) - u
-    if name == "atan":
-        return u * ex.fn("atan", u) - ex.fn("log", 1 + u * u) / 2
-    if name in ("asin", "acos"):
-        root = ex.sqrt(1 - u * u)
-        return u * ex.fn(name, u) + (root if name == "asin" else -root)
-    found = powers([ex.fn(name, u)])
-    return None if found is None else sin_cos(*found[u], u)
-
-
-def _power(work: Algebra, e: Expr, x: Expr) -> Expr | None:
-    base: Expr = e.args[0]
-    exponent: Expr = e.args[1]
-    if x in exponent.symbols:
-        straight = linear(exponent, x)
-        return None if x in base.symbols or straight is None else e / (straight[0] * ex.fn("log", base))
-    straight = linear(base, x)
-    if straight is not None:
-        if exponent == ex.MINUS_ONE:
-            return ex.fn("log", base) / straight[0]
-        return ex.power(base, exponent + 1) / ((exponent + 1) * straight[0])
-    if exponent.op != "num":
-        return None
-    trig = powers([e])
-    if trig is not None:
-        return _trig(trig, x)
-    return root_of_quadratic(work, base, exponent.args[0], x)
-
-
-def _call(e: Expr, x: Expr) -> Expr | None:
-    """An unknown function differentiated by the argument that holds x."""
-    name, orders, arguments = e.args
-    places = [i for i, u in enumerate(arguments) if x in u.symbols]
-    straight = linear(arguments[places[0]], x)
-    if len(places) > 1 or straight is None or not orders[places[0]]:
-        return None
-    lower = tuple(k - (i == places[0]) for i, k in enumerate(orders))
-    return ex.call(name, arguments, lower) / straight[0]
-
-
 # -- products --------------------------------------------------------------------------------------
 
 
 def _product(work: Algebra, factors: list[Expr], x: Expr, depth: int) -> Expr | None:
     trig = powers(factors)
     if trig is not None and len(trig) == 1:
-        return _trig(trig, x)
+        return of_waves(trig, x)
     total = to_sum(factors)
     if total is not None:
         return antiderivative(work, total, x, depth + 1)
-    waves = _exponential_wave(factors, x)
+    waves = of_exponential_wave(factors, x)
     if waves is not None:
         return waves
     others = [f for f in factors if as_power(f)[0] != x]
@@ -180,31 +120,6 @@ def _product(work: Algebra, factors: list[Expr], x: Expr, depth: int) -> Expr | 
     return _by_parts(work, monomial, ex.mul(*others), x, depth)
 
 
-def _trig(trig: dict[Expr, tuple[int, int]], x: Expr) -> Expr | None:
-    if len(trig) != 1:
-        return None
-    ((u, (m, n)),) = trig.items()
-    straight = linear(u, x)
-    found = None if straight is None else sin_cos(m, n, u)
-    return None if found is None or straight is None else found / straight[0]
-
-
-def _exponential_wave(factors: list[Expr], x: Expr) -> Expr | None:
-    """exp(u) sin(v) and exp(u) cos(v) for linear u, v."""
-    named = {f.args[0]: f.args[1] for f in factors if f.op == "fn"}
-    wave = next((name for name in ("sin", "cos") if name in named), None)
-    if len(factors) != 2 or len(named) != 2 or "exp" not in named or wave is None:
-        return None
-    u, v = named["exp"], named[wave]
-    first, second = linear(u, x), linear(v, x)
-    if first is None or second is None:
-        return None
-    a, b = first[0], second[0]
-    sin, cos = ex.fn("sin", v), ex.fn("cos", v)
-    inside = a * sin - b * cos if wave == "sin" else a * cos + b * sin
-    return ex.fn("exp", u) * inside / (a * a + b * b)
-
-
 def _inverse_by_parts(work: Algebra, monomial: Expr, e: Expr, x: Expr, depth: int) -> Expr | None:
     """x^n times a power of log, atan, asin or acos: the function is differentiated away."""
     base, exponent = as_power(e)
@@ -213,7 +128,7 @@ def _inverse_by_parts(work: Algebra, monomial: Expr, e: Expr, x: Expr, depth: in
     raised = None if exponent.denominator != 1 else antiderivative(work, monomial, x, depth + 1)
     if raised is None or as_power(monomial) == (x, Fraction(-1)):
         return None
-    rest = antiderivative(work, work.tidy(raised * ex.diff(e, x)), x, depth + 1)
+    rest = antiderivative(work, work.tidy(raised * diff(e, x)), x, depth + 1)
     return None if rest is None else raised * e - rest
 
 
@@ -227,7 +142,7 @@ def _by_parts(work: Algebra, monomial: Expr, other: Expr, x: Expr, depth: int) -
     raised = _by_terms(work, expand(other), x, depth + 1)
     if raised is None:
         return None
-    rest = _by_terms(work, expand(ex.diff(monomial, x) * raised), x, depth + 1)
+    rest = _by_terms(work, expand(diff(monomial, x) * raised), x, depth + 1)
     return None if rest is None else monomial * raised - rest
 
 
@@ -235,10 +150,10 @@ def _shifted(work: Algebra, e: Expr, x: Expr, straight: tuple[Expr, Expr], depth
     """x^n (a x + b)^r by powers of a x + b."""
     a, b = straight
     base = a * x + b
-    inside = expand(ex.substitute(e, {x: (_FRESH - b) / a}) / a)
-    inside = replace(inside, expand(ex.substitute(base, {x: (_FRESH - b) / a})), _FRESH)
+    inside = expand(substitute(e, {x: (_FRESH - b) / a}) / a)
+    inside = replace(inside, expand(substitute(base, {x: (_FRESH - b) / a})), _FRESH)
     found = antiderivative(work, work.tidy(inside), _FRESH, depth + 1)
-    return None if found is None else ex.substitute(found, {_FRESH: base})
+    return None if found is None else substitute(found, {_FRESH: base})
 
 
 # -- whole sums ------------------------------------------------------------------------------------
@@ -255,15 +170,15 @@ def _total_derivative(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | Non
     if place is None or any(x in u.symbols for i, u in enumerate(arguments) if i != place):
         return None
     lower = ex.call(name, arguments, tuple(k - (i == place) for i, k in enumerate(orders)))
-    coefficient = ex.diff(replace(e, highest, _FRESH), _FRESH)
+    coefficient = diff(replace(e, highest, _FRESH), _FRESH)
     if _FRESH in coefficient.symbols:
         return None
-    coefficient = replace(work.tidy(coefficient / ex.diff(arguments[place], x)), lower, _FRESH)
+    coefficient = replace(work.tidy(coefficient / diff(arguments[place], x)), lower, _FRESH)
     part = antiderivative(work, coefficient, _FRESH, depth + 1)
     if part is None:
         return None
     part = replace(part, _FRESH, lower)
-    rest = antiderivative(work, work.tidy(e - ex.diff(part, x)), x, depth + 1)
+    rest = antiderivative(work, work.tidy(e - diff(part, x)), x, depth + 1)
     return None if rest is None else part + rest
 
 
@@ -273,8 +188,8 @@ def _under_exponential(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     if node is None:
         return None
     marked = replace(e, node, _FRESH)
-    inside = ex.diff(marked, _FRESH)
-    (constant, powers_of_x), terms = _split(node.args[1], x), _coefficients(inside, x)
+    inside = diff(marked, _FRESH)
+    (constant, powers_of_x), terms = collected_powers(node.args[1], x), _coefficients(inside, x)
     base, m = as_power(powers_of_x[0])
     if len(powers_of_x) != 1 or base != x or m.denominator != 1 or not 2 <= m <= 4 or terms is None:
         return None
@@ -294,7 +209,7 @@ def _coefficients(e: Expr, x: Expr) -> dict[int, Expr] | None:
     found: dict[int, Expr] = {}
     total = expand(e)
     for term in total.args if total.op == "add" else (total,):
-        constant, factors = _split(term, x)
+        constant, factors = collected_powers(term, x)
         base, k = as_power(factors[0]) if factors else (x, Fraction(0))
         if len(factors) > 1 or base != x or k.denominator != 1 or not 0 <= k <= 12:
             return None
@@ -307,13 +222,13 @@ def _sum_by_parts(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
     inverse = [n for n in ex.nodes(e) if n.op == "fn" and n.args[0] in _INVERSE and x in n.symbols]
     for node in inverse[:2]:
         marked = replace(e, node, _FRESH)
-        coefficient = ex.diff(marked, _FRESH)
+        coefficient = diff(marked, _FRESH)
         if _FRESH in coefficient.symbols or coefficient == ex.ONE:
             continue
         raised = antiderivative(work, work.tidy(coefficient), x, depth + 2)
         if raised is None:
             continue
-        rest = work.tidy(ex.substitute(marked, {_FRESH: ex.ZERO}) - raised * ex.diff(node, x))
+        rest = work.tidy(substitute(marked, {_FRESH: ex.ZERO}) - raised * diff(node, x))
         found = antiderivative(work, rest, x, depth + 2)
         if found is not None:
             return raised * node + found
@@ -325,7 +240,7 @@ def _by_substitution(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None
     inner = [n for n in ex.nodes(e) if x in n.symbols and n != e and n.op in ("fn", "call")]
     inner += [ex.fn("sin", n.args[1]) for n in inner if n.op == "fn" and n.args[0] == "cos"]
     for u in dict.fromkeys(inner[:MAX_CANDIDATES]):
-        slope = ex.diff(u, x)
+        slope = diff(u, x)
         if x not in slope.symbols:
             continue
         inside = replace(work.tidy(e / slope), u, _FRESH)
@@ -337,7 +252,7 @@ def _by_substitution(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None
                 return replace(found, _FRESH, u)
     for k in (2, 3):
         inside = work.tidy(e / (k * x ** (k - 1)))
-        inside = work.tidy(ex.substitute(inside, {x: ex.power(_FRESH, ex.num(Fraction(1, k)))}))
+        inside = work.tidy(substitute(inside, {x: ex.power(_FRESH, ex.num(Fraction(1, k)))}))
         if not any(n.op == "pow" and n.args == (_FRESH, ex.num(Fraction(1, k))) for n in ex.nodes(inside)):
             found = antiderivative(work, inside, _FRESH, depth + 3)
             if found is not None:
@@ -350,4 +265,4 @@ def _power_for_fresh(e: Expr, x: Expr, k: int) -> Expr:
     for node in list(ex.nodes(e)):
         if node.op == "pow" and node.args[0] == _FRESH and node.args[1].op == "num":
             e = replace(e, node, ex.power(x, k * node.args[1]))
-    return ex.substitute(e, {_FRESH: x**k})
+    return substitute(e, {_FRESH: x**k})

@@ -11,6 +11,7 @@ from typing import Any
 
 from dofkit.exact.ring.canonical import Canon
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, Poly, Quotient, size, solve
 from dofkit.integrability.integrals.antiderivative import antiderivative
@@ -39,7 +40,7 @@ def exponential(e: Expr) -> Expr:
 
 def turning(form: Form) -> dict[tuple[Expr, Expr], Expr]:
     """d(omega) by pairs of variables: d a_j / d x_i - d a_i / d x_j."""
-    return {(s, u): ex.diff(b, s) - ex.diff(a, u) for (s, a), (u, b) in combinations(form.items(), 2)}
+    return {(s, u): diff(b, s) - diff(a, u) for (s, a), (u, b) in combinations(form.items(), 2)}
 
 
 def simple(work: Algebra, form: Form) -> Iterator[Expr]:
@@ -114,7 +115,7 @@ def of_combination(work: Algebra, form: Form) -> Iterator[Expr]:
 def _slope(work: Algebra, form: Form, curls: dict[tuple[Expr, Expr], Expr], w: Expr) -> Expr | None:
     """p, from the first pair of variables that tells; None where it is seen not to depend on w alone."""
     for (s, u), curl in curls.items():
-        wedge = ex.diff(w, s) * form[u] - ex.diff(w, u) * form[s]
+        wedge = diff(w, s) * form[u] - diff(w, u) * form[s]
         if wedge.is_zero:
             if not work.vanishes(curl):
                 return None
@@ -131,16 +132,16 @@ def _depends_on(work: Algebra, e: Expr, w: Expr, variables: list[Expr]) -> bool:
     if w.op == "sym":
         return all(s == w or s not in e.symbols for s in variables)
     pairs = combinations(variables, 2)
-    return all(work.vanishes(ex.diff(e, s) * ex.diff(w, u) - ex.diff(e, u) * ex.diff(w, s)) for s, u in pairs)
+    return all(work.vanishes(diff(e, s) * diff(w, u) - diff(e, u) * diff(w, s)) for s, u in pairs)
 
 
 def _integrated(work: Algebra, slope: Expr, w: Expr, curve: dict[Expr, Expr]) -> Expr | None:
     """exp of the antiderivative of p(w), at w."""
     if slope.is_zero:
         return None
-    restricted = work.attempt(lambda: work.tidy(ex.substitute(slope, curve)))
+    restricted = work.attempt(lambda: work.tidy(substitute(slope, curve)))
     log = None if restricted is None else antiderivative(work, restricted, _W)
-    return None if log is None else ex.substitute(exponential(log), {_W: w})
+    return None if log is None else substitute(exponential(log), {_W: w})
 
 
 # -- products of functions of one variable, in two variables ----------------------------------------
@@ -160,12 +161,12 @@ def separable(work: Algebra, form: Form) -> Iterator[Expr]:
         ratio = work.tidy(form[x] / form[y])
         if size(ratio) > MAX_SIZE:
             return
-        by_x = work.tidy(ex.diff(ratio, x))
+        by_x = work.tidy(diff(ratio, x))
         if by_x.is_zero:
             yield 1 / (form[y] * ratio)
             continue
-        q = work.tidy(-ex.diff(by_x, y) / by_x)
-        p = work.tidy(ex.diff(ratio, y) + q * ratio)
+        q = work.tidy(-diff(by_x, y) / by_x)
+        p = work.tidy(diff(ratio, y) + q * ratio)
         if x in q.symbols or y in p.symbols:
             continue
         along_x, along_y = antiderivative(work, p, x), antiderivative(work, q, y)
@@ -177,7 +178,7 @@ def separable(work: Algebra, form: Form) -> Iterator[Expr]:
 
 
 def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
-    """mu = prod g_k^c_k over variables, factors of coefficients, exponentials; c_k constants (Darboux)."""
+    """mu = prod g_k^c_k over variables, factors of coefficients, exponentials; c_k constants [Darboux1878]."""
     logs = _candidates(work, form)
     if not logs:
         return
@@ -203,7 +204,7 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
     """c with sum c_k (dg_k ^ omega) + d(omega) = 0, by comparing coefficients."""
     rows: list[list[Expr]] = []
     for (s, u), curl in turning(form).items():
-        wedges = [ex.diff(g, s) * form[u] - ex.diff(g, u) * form[s] for g in logs]
+        wedges = [diff(g, s) * form[u] - diff(g, u) * form[s] for g in logs]
         rows.append([*wedges, -curl])
     flat = [e for row in rows for e in row]
     canon, quotients = work.lowered(flat)

@@ -1,8 +1,9 @@
-"""Closed forms: the function whose differential they are."""
+"""Closed forms: the function whose differential they are [PoincareLemma]."""
 
 from __future__ import annotations
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra
 from dofkit.integrability.integrals.antiderivative import antiderivative
@@ -26,7 +27,7 @@ def potential(work: Algebra, form: Form) -> Expr | None:
 def _in_order(work: Algebra, form: Form, order: list[Expr]) -> Expr | None:
     total, done = ex.ZERO, set[Expr]()
     for symbol in order:
-        rest = form[symbol] - ex.diff(total, symbol)
+        rest = form[symbol] - diff(total, symbol)
         if not done.isdisjoint(rest.symbols):
             rest = work.tidy(rest)
             if not done.isdisjoint(rest.symbols):

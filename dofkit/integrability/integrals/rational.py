@@ -5,8 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, Poly, Quotient, bounded, factored, solve, square_root
 
@@ -16,23 +18,23 @@ MAX_DEGREE = 10
 
 def linear(u: Expr, x: Expr) -> tuple[Expr, Expr] | None:
     """(a, b) where u = a x + b as written."""
-    a = ex.diff(u, x)
+    a = diff(u, x)
     if x in a.symbols or a.is_zero:
         return None
     try:
-        return a, ex.substitute(u, {x: ex.ZERO})
-    except ZeroDivisionError:
+        return a, substitute(u, {x: ex.ZERO})
+    except NoValueError:
         return None
 
 
 def quadratic(u: Expr, x: Expr) -> tuple[Expr, Expr, Expr] | None:
     """(a, b, c) where u = a x^2 + b x + c as written."""
-    found = linear(ex.diff(u, x), x)
+    found = linear(diff(u, x), x)
     if found is None:
         return None
     try:
-        return found[0] / 2, found[1], ex.substitute(u, {x: ex.ZERO})
-    except ZeroDivisionError:
+        return found[0] / 2, found[1], substitute(u, {x: ex.ZERO})
+    except NoValueError:
         return None
 
 

@@ -11,11 +11,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain, count
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import TooLargeError
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.zero.identity import certainly_nonzero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, GivenUpError, size
@@ -50,10 +49,11 @@ def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
     work = Algebra(positive)
     try:
         return _integrate(work, form)
-    except (GivenUpError, TooLargeError, DomainError, RecursionError, ArithmeticError):
+    except (GivenUpError, RecursionError, ArithmeticError):
         return None
 
 
+@raising_no_value
 def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
     items = {s: a for s, a in form.items() if not work.vanishes(a)}
     if not items or sum(size(a) for a in items.values()) > MAX_FORM:
@@ -116,5 +116,5 @@ def _integral(work: Algebra, form: Form, mu: Expr) -> Pair | None:
 def _proved(work: Algebra, form: Form, pair: Pair) -> bool:
     """df = mu omega identically, and mu is not zero."""
     integral, mu = pair
-    holds = all(work.vanishes(ex.diff(integral, s) - mu * a) for s, a in form.items())
+    holds = all(work.vanishes(diff(integral, s) - mu * a) for s, a in form.items())
     return holds and (mu.op == "num" or certainly_nonzero(mu, work.positive))

@@ -110,7 +110,7 @@ class WrittenAnswer:
 def posed(scene: Scene, answer: Mapping[str, str]) -> WrittenAnswer:
     """What is compared where an answer is; raises SceneError where it cannot be read."""
     texts = [part for part in answer["text"].replace("\n", ";").split(";") if part.strip()]
-    more = [Equation(type="equation", name=f"{ANSWER} {k}", text=text) for k, text in enumerate(texts)]
+    more = [Equation(name=f"{ANSWER} {k}", text=text) for k, text in enumerate(texts)]
     whole = as_written(scene.model_copy(update={"constraints": (*scene.constraints, *more), "expect": {}}))
     names = [c.name for c in whole.system.constraints]
     asked = [i for i, name in enumerate(names) if name == answer["constraint"]]

@@ -6,7 +6,8 @@ from typing import Any
 
 from dofkit.base.verdicts import Verdict
 from dofkit.methods.shared.pointwise import Decider, SampledPoints, freedom, regular
-from dofkit.methods.shared.reporting import MethodFindings, MethodLabel, many
+from dofkit.methods.shared.reply import MethodFindings, MethodLabel
+from dofkit.methods.shared.reporting import many
 
 FAILS = "At a regular point the form fails Frobenius' test (its differential does not vanish on what the others allow)."
 PASSES = "At the point that was looked at the form passes Frobenius' test; elsewhere it need not."
@@ -17,7 +18,7 @@ SINGULAR = (
 
 
 def at_points(looked: SampledPoints, numbers: Decider, sure: Verdict, trusted: bool) -> MethodFindings:
-    """Velocities at the drawing; freedom where all equations are independent there (implicit function theorem).
+    """Velocities at the drawing; freedom where all equations are independent there [ImplicitFunctions].
 
     ``trusted``: what is not 0 at the points is not 0, as surely as ``sure`` says.
     """

@@ -1,7 +1,7 @@
 """Ranks and Frobenius' test at single points, over numbers of any kind: what `exact` and `numeric` have in common.
 
 The rows are dg of the finite equations and the forms omega, over (q, t). With N a basis of what they allow, a form is
-taken for holonomic where N^T (d omega) N = 0 at every point that is looked at (Frobenius' theorem, one step of the
+taken for holonomic where N^T (d omega) N = 0 at every point that is looked at ([Frobenius1877], one step of the
 derived flag): right for a system in involution at a regular point, and for no other.
 """
 
@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from dofkit.exact.ring.instructions import Point, Scalar
 from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.ring.ring import Point, Ring, Scalar
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.methods.shared.as_written import Written, WrittenAnswer, labelled

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
+
+from dofkit.base.verdicts import Verdict
 
 
 @dataclass(frozen=True)
@@ -35,3 +38,28 @@ class MethodReply:
 def cannot(reason: str) -> MethodReply:
     """Nothing, and why."""
     return MethodReply(None, reason, cannot=True)
+
+
+@dataclass(frozen=True)
+class MethodLabel:
+    """What a method knows of one constraint's holonomy, and why; ``exact``: closed as written."""
+
+    holonomic: bool | None
+    reason: str
+    verdict: Verdict = "proved"
+    alone: bool | None = None
+    exact: bool | None = None
+
+
+@dataclass(frozen=True)
+class MethodFindings:
+    """What a method tells: fields of the report it is sound for, labels by constraint, and sentences.
+
+    ``independent``: all equations are independent, as surely as ``verdict`` says.
+    """
+
+    fields: Mapping[str, Any]
+    labels: Mapping[int, MethodLabel]
+    warnings: Sequence[str]
+    independent: bool = False
+    verdict: Verdict = "proved"

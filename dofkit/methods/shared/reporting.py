@@ -5,69 +5,45 @@ What a method would answer without being sound for it stands nowhere but in a wa
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
 
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.undecided import sketch
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.methods.dispatch import FAILURES, module_of
-from dofkit.methods.table import METHODS, MethodName
+from dofkit.methods.names import MethodName
+from dofkit.methods.shared.reply import MethodFindings, MethodLabel
+from dofkit.methods.shared.row import Method
 from dofkit.report import ConstraintEntry, Report
 from dofkit.system import Constraint, System
 
+#: What a method may end with where a scene is not what it is for.
+FAILURES = (ArithmeticError, OutOfTimeError, NotImplementedError, ValueError)
 OPEN = " Whether it follows from the others is not told."
 NONLINEAR = "It is nonlinear in the velocities as written; over the reals it may say something simpler."
 FINITE = "It is a relation between positions (and time): holonomic by definition."
 UNILATERAL = "It is an inequality: it allows both sides to move away from it, so it is not holonomic."
 
 
-@dataclass(frozen=True)
-class MethodLabel:
-    """What a method knows of one constraint's holonomy, and why; ``exact``: closed as written."""
-
-    holonomic: bool | None
-    reason: str
-    verdict: Verdict = "proved"
-    alone: bool | None = None
-    exact: bool | None = None
-
-
-@dataclass(frozen=True)
-class MethodFindings:
-    """What a method tells: fields of the report it is sound for, labels by constraint, and sentences.
-
-    ``independent``: all equations are independent, as surely as ``verdict`` says.
-    """
-
-    fields: Mapping[str, Any]
-    labels: Mapping[int, MethodLabel]
-    warnings: Sequence[str]
-    independent: bool = False
-    verdict: Verdict = "proved"
-
-
-def report_alone(system: System, method: MethodName) -> Report:
-    """The report of a method by itself."""
+def report_alone(system: System, method: MethodName, row: Method) -> Report:
+    """The report of a method by itself, which is a row of the table."""
     base = sketch(system, f"{method} alone does not tell")
     try:
-        found: MethodFindings = module_of(method).found(system)
+        found = row.findings(system)
     except OutOfTimeError:
         raise
     except FAILURES as error:
         found = MethodFindings({}, {}, [f"{method} alone came to nothing: {str(error) or type(error).__name__}."])
-    best = METHODS[method].best
     pairs = zip(system.constraints, base.constraints, strict=True)
-    entries = [_entry(c, e, found, found.labels.get(i), best) for i, (c, e) in enumerate(pairs)]
+    entries = [_entry(c, e, found, found.labels.get(i), row.best) for i, (c, e) in enumerate(pairs)]
     told = {
         "constraints": entries,
         "holonomic": _all([e.holonomic for e in entries]),
         "scleronomic": _all([e.scleronomic for e in entries]),
         "verdict": weakest(*(e.verdict for e in entries), found.verdict if "dof" in found.fields else "undecided"),
-        "method": f"{method} alone: {METHODS[method].cannot}",
+        "method": f"{method} alone: {row.cannot}",
         "modelled": "the equations as they are written",
         "warnings": [*system.warnings, *found.warnings],
     }
@@ -120,7 +96,7 @@ def _without_time(e: Expr) -> bool:
     moving = [s for s in e.symbols if s.args[0] in ("velocity", "differential")]
     if "acceleration" in kinds:
         return False
-    return not moving or ex.substitute(e, dict.fromkeys(moving, ex.ZERO)).is_zero
+    return not moving or substitute(e, dict.fromkeys(moving, ex.ZERO)).is_zero
 
 
 def many(number: int, what: str) -> str:

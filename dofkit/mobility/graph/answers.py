@@ -4,9 +4,9 @@ Plain graphs in, no scene needed. `linkage` answers everything about a graph, `r
 
 | dimension | what decides | how sure |
 |---|---|---|
-| 1 | spanning forest | proved |
-| 2 | the (2,3) pebble game (Pollaczek-Geiringer 1927, Laman 1970; Jacobs and Hendrickson 1997) | proved |
-| 3 | joints of three links taken off, rank at random positions modulo a prime | proved where counts agree |
+| 1 | spanning forest [Kirchhoff1847] | proved |
+| 2 | the (2,3) pebble game [PollaczekGeiringer1927] [Laman1970] [JacobsHendrickson1997] | proved |
+| 3 | joints of three links taken off, rank at random positions [SchwartzZippel] | proved where counts agree |
 """
 
 from __future__ import annotations

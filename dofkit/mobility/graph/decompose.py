@@ -1,7 +1,7 @@
 """What is left of a graph of links in space once joints of three links or fewer, and cut joints, are dealt with.
 
-A joint of at most three links adds them all to the rank (0-extension): they are independent of all others. Two parts
-that share one joint only turn freely about it: their ranks add up.
+A joint of at most three links adds them all to the rank (0-extension [Henneberg1911]): they are independent of all
+others. Two parts that share one joint only turn freely about it: their ranks add up.
 """
 
 from __future__ import annotations

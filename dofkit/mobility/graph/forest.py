@@ -16,7 +16,7 @@ def top(parent: Any, v: int) -> int:
 
 
 def span(parent: Any, ends: Any, dependent: Any) -> None:
-    """``dependent[i] = 1`` for every link i that closes a cycle of those before it."""
+    """``dependent[i] = 1`` for every link i that closes a cycle of those before it [Kirchhoff1847]."""
     for i in range(len(dependent)):
         a, b = top(parent, ends[2 * i]), top(parent, ends[2 * i + 1])
         if a == b:

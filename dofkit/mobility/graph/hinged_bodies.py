@@ -29,7 +29,7 @@ def hinged_bound(bodies: Sequence[Sequence[int]]) -> int:
     """A bound on the rank of links in general position, each of them in one of the bodies.
 
     r <= r(H) + sum of (3|X| - 6 - r(H in X)) over bodies X, for the pairs H of joints that two of them share: by
-    submodularity, once all pairs of every body are linked. The double banana: 1 + 8 + 8 = 17.
+    submodularity [Whitney1935], once all pairs of every body are linked. The double banana: 1 + 8 + 8 = 17.
     """
     hinges = {pair for x, y in combinations(map(frozenset, bodies), 2) if len(pair := x & y) == 2}
     bound = len(hinges)

@@ -13,11 +13,12 @@ from dofkit.mobility.graph.answer import Proof, Question
 from dofkit.mobility.graph.compiled import engine_for
 from dofkit.mobility.graph.grouping import gathered
 
+# [Kirchhoff1847]
 _PROOF = Proof("proved", "spanning forest: in one dimension a link is redundant if and only if it closes a cycle")
 
 
 class LineGraph:
-    """A graph of links in one dimension; see `dofkit.linkage.solved.Solved`."""
+    """A graph of links in one dimension; see `dofkit.mobility.graph.answer.GraphAnswer`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:
         links = len(ends) // 2

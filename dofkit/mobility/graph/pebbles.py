@@ -1,7 +1,7 @@
 """The (2,3) pebble game on integer arrays: which links of a plane framework are independent in general position.
 
 Every joint has two pebbles; a link is independent of those before it if and only if all four pebbles of its ends can
-be gathered there, and then one of them is spent on it (Jacobs and Hendrickson 1997, on Laman 1970). Where the fourth
+be gathered there, and then one of them is spent on it [JacobsHendrickson1997], on [Laman1970]. Where the fourth
 cannot be had, the joints that were reached form a rigid block. Its links are then replaced by another tree-like set
 that makes the same block rigid, every joint held by the two ends of the link, so that later searches there are short.
 
@@ -128,7 +128,7 @@ def condense(board: Board, a: int, b: int, reached: int, i: int) -> None:
 def play(board: Board, net: Net, outer: int, dependent: Any) -> None:
     """``dependent[i] = 1`` for every link i that those before it make superfluous.
 
-    Only among the links left behind ``order[:outer]``; the others are independent of all (0-extension, Henneberg 1911).
+    Only among the links left behind ``order[:outer]``; the others are independent of all (0-extension [Henneberg1911]).
     """
     for i in range(len(dependent)):
         if net.gone[i]:

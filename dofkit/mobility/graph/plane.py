@@ -16,6 +16,7 @@ from dofkit.mobility.graph.grouping import ascending, gathered
 from dofkit.mobility.graph.net import Net
 from dofkit.mobility.graph.pebbles import FREE, Board
 
+# [JacobsHendrickson1997] [PollaczekGeiringer1927] [Laman1970]
 _PROOF = Proof(
     "proved",
     "the (2,3) pebble game (Jacobs and Hendrickson 1997): links in the plane are independent in general position if "
@@ -62,7 +63,7 @@ def _leaders(engine: Engine, group: Any) -> list[int]:
 
 
 class PlaneGraph:
-    """A graph of links in two dimensions; see `dofkit.linkage.solved.Solved`."""
+    """A graph of links in two dimensions; see `dofkit.mobility.graph.answer.GraphAnswer`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:
         links = len(ends) // 2

@@ -79,7 +79,7 @@ class Linkage:
 
     @property
     def maxwell(self) -> int:
-        """Maxwell's count n d - links: the freedom if no link were redundant."""
+        """Maxwell's count n d - links: the freedom if no link were redundant [Maxwell1864]."""
         return len(self._graph.joints) * self.dimension - len(self._graph.links)
 
     @cached_property

@@ -46,7 +46,7 @@ class CorePart(Protocol):
 
 
 class SpaceGraph:
-    """A graph of links in three dimensions; see `dofkit.linkage.solved.Solved`."""
+    """A graph of links in three dimensions; see `dofkit.mobility.graph.answer.GraphAnswer`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:
         self._joints = joints
@@ -150,7 +150,7 @@ def _sure(links: Sequence[int], ends: Ends) -> tuple[Core, float]:
 def _doubt(circuit: Sequence[int], ends: Ends) -> float | None:
     """A bound on the chance that links that depended at one random point are independent; None where they are."""
     n = len({v for i in circuit for v in ends[i]})
-    if len(circuit) > 3 * n - 6:
+    if len(circuit) > 3 * n - 6:  # [Maxwell1864]
         return 0.0
     core = core_of(sorted(circuit), ends, "circuit 0")
     if not core.circuits:
@@ -165,7 +165,7 @@ def _doubt(circuit: Sequence[int], ends: Ends) -> float | None:
 def chance(rank: int) -> float:
     """Bound on the chance that independent links, ``rank`` of them, depend at random positions modulo a random prime.
 
-    A minor is a polynomial of that degree (Schwartz and Zippel), with coefficients below 12^rank, which few of the
+    A minor is a polynomial of that degree [SchwartzZippel], with coefficients below 12^rank, which few of the
     268 000 primes of 23 bits divide.
     """
     return rank / 2**22 + rank * 3.6 / 22 / 268_000

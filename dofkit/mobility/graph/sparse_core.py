@@ -24,7 +24,7 @@ def too_large(links: Sequence[int], ends: Ends) -> bool:
 
 
 class Large:
-    """See `dofkit.linkage.space.Part`."""
+    """See `dofkit.mobility.graph.space.CorePart`."""
 
     def __init__(self, links: Sequence[int], ends: Ends) -> None:
         self._links = links
@@ -53,7 +53,7 @@ class Large:
 
     @property
     def chance(self) -> float:
-        """A bound on the chance of an error (Schwartz and Zippel; each link depends by a minor's being 0)."""
+        """A bound on the chance of an error (each link depends by a minor's being 0 [SchwartzZippel])."""
         return len(self.dependent) * len(self._links) / 2**59
 
     def bodies(self) -> tuple[list[list[int]], bool]:

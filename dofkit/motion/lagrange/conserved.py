@@ -1,4 +1,4 @@
-"""Cyclic coordinates and first integrals that a Lagrangian shows at once (Noether: translations of q and of t)."""
+"""Cyclic coordinates and first integrals that a Lagrangian shows at once: translations of q and of t [Noether1918]."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.angles import compound
@@ -23,7 +24,7 @@ SECONDS = 2.0
 
 def cyclic(derived: Derived) -> list[str]:
     """The coordinates with dL/dq = 0 identically."""
-    return [n for n in derived.model.names if _zero(derived, ex.diff(derived.lagrangian, ex.coordinate(n)))]
+    return [n for n in derived.model.names if _zero(derived, diff(derived.lagrangian, ex.coordinate(n)))]
 
 
 def conserved(derived: Derived) -> Iterator[Conserved]:
@@ -39,7 +40,7 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
             yield Conserved(name=f"p_{name}", quantity=quantity, reason=f"no generalized force acts along {name}.")
     energy = model.energy
     idle = all(_zero(derived, e) for e in (energy.dissipation, *energy.forces.values()))
-    timeless = _zero(derived, ex.diff(derived.lagrangian, ex.TIME))
+    timeless = _zero(derived, diff(derived.lagrangian, ex.TIME))
     if model.names and idle and timeless and all(_workless(c, derived) for c in model.constraints):
         function, total = energy_function(derived)
         reason = "time does not enter the Lagrangian, and neither other forces nor constraints do work."
@@ -81,11 +82,11 @@ def _acts(piece: Remaining, name: str, derived: Derived) -> bool:
     if isinstance(piece, Pfaffian):
         return name in piece.coefficients and not _zero(derived, piece.coefficients[name])
     symbol = ex.coordinate(name) if isinstance(piece, Finite) else ex.velocity(name)
-    return not _zero(derived, ex.diff(piece.expr, symbol))
+    return not _zero(derived, diff(piece.expr, symbol))
 
 
 def _workless(piece: Remaining, derived: Derived) -> bool:
     """Does the constraint's force do no work in the motion itself?"""
     if isinstance(piece, Pfaffian):
         return _zero(derived, piece.dt)
-    return not isinstance(piece, Nonlinear) and _zero(derived, ex.diff(piece.expr, ex.TIME))
+    return not isinstance(piece, Nonlinear) and _zero(derived, diff(piece.expr, ex.TIME))

@@ -11,8 +11,10 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ONE, TWO, ZERO, Expr
@@ -80,6 +82,7 @@ class Eliminator:
     choose: Callable[[str, Expr, Expr, Mapping[str, Expr]], tuple[Expr, str]]
     care: Care = ELIMINATIONS[0]
 
+    @raising_no_value
     def eliminated(
         self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str]
     ) -> Elimination:
@@ -121,16 +124,16 @@ class Eliminator:
                 notes.append(f"{candidate.name} was solved for where {to_text(_unsigned(candidate.over))} is not 0.")
             mapping = {ex.coordinate(candidate.name): value}
             try:
-                solved = {n: ex.substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
+                solved = {n: substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
                 left = [relation_ for r in left for relation_ in self._rest(r, mapping)]
-            except ZeroDivisionError:
+            except NoValueError:
                 break
             constants |= relation.constants
         return Elimination(solved, frozenset(constants), tuple(notes))
 
     def _rest(self, relation: EliminatedRelation, mapping: Mapping[Expr, Expr]) -> list[EliminatedRelation]:
         """A relation after a substitution; nothing where it then holds identically."""
-        e = ex.substitute(relation.expr, mapping)
+        e = substitute(relation.expr, mapping)
         return [] if is_identically_zero(e, self.positive) else [relation._replace(expr=e)]
 
     def _best(
@@ -151,12 +154,12 @@ class Eliminator:
         q = ex.coordinate(name)
         if q not in g.symbols:
             return None
-        first = ex.diff(g, q)
-        second = ex.diff(first, q)
+        first = diff(g, q)
+        second = diff(first, q)
         at_zero = {q: ZERO}
         try:
-            start, slope = ex.substitute(g, at_zero), ex.substitute(first, at_zero)
-        except ZeroDivisionError:
+            start, slope = substitute(g, at_zero), substitute(first, at_zero)
+        except NoValueError:
             return None
         if second.is_zero or is_identically_zero(second, self.positive):
             if is_identically_zero(slope, self.positive) is not False:
@@ -181,8 +184,8 @@ class Eliminator:
             if sum(1 for _ in ex.nodes(value)) > self.care.nodes:
                 return False
             try:
-                inserted = ex.substitute(relation.expr, {q: value})
-            except ZeroDivisionError:
+                inserted = substitute(relation.expr, {q: value})
+            except NoValueError:
                 return False
             if is_identically_zero(inserted, self.positive) is not True:
                 return False
@@ -195,7 +198,7 @@ def _unsigned(e: Expr) -> Expr:
 
 
 def _free_of(e: Expr, q: Expr, positive: frozenset[Expr]) -> bool:
-    slope = ex.diff(e, q)
+    slope = diff(e, q)
     return slope.is_zero or is_identically_zero(slope, positive) is True
 
 
@@ -215,12 +218,12 @@ def by_potential(
         if reference is not None and ex.coordinate(name) in reference:
             here = reference[ex.coordinate(name)]
             start = {**reference, ex.TIME: ZERO}
-            gaps = [_figure(_sampled(ex.substitute(v, start) - here)) for v in (first, second)]
+            gaps = [_figure(_sampled(substitute(v, start) - here)) for v in (first, second)]
             if None not in gaps and abs(gaps[0] or 0) != abs(gaps[1] or 0):
                 taken = first if abs(gaps[0] or 0) < abs(gaps[1] or 0) else second
                 why = "the branch through the reference configuration"
                 return taken, _branch_note(name, taken, first if taken is second else second, why)
-        heights = [_figure(_sampled(ex.substitute(potential, _all(name, v, solved)))) for v in (first, second)]
+        heights = [_figure(_sampled(substitute(potential, _all(name, v, solved)))) for v in (first, second)]
         if heights[0] is not None and heights[1] is not None and heights[0] != heights[1]:
             taken = first if heights[0] < heights[1] else second
             why = "the branch of lower potential energy"
@@ -234,7 +237,7 @@ def _branch_note(name: str, taken: Expr, other: Expr, why: str) -> str:
 
 
 def _all(name: str, value: Expr, solved: Mapping[str, Expr]) -> dict[Expr, Expr]:
-    found = {ex.coordinate(n): ex.substitute(e, {ex.coordinate(name): value}) for n, e in solved.items()}
+    found = {ex.coordinate(n): substitute(e, {ex.coordinate(name): value}) for n, e in solved.items()}
     return {**found, ex.coordinate(name): value}
 
 
@@ -244,7 +247,7 @@ def _sampled(e: Expr) -> Expr:
     for k, symbol in enumerate(sorted(e.symbols, key=lambda s: s.args)):
         near = symbol.args[0] == "coordinate"
         values[symbol] = ex.num(1) / ex.num(17 + 3 * k) if near else ONE + ex.num(1) / ex.num(7 + k)
-    return ex.substitute(e, values)
+    return substitute(e, values)
 
 
 def _figure(e: Expr) -> float | None:
@@ -261,28 +264,28 @@ def inserted(piece: Remaining, elimination: Elimination) -> Remaining:
         return piece
     places = {ex.coordinate(n): e for n, e in solved.items()}
     if isinstance(piece, Finite):
-        return Finite(ex.substitute(piece.expr, places))
+        return Finite(substitute(piece.expr, places))
     if isinstance(piece, Nonlinear):
         rates = {ex.velocity(n): _rate(e) for n, e in solved.items()}
-        return Nonlinear(ex.substitute(piece.expr, {**places, **rates}))
+        return Nonlinear(substitute(piece.expr, {**places, **rates}))
     coefficients: dict[str, Expr] = {}
-    dt = ex.substitute(piece.dt, places)
+    dt = substitute(piece.dt, places)
     for name, coefficient in piece.coefficients.items():
-        factor = ex.substitute(coefficient, places)
+        factor = substitute(coefficient, places)
         if name not in solved:
             coefficients[name] = coefficients.get(name, ZERO) + factor
             continue
         for s in solved[name].symbols:
             if s.args[0] == "coordinate":
                 own = str(s.args[1])
-                coefficients[own] = coefficients.get(own, ZERO) + factor * ex.diff(solved[name], s)
-        dt = dt + factor * ex.diff(solved[name], ex.TIME)
+                coefficients[own] = coefficients.get(own, ZERO) + factor * diff(solved[name], s)
+        dt = dt + factor * diff(solved[name], ex.TIME)
     return replace(piece, coefficients={n: e for n, e in coefficients.items() if not e.is_zero}, dt=dt)
 
 
 def _rate(e: Expr) -> Expr:
     own = [s for s in e.symbols if s.args[0] == "coordinate"]
-    return ex.add(*(ex.diff(e, s) * ex.velocity(str(s.args[1])) for s in own), ex.diff(e, ex.TIME))
+    return ex.add(*(diff(e, s) * ex.velocity(str(s.args[1])) for s in own), diff(e, ex.TIME))
 
 
 def vanishes(piece: Remaining, positive: frozenset[Expr]) -> bool:

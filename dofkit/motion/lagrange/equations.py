@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from dofkit.base.arguments import seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
 from dofkit.base.errors import Fault, SceneError
-from dofkit.classification.passes import Study, studied
+from dofkit.classification.passes import Examined, studied
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, to_text
@@ -21,8 +21,9 @@ from dofkit.motion.lagrange.angles import compound
 from dofkit.motion.lagrange.conserved import conserved, cyclic
 from dofkit.motion.lagrange.derivation import Derived, derive
 from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
-from dofkit.motion.lagrange.energies import Energy, energy_of, missing
+from dofkit.motion.lagrange.energies import Energy, energy_of
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
+from dofkit.motion.lagrange.quantities import missing
 from dofkit.motion.lagrange.regularity import SINGULAR, degenerate
 from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.motion.lagrange.small_motions import linearized
@@ -63,7 +64,7 @@ def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = N
     try:
         with limited(seconds):
             derived = derived_of(given)
-            return _told(derived, *(_small(given, derived) if linearize else (None, ())))
+            return _report(derived, *(_small(given, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
 
@@ -143,7 +144,7 @@ class MotionSource:
     """What the equations of motion of a scene are derived from."""
 
     scene: Scene
-    study: Study
+    study: Examined
     energy: Energy
     names: Names
 
@@ -165,7 +166,7 @@ def read(scene: Scene) -> MotionSource:
     energy, faults = energy_of(scene, found.drawing)
     if faults:
         raise SceneError(faults, scene.name)
-    if not _given(scene):
+    if not _tells_of_motion(scene):
         message = (
             "the scene has neither a kinetic energy in `energies` nor masses: there is nothing to derive motion from"
         )
@@ -174,7 +175,7 @@ def read(scene: Scene) -> MotionSource:
     return MotionSource(scene, studied(system_of(scene, found)), energy, found.names)
 
 
-def _given(scene: Scene) -> bool:
+def _tells_of_motion(scene: Scene) -> bool:
     """Does anything of the scene tell of its motion?"""
     if scene.energies is not None and scene.energies.kinetic is not None:
         return True
@@ -200,7 +201,7 @@ def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str
         return None, (why,)
 
 
-def _told(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -> MotionReport:
+def _report(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -> MotionReport:
     model = derived.model
     more = (*((SINGULAR,) if degenerate(derived) else ()), *more)
     report = MotionReport(

@@ -6,8 +6,10 @@ from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import Any, NamedTuple
 
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import HALF, MINUS_ONE, PI, ZERO, Expr
 from dofkit.motion.lagrange.derivation import Derived
@@ -52,9 +54,10 @@ def equilibria(derived: Derived) -> Iterator[Equilibrium]:
 def still(e: Expr, place: Place) -> Expr:
     """An expression without velocities and accelerations, at a place."""
     rest = {s: ZERO for s in e.symbols if s.args[0] in ("velocity", "acceleration")}
-    return ex.substitute(e, {**rest, **place})
+    return substitute(e, {**rest, **place})
 
 
+@raising_no_value
 def vanishing(e: Expr, derived: Derived) -> bool:
     """Is an expression 0 identically, sines of known angles inserted? Proved."""
     bridge = Bridge(derived.model.names, derived.model.positive)
@@ -73,12 +76,13 @@ def _at_rest(derived: Derived, place: Place) -> Equilibrium | None:
         values = _multipliers(derived, forces)
         if values is None:
             return None
-        balanced = all(vanishing(ex.substitute(e, values), derived) for e in forces)
-    except ZeroDivisionError:
+        balanced = all(vanishing(substitute(e, values), derived) for e in forces)
+    except NoValueError:
         return None
     return Equilibrium(place, values) if balanced else None
 
 
+@raising_no_value
 def _multipliers(derived: Derived, forces: list[Expr]) -> Place | None:
     """The multipliers that balance the forces, if any do: least squares, which are checked afterwards."""
     own = [ex.parameter(n) for n in derived.multipliers]
@@ -87,8 +91,8 @@ def _multipliers(derived: Derived, forces: list[Expr]) -> Place | None:
     import sympy
 
     bridge = Bridge(derived.model.names, derived.model.positive)
-    matrix = sympy.Matrix([[bridge.sympy(ex.diff(e, s)) for s in own] for e in forces])
-    rest = sympy.Matrix([bridge.sympy(ex.substitute(e, dict.fromkeys(own, ZERO))) for e in forces])
+    matrix = sympy.Matrix([[bridge.sympy(diff(e, s)) for s in own] for e in forces])
+    rest = sympy.Matrix([bridge.sympy(substitute(e, dict.fromkeys(own, ZERO))) for e in forces])
     normal = matrix.T * matrix
     whole = normal.det(method="berkowitz")
     if is_identically_zero(bridge.expr(sympy.expand(whole)), derived.model.positive) is not False:
@@ -114,7 +118,7 @@ def _places(derived: Derived) -> Iterator[Place]:
     for solved in _branches(derived):
         free = [q for q in names if str(q.args[1]) not in solved.solved]
         for own in _grid(derived, free):
-            place = {**own, **{ex.coordinate(n): ex.substitute(e, own) for n, e in solved.solved.items()}}
+            place = {**own, **{ex.coordinate(n): substitute(e, own) for n, e in solved.solved.items()}}
             yield {q: place[q] for q in names}
     if len(names) == 1 and not derived.multipliers:
         yield from _single(derived, names[0])
@@ -131,7 +135,7 @@ def _branches(derived: Derived) -> Iterator[Elimination]:
         relations = [EliminatedRelation(g) for g in model.holonomic]
         try:
             found = Eliminator(model.positive, choose, ALL).eliminated(relations, names, ())
-        except ZeroDivisionError:
+        except NoValueError:
             continue
         if len(found.solved) == len(relations):
             yield found
@@ -157,14 +161,14 @@ def _balanced(derived: Derived) -> Place | None:
     """Where the forces balance, if they are linear in the coordinates and there is one such place."""
     names = [ex.coordinate(n) for n in derived.model.names]
     rest = [still(e, {}) for e in derived.equations.values()]
-    slopes = [[ex.diff(e, q) for q in names] for e in rest]
+    slopes = [[diff(e, q) for q in names] for e in rest]
     if any(s.args[0] in ("coordinate", "time") for row in slopes for e in row for s in e.symbols):
         return None
     import sympy
 
     bridge = Bridge(derived.model.names, derived.model.positive)
     matrix = sympy.Matrix([[bridge.sympy(e) for e in row] for row in slopes])
-    here = sympy.Matrix([bridge.sympy(ex.substitute(e, dict.fromkeys(names, ZERO))) for e in rest])
+    here = sympy.Matrix([bridge.sympy(substitute(e, dict.fromkeys(names, ZERO))) for e in rest])
     whole = matrix.det(method="berkowitz")
     if is_identically_zero(bridge.expr(whole.expand()), derived.model.positive) is not False:
         return None
@@ -181,14 +185,14 @@ def _single(derived: Derived, q: Expr) -> Iterator[Place]:
     for factor in force.args if force.op == "mul" else (force,):
         for inner, back in ((q, None), (ex.fn("cos", q), "acos"), (ex.fn("sin", q), "asin")):
             mark = ex.parameter("_inner ")
-            plain = ex.substitute(factor, {inner: mark}) if back is None else _replaced(factor, inner, mark)
-            slope = ex.diff(plain, mark)
+            plain = substitute(factor, {inner: mark}) if back is None else _replaced(factor, inner, mark)
+            slope = diff(plain, mark)
             if q in plain.symbols or slope.is_zero or mark in slope.symbols:
                 continue
             try:
-                value = -ex.substitute(plain, {mark: ZERO}) / slope
+                value = -substitute(plain, {mark: ZERO}) / slope
                 yield {q: value if back is None else ex.fn(back, value)}
-            except (ZeroDivisionError, ArithmeticError, ValueError):
+            except (ArithmeticError, ValueError):
                 continue
 
 

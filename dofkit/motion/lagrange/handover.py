@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import last_columns, sparse
-from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.model import LagrangeModel
@@ -107,7 +109,7 @@ def _tied(model: LagrangeModel, rows: Sequence[Sequence[Expr]]) -> tuple[int, ..
         point = field_point([ring], seed)
         try:
             found = values(ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         return last_columns(sparse([found[i] for i in row] for row in nodes), len(model.names), point.p)
     return tuple(range(len(model.names) - len(rows), len(model.names)))
@@ -120,11 +122,11 @@ def handover(model: LagrangeModel, bridge: Bridge) -> Handover:
     taken = {*bridge.positions, *model.study.system.parameters, *model.study.system.functions}
     stem = "u" if not any(f"u_{n}" in taken for n in model.names) else "speed"
     energy = model.energy
-    finite = [[ex.diff(g, ex.coordinate(n)) for n in model.names] for g in model.holonomic]
-    moving = [[ex.diff(r, ex.velocity(n)) for n in model.names] for r in model.nonholonomic]
+    finite = [[diff(g, ex.coordinate(n)) for n in model.names] for g in model.holonomic]
+    moving = [[diff(r, ex.velocity(n)) for n in model.names] for r in model.nonholonomic]
     forces = []
     for name in model.names:
-        friction = ex.diff(energy.dissipation, ex.velocity(name))
+        friction = diff(energy.dissipation, ex.velocity(name))
         forces.append(bridge.sympy(energy.forces.get(name, ex.ZERO) - friction))
     return Handover(
         tuple(bridge.positions[n] for n in model.names),

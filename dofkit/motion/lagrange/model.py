@@ -8,10 +8,12 @@ from functools import cached_property
 
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
 from dofkit.classification.freedom.branches import in_time
-from dofkit.classification.passes import Study
+from dofkit.classification.passes import Examined
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.text import Names, UnknownNameError, parse_relations
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.elimination import (
@@ -49,7 +51,7 @@ class LagrangeModel:
     a multiplier; ``left_out``: the constraints that are redundant.
     """
 
-    study: Study
+    study: Examined
     names: tuple[str, ...]
     energy: Energy
     whole: Energy
@@ -86,11 +88,11 @@ def in_velocities(piece: Remaining) -> Expr:
     return piece.expr
 
 
-def modelled(study: Study, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
+def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
     """The system with as much eliminated as is possible in closed form, and as ``care`` allows.
 
-    Integrals of differential constraints are used where their constants do not enter the motion. Raises MotionError
-    where the system is inconsistent or was not decided.
+    Integrals of differential constraints are used where their constants do not enter the motion. Raises
+    NoEquationsError where the system is inconsistent or was not decided.
     """
     _possible(study)
     outcome = study.outcome
@@ -123,7 +125,7 @@ def _agreeing(
     return found
 
 
-def _possible(study: Study) -> None:
+def _possible(study: Examined) -> None:
     report = study.report
     own = {c.name for c in study.system.coordinates}
     if any(coordinates_of(r.piece) - own for r in study.outcome.rows):
@@ -144,16 +146,16 @@ def _possible(study: Study) -> None:
 
 
 def _built_somehow(
-    study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
+    study: Examined, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
 ) -> LagrangeModel | None:
     """The model after an elimination; None where it cannot be built, also because something has no value there."""
     try:
         return _built(study, energy, elimination, coordinates)
-    except ZeroDivisionError:
+    except NoValueError:
         return None
 
 
-def _integrals(study: Study, names: Names) -> Iterator[EliminatedRelation]:
+def _integrals(study: Examined, names: Names) -> Iterator[EliminatedRelation]:
     """The finite relations that holonomic differential constraints integrate to."""
     owners = {r.constraint for r in study.outcome.rows if isinstance(r.piece, Pfaffian)}
     for i in sorted(owners):
@@ -179,7 +181,10 @@ def _read_integral(text: str, names: Names) -> EliminatedRelation | None:
     return None
 
 
-def _built(study: Study, energy: Energy, elimination: Elimination, coordinates: Sequence[str]) -> LagrangeModel | None:
+@raising_no_value
+def _built(
+    study: Examined, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
+) -> LagrangeModel | None:
     """The model after an elimination; None where constants enter it, or the count of constraints does not come out."""
     kept = elimination.kept(coordinates)
     reduced = _reduced(energy, elimination, kept, study.setting)
@@ -229,17 +234,17 @@ def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], sett
     mapping = motions(solved)
 
     def insert(e: Expr) -> Expr:
-        return ex.substitute(e, mapping)
+        return substitute(e, mapping)
 
     potential, kinetic = insert(energy.potential), insert(energy.kinetic)
     for constant in elimination.constants:
-        if not any(s.args[0] in ("coordinate", "velocity") for s in ex.diff(potential, constant).symbols):
-            potential = ex.substitute(potential, {constant: ZERO})
+        if not any(s.args[0] in ("coordinate", "velocity") for s in diff(potential, constant).symbols):
+            potential = substitute(potential, {constant: ZERO})
     forces: dict[str, Expr] = {n: insert(f) for n, f in energy.forces.items() if n not in solved}
     for name, force in energy.forces.items():
         if name in solved:
             for j in kept:
-                slope = ex.diff(solved[name], ex.coordinate(j))
+                slope = diff(solved[name], ex.coordinate(j))
                 if not slope.is_zero:
                     forces[j] = forces.get(j, ZERO) + insert(force) * slope
     potential, notes = without_roots(potential, setting.positive, setting.reference)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 
 _NEXT: dict[str, ex.Kind] = {"coordinate": "velocity", "velocity": "acceleration"}
@@ -16,9 +17,9 @@ def by_time(e: Expr) -> Expr:
     for symbol in sorted(e.symbols, key=lambda s: s.args):
         kind, name = symbol.args
         if kind in _NEXT:
-            terms.append(ex.diff(e, symbol) * ex.sym(_NEXT[kind], name))
+            terms.append(diff(e, symbol) * ex.sym(_NEXT[kind], name))
         elif kind == "time":
-            terms.append(ex.diff(e, symbol))
+            terms.append(diff(e, symbol))
         elif kind != "parameter":
             raise ValueError(f"the derivative of {symbol} by time has no meaning here")
     return ex.add(*terms)

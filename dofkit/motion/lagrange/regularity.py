@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows, sparse
-from dofkit.exact.points.field import NoPointError, field_point
+from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.derivation import Derived
@@ -20,7 +22,7 @@ SINGULAR = "The kinetic energy is degenerate: these equations do not determine a
 def degenerate(derived: Derived) -> bool:
     """Is the matrix [[M, A^T], [A, 0]] singular, as far as points show it?
 
-    Raises MotionError where an equation says that a number is 0, or nothing in the energies moves.
+    Raises NoEquationsError where an equation says that a number is 0, or nothing in the energies moves.
     """
     model = derived.model
     for name, e in derived.equations.items():
@@ -42,7 +44,7 @@ def degenerate(derived: Derived) -> bool:
         point = field_point([ring], 300 + seed)
         try:
             found = values(ring, point)
-        except (ZeroDivisionError, NoPointError):
+        except NoValueError:
             continue
         if rank_of_rows(list(sparse([found[i] for i in row] for row in nodes)), point.p) == len(rows):
             return False
@@ -57,8 +59,8 @@ def _rows(derived: Derived) -> list[list[Expr]]:
     model = derived.model
     moving = [ex.sym("acceleration", n) for n in model.names]
     own = [ex.parameter(n) for n in derived.multipliers]
-    rows = [[ex.diff(e, s) for s in (*moving, *own)] for e in derived.equations.values()]
+    rows = [[diff(e, s) for s in (*moving, *own)] for e in derived.equations.values()]
     nothing = [ZERO for _ in own]
-    rows += [[*(ex.diff(g, ex.coordinate(n)) for n in model.names), *nothing] for g in model.holonomic]
-    rows += [[*(ex.diff(r, ex.velocity(n)) for n in model.names), *nothing] for r in model.nonholonomic]
+    rows += [[*(diff(g, ex.coordinate(n)) for n in model.names), *nothing] for g in model.holonomic]
+    rows += [[*(diff(r, ex.velocity(n)) for n in model.names), *nothing] for r in model.nonholonomic]
     return rows

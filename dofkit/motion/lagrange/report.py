@@ -82,8 +82,4 @@ class MotionReport(ToldModel):
 
     def _repr_latex_(self) -> str:
         """The equations of motion for a notebook."""
-        if self._derived is None:
-            return ""
-        from dofkit.motion.lagrange.latex import latex_of
-
-        return latex_of(self._derived)
+        return "" if self._derived is None else self._derived.latex()

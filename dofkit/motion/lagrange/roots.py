@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import HALF, Expr
@@ -31,7 +31,7 @@ def without_roots(
         new = ex.rebuild(node, tuple(memo[child] for child in ex.children(node)))
         if new.op == "pow" and new.args[1] == HALF and any(s.args[0] == "coordinate" for s in new.symbols):
             root = _root(new.args[0], positive)
-            here = None if root is None else _figure(ex.substitute(root, {**reference, ex.TIME: ex.ZERO}))
+            here = None if root is None else _figure(substitute(root, {**reference, ex.TIME: ex.ZERO}))
             if root is not None and here:
                 new = ordered(root if here > 0 else -root)
                 notes.append(f"The equations hold while {to_text(new)} > 0, as it is in the drawing.")
@@ -49,8 +49,8 @@ def _root(e: Expr, positive: frozenset[Expr]) -> Expr | None:
         if top == 0 or not bottom.is_constant():
             return None
         factors = canon.factors(top)
-        content = top.factor()[0] / bottom.leading_coefficient()
-    except (TooLargeError, DomainError, ZeroDivisionError):
+        content = divided(top.factor()[0], bottom.leading_coefficient())
+    except NoValueError:
         return None
     number = ex.sqrt(ex.num(Fraction(int(content.p), int(content.q)))) if content > 0 else ex.ZERO
     if number.op != "num" or number.is_zero or any(k % 2 for _, k in factors):

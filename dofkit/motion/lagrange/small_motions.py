@@ -6,8 +6,10 @@ from collections.abc import Iterable
 from itertools import combinations, islice
 from typing import Any, NamedTuple
 
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
@@ -36,8 +38,8 @@ def linearized(derived: Derived) -> Linearized:
     """M, C and K at the reference configuration if that is an equilibrium, else at 0, else at another that is found.
 
     With E(q, qdot, qddot, lam) = 0 the equations: M = dE/dqddot, C = dE/dqdot, K = dE/dq there, all of them restricted
-    to the deviations that the constraints which kept a multiplier allow. Raises MotionError where time enters or no
-    equilibrium is known.
+    to the deviations that the constraints which kept a multiplier allow. Raises NoEquationsError where time enters or
+    no equilibrium is known.
     """
     if any(ex.TIME in e.symbols for e in (*derived.model.holonomic, *derived.model.nonholonomic)):
         raise NoEquationsError("time enters the constraints, so that the system does not rest")
@@ -52,7 +54,7 @@ def linearized(derived: Derived) -> Linearized:
         told = _matrices(derived, equilibrium, bridge)
         if told is not None:
             others = [_texts(derived, bridge, e) for e in found if e is not equilibrium]
-            return _told(derived, bridge, equilibrium, told, others)
+            return _linearized(derived, bridge, equilibrium, told, others)
     raise NoEquationsError("the constraints are singular at the equilibrium")
 
 
@@ -62,7 +64,7 @@ def _matrices(derived: Derived, at: Equilibrium, bridge: Bridge) -> Matrices | N
     kinds: tuple[ex.Kind, ...] = ("acceleration", "velocity", "coordinate")
     whole = []
     for kind in kinds:
-        rows = [[still(ex.diff(e, ex.sym(kind, n)), known) for n in names] for e in derived.equations.values()]
+        rows = [[still(diff(e, ex.sym(kind, n)), known) for n in names] for e in derived.equations.values()]
         if any(ex.TIME in e.symbols for row in rows for e in row):
             raise NoEquationsError("time enters the equations at the equilibrium, so that they are not linearized")
         whole.append(_matrix(bridge, rows))
@@ -87,11 +89,11 @@ def _allowed(derived: Derived, at: Equilibrium, bridge: Bridge) -> tuple[list[in
 
     model = derived.model
     names = model.names
-    rows = [[still(ex.diff(g, ex.coordinate(n)), at.place) for n in names] for g in model.holonomic]
+    rows = [[still(diff(g, ex.coordinate(n)), at.place) for n in names] for g in model.holonomic]
     for r in model.nonholonomic:
-        if any(not still(ex.diff(r, ex.coordinate(n)), at.place).is_zero for n in names):
+        if any(not still(diff(r, ex.coordinate(n)), at.place).is_zero for n in names):
             raise NoEquationsError("a constraint between velocities changes with the place where nothing moves")
-        rows.append([still(ex.diff(r, ex.velocity(n)), at.place) for n in names])
+        rows.append([still(diff(r, ex.velocity(n)), at.place) for n in names])
     whole = _matrix(bridge, rows)
     for tied in islice(combinations(range(len(names) - 1, -1, -1), len(rows)), CHOICES):
         part = whole.extract(list(range(len(rows))), list(tied))
@@ -114,14 +116,14 @@ def _texts(derived: Derived, bridge: Bridge, at: Equilibrium) -> dict[str, str]:
     found = {str(q.args[1]): to_text(v) for q, v in at.place.items()}
     for name, value in derived.model.elimination.solved.items():
         try:
-            here = ex.substitute(value, at.place)
-        except ZeroDivisionError:
+            here = substitute(value, at.place)
+        except NoValueError:
             continue
         found[name] = to_text(bridge.expr(bridge.sympy(here)))
     return found
 
 
-def _told(
+def _linearized(
     derived: Derived, bridge: Bridge, at: Equilibrium, found: Matrices, others: list[dict[str, str]]
 ) -> Linearized:
     import sympy

@@ -9,10 +9,9 @@ from fractions import Fraction
 from math import comb, prod
 from typing import Any
 
-from flint.utils.flint_exceptions import DomainError
-
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
-from dofkit.exact.ring.canonical import Canon, Poly, TooLargeError, is_identically_zero
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon, Poly, is_identically_zero, lowest_terms
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
@@ -71,7 +70,7 @@ class Tidier:
         for form in (expanded, sympy.collect(expanded, rates)):
             try:
                 yield self.bridge.expr(form)
-            except (UntranslatableError, ZeroDivisionError):
+            except (UntranslatableError, NoValueError):
                 continue
 
 
@@ -103,7 +102,7 @@ def by_rates(e: Expr, positive: frozenset[Expr]) -> Expr | None:
         if any(_is_rate(canon, i) for i in canon.generators_in(bottom)):
             return None
         terms = [ex.mul(_factored(canon, part, bottom), rates) for rates, part in _grouped(canon, top)]
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return None
     return ex.add(*terms) if terms else ex.ZERO
 
@@ -129,8 +128,8 @@ def _grouped(canon: Canon, top: Poly) -> list[tuple[Expr, Poly]]:
 
 
 def _factored(canon: Canon, top: Poly, bottom: Poly) -> Expr:
-    common = top.gcd(bottom)
-    return _product(canon, top / common) / _product(canon, bottom / common)
+    top, bottom = lowest_terms(top, bottom)
+    return _product(canon, top) / _product(canon, bottom)
 
 
 def _product(canon: Canon, poly: Poly) -> Expr:

@@ -13,7 +13,8 @@ from dofkit.base.errors import DofkitError
 from dofkit.base.spelling import guess, no_such
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.exact.points.balls import PRECISION, RealSearch
+from dofkit.exact.points.balls import PRECISION
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.motion.sampled.continuation import STRAIGHT, Follower, Reached
@@ -93,7 +94,7 @@ class _Sampled:
         if along is not None and along not in names:
             raise NoMotionError(no_such(along, names, "coordinate"))
         self.system, self.setting, self.along, self.names = system, setting, along, list(names)
-        self.given = _given(system, given)
+        self.given = _known_symbols(system, given)
         self.relations = _relations(system, outcome, setting, coordinates, _limits(reduced, outcome))
         self.relations.constants |= {s: v for s, v in self.given.items() if s.args[0] == "parameter"}
         self.follower = Follower(self.relations, _freedom(outcome, self.relations.timed))
@@ -139,8 +140,8 @@ class _Sampled:
         backward = self._way(back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:
             raise NoMotionError("no motion was followed that leaves the first configuration")
-        middle = self._told(self.start, {})
-        return [*reversed(self._all_told(backward, middle)), middle, *self._all_told(forward, middle)]
+        middle = self._values(self.start, {})
+        return [*reversed(self._values_along(backward, middle)), middle, *self._values_along(forward, middle)]
 
     def _way(self, start: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
         """The poses of one way, and whether it closes up."""
@@ -163,21 +164,21 @@ class _Sampled:
         pairs = zip(self.relations.margins(self.start), self.relations.margins(pose), strict=False)
         return any(now < -STILL <= before for before, now in pairs)
 
-    def _all_told(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
+    def _values_along(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
         found = []
         for pose in poses:
-            last = self._told(pose, last)
+            last = self._values(pose, last)
             found.append(last)
         return found
 
-    def _told(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
-        told = self.relations.told(pose, last)
+    def _values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+        told = self.relations.coordinate_values(pose, last)
         chosen = {str(s.args[1]): v for s, v in self.relations.constants.items() if not str(s.args[1]).startswith("_")}
         timed = {"t": told["t"]} if self.relations.timed else {}
         return {**{n: told[n] for n in self.names}, **timed, **chosen}
 
 
-def _given(system: System, given: Mapping[str, float]) -> dict[Expr, float]:
+def _known_symbols(system: System, given: Mapping[str, float]) -> dict[Expr, float]:
     """Numbers for parameters and coordinates, by their symbols."""
     places = {c.name for c in system.coordinates}
     known = places | set(system.parameters)
@@ -212,7 +213,7 @@ def _relations(
         raise NoMotionError("motions under relations that are nonlinear in the velocities are not followed")
     finite = [*(p.expr for p in pieces if isinstance(p, Finite)), *(g for a in outcome.answers for g in a.hidden)]
     forms = [p for p in pieces if isinstance(p, Pfaffian)]
-    return PoseRelations(coordinates, system.rotations, finite, forms, setting.positive, system.size, limits)
+    return PoseRelations(system, coordinates, finite, forms, setting.positive, limits)
 
 
 def _freedom(outcome: Outcome, timed: bool) -> int:

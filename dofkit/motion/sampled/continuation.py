@@ -47,7 +47,7 @@ class Follower:
         self.relations, self.freedom = relations, freedom
         self.clock = relations.time if relations.timed else None
 
-    def held(self, pose: Pose) -> bool:
+    def holds(self, pose: Pose) -> bool:
         """Do the finite relations hold?"""
         f, _ = self.relations.at(pose)
         reach = 1 + float(np.max(np.abs(pose.plain / self.relations.scales), initial=0.0))
@@ -66,7 +66,7 @@ class Follower:
                 pose = self.relations.moved(pose, damped(j, f, 1 + (k > EASY)))
         except FAULTS:
             return None
-        return pose if np.all(np.isfinite(self.relations.between(start, pose))) and self.held(pose) else None
+        return pose if np.all(np.isfinite(self.relations.between(start, pose))) and self.holds(pose) else None
 
     def null_space(self, pose: Pose) -> Array:
         """An orthonormal basis of the admissible directions to first order, as rows."""
@@ -148,7 +148,7 @@ class Follower:
                 break
         forms = relations.forms_at(relations.moved(start, relations.between(start, pose) / 2))
         slip = float(np.max(np.abs(forms @ relations.between(start, pose)), initial=0.0))
-        return pose if self.held(pose) and slip < HELD else None
+        return pose if self.holds(pose) and slip < HELD else None
 
     def begin(self, pose: Pose, target: Array | None, step: float) -> Ways:
         """Where and in which direction motions begin, forward and backward."""
@@ -156,14 +156,14 @@ class Follower:
         stopped = self.clock is not None and float(np.sum(basis[:, self.clock] ** 2)) < SMALL
         if stopped or len(basis) != self.freedom:
             return self._leave(pose, target, step, basis)
-        goal = self._chosen(basis) if target is None else target
+        goal = self._first_direction(basis) if target is None else target
         direction = basis.T @ (basis @ goal)
         if self.clock is not None:
             direction[self.clock] = 1.0
         ahead, back = self.ahead(pose, direction), self.ahead(pose, -direction)
         return None if ahead is None else Reached(pose, ahead), None if back is None else Reached(pose, back)
 
-    def _chosen(self, basis: Array) -> Array:
+    def _first_direction(self, basis: Array) -> Array:
         """The first column that moves (with one freedom: forward), or time."""
         found = np.zeros(basis.shape[1])
         sizes = np.linalg.norm(basis, axis=0)
@@ -179,7 +179,7 @@ class Follower:
             found: list[Reached] = []
             for _ in range(TRIES):
                 v = basis.T @ rng.standard_normal(len(basis))
-                reached = self._beside(pose, part * step * v / np.linalg.norm(v))
+                reached = self._reached(pose, part * step * v / np.linalg.norm(v))
                 if reached is None:
                     continue
                 (found if len(self.null_space(reached.pose)) == self.freedom else singular).append(reached)
@@ -187,7 +187,7 @@ class Follower:
                 return self._both_ways(pose, found, target)
         return self._both_ways(pose, singular, target)
 
-    def _beside(self, pose: Pose, step: Array) -> Reached | None:
+    def _reached(self, pose: Pose, step: Array) -> Reached | None:
         length = float(np.linalg.norm(step))
         moved = self.onto(self.relations.moved(pose, step), any_time=True)
         if moved is None:
@@ -209,6 +209,6 @@ class Follower:
             target = np.eye(self.relations.columns)[self.clock]
         goal = found[0].direction if target is None else target
         first = max(found, key=lambda r: float(r.direction @ goal))
-        opposite = self._beside(pose, -self.relations.between(pose, first.pose))
+        opposite = self._reached(pose, -self.relations.between(pose, first.pose))
         last = min([*found, *([opposite] if opposite else [])], key=lambda r: float(r.direction @ goal))
         return first if first.direction @ goal >= 0 else None, last if last.direction @ goal < 0 else None

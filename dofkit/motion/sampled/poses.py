@@ -16,13 +16,13 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from dofkit.exact.points.balls import BallPoint, FloatPoint, OutsideDomainError, jacobian
+from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.normal_form import Pfaffian
-from dofkit.system import Coordinate, Rotation
+from dofkit.system import Coordinate, System
 
 Array = np.ndarray[Any, Any]
 #: Below this w the relations are evaluated as balls, and this is the least that is told from 0.
@@ -31,7 +31,7 @@ HALF_TURN, NO_LESS = 1e-3, 1e-14
 FLAT, USUAL = 1e-9, 5
 #: The roles of coordinates that come back after a full turn.
 ANGLES = ("angle", "phi", "theta", "psi")
-FAULTS = (ValueError, ZeroDivisionError, OverflowError, OutsideDomainError, np.linalg.LinAlgError)
+FAULTS = (ArithmeticError, ValueError)
 
 
 @dataclass(frozen=True)
@@ -47,15 +47,14 @@ class PoseRelations:
 
     def __init__(
         self,
+        system: System,
         coordinates: Sequence[Coordinate],
-        rotations: Sequence[Rotation],
         finite: Sequence[Expr],
         forms: Sequence[Pfaffian],
         positive: frozenset[Expr],
-        size: float,
         limits: Sequence[Expr] = (),
     ) -> None:
-        """``limits``: expressions that are to stay at 0 or above."""
+        """``coordinates``: those that are followed; ``limits``: expressions that are to stay at 0 or above."""
         told = [e for f in forms for _, e in f.items()]
         self.ring = Ring([*finite, *told], positive)
         self.limiting = Ring(limits, positive)
@@ -63,11 +62,11 @@ class PoseRelations:
         self.finite = [self.ring.node(g) for g in finite]
         self.forms = [{s: self.ring.node(e) for s, e in f.items()} for f in forms]
         self.timed = any(ex.TIME in e.symbols for e in [*finite, *told]) or any(ex.TIME in f for f in self.forms)
-        self.rotations = [r for r in rotations if r.chart == "gibbs"]
+        self.rotations = [r for r in system.rotations if r.chart == "gibbs"]
         turning = {name for r in self.rotations for name in r.names}
         self.names = [c.name for c in coordinates if c.name not in turning]
         self.scales = np.array(
-            [size if c.role in ("x", "y", "z") else 1.0 for c in coordinates if c.name in self.names]
+            [system.size if c.role in ("x", "y", "z") else 1.0 for c in coordinates if c.name in self.names]
         )
         self.angles = np.array([c.role in ANGLES for c in coordinates if c.name in self.names], dtype=bool)
         self.plain = [ex.coordinate(n) for n in self.names]
@@ -205,7 +204,7 @@ class PoseRelations:
             found += [_middle(v) for v in _by_turn(line[n + 3 * k : n + 3 * k + 3], g)]
         return np.array(found)
 
-    def told(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+    def coordinate_values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
         """The values of all coordinates (Euler angles near those told ``last``), and of time where it occurs."""
         found = {str(s.args[1]): float(v) for s, v in zip(self.plain, pose.plain, strict=True) if s != ex.TIME}
         for r, q in zip(self.rotations, pose.turns, strict=True):

@@ -9,16 +9,18 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.points.balls import BallPoint, OutsideDomainError, RealSearch
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.canonical import Canon, lowest_terms
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import told_zero
+from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.zero_set import never_holds, never_vanishes
+from dofkit.relations.normal.semidefinite import never_holds
+from dofkit.relations.normal.zero_set import never_vanishes
 
 Sense = Literal[">=", ">", "!="]
 
@@ -90,9 +92,9 @@ def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
         node = ring.node(e)
         canon = Canon(ring)
         top, bottom = canon.quotient(node)
-        bottom = bottom / bottom.gcd(top)
+        _, bottom = lowest_terms(top, bottom)
         return None if bottom.is_constant() else canon.to_expr(bottom)
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return None
 
 
@@ -106,8 +108,8 @@ def _always(c: DomainCondition, positive: frozenset[Expr]) -> bool:
 def holds_at(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool | None:
     """Does a condition hold at a configuration? None where its sign there is not known."""
     try:
-        sign = _sign(ex.substitute(c.expr, known), positive)
-    except (ZeroDivisionError, OutsideDomainError):
+        sign = _sign(substitute(c.expr, known), positive)
+    except NoValueError:
         return False
     if sign is None:
         return None
@@ -129,4 +131,4 @@ def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
     value = values(ring, point)[node]
     if not value.contains(0):
         return 1 if value > 0 else -1
-    return 0 if told_zero(e, positive)[0] else None
+    return 0 if zero_and_verdict(e, positive)[0] else None

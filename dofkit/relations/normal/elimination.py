@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 
@@ -26,7 +25,7 @@ def combinations_of(relations: Sequence[Expr], positive: frozenset[Expr]) -> dic
         nodes = [ring.node(e) for e in relations]
         canon = Canon(ring)
         return {i: canon.to_expr(p) for i, p in _eliminated(canon, [canon.quotient(n)[0] for n in nodes]).items()}
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return {}
 
 

@@ -1,9 +1,10 @@
 """Relations without a real solution: a proof by exclusion.
 
-All of space is cut into boxes; a box goes where the relations, run over it in intervals, leave nothing. Where every box
-goes there is no solution. Three descriptions of the same set are tried, all of which only forget: the relations as
-written; polynomials in their generators, with their linear combinations and resultants; and those in projective
-charts, x = 1/w and x_j = u_j/w, which are compact, so that a form that is definite at infinity is seen to be so.
+All of space is cut into boxes; a box goes where the relations, run over it in intervals, leave nothing [Moore1966].
+Where every box goes there is no solution. Three descriptions of the same set are tried, all of which only forget: the
+relations as written; polynomials in their generators, with their linear combinations and resultants; and those in
+projective charts, x = 1/w and x_j = u_j/w, which are compact, so that a form that is definite at infinity is seen to be
+so.
 """
 
 from __future__ import annotations
@@ -16,14 +17,17 @@ from itertools import combinations, islice
 from typing import Any
 
 from flint import ctx, fmpq_mat, fmpz_poly
-from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
-from dofkit.exact.boxes.contraction import Box, BoxProgram, contract
-from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, constant, middle
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.boxes.box_program import Box, BoxProgram
+from dofkit.exact.boxes.contraction import contract
+from dofkit.exact.boxes.functions import constant
+from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, middle
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.instructions import Var
 from dofkit.exact.ring.radicals import known_signs
-from dofkit.exact.ring.ring import Ring, Var
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.zero_set import never_vanishes
@@ -64,7 +68,7 @@ def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions
             return bool(excluded or (system is not None and _algebraically(system, excluded is None)))
         except EmptyError:
             return True
-        except (TooLargeError, ZeroDivisionError, DomainError):
+        except NoValueError:
             return False
 
 
@@ -149,7 +153,7 @@ def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialS
     """
     try:
         return _polynomials(relations, positive) if _faithful(relations, positive) else None
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return None
 
 

@@ -16,15 +16,17 @@ from itertools import product as cartesian
 from dofkit.base.errors import TextError
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
+from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
 from dofkit.relations.normal.quadratics import split_power, split_quadratic
 from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs, holds_on_a_region, squared
-from dofkit.relations.normal.velocity_roots import in_one_rate, solved
-from dofkit.relations.normal.zero_set import PRODUCT_NOTE, Conjunction, zero_set
+from dofkit.relations.normal.velocity_roots import in_one_rate, velocity_branches
+from dofkit.relations.normal.zero_set import zero_set
 
 
 @dataclass(frozen=True)
@@ -116,9 +118,9 @@ def with_constants(piece: Piece, values: Mapping[str, Expr]) -> Piece:
         return piece
     mapping = {ex.coordinate(c): value for c, value in values.items()}
     if isinstance(piece, Pfaffian):
-        named = {name: ex.substitute(e, mapping) for name, e in piece.coefficients.items()}
-        return Pfaffian(named, ex.substitute(piece.dt, mapping))
-    return replace(piece, expr=ex.substitute(piece.expr, mapping))
+        named = {name: substitute(e, mapping) for name, e in piece.coefficients.items()}
+        return Pfaffian(named, substitute(piece.dt, mapping))
+    return replace(piece, expr=substitute(piece.expr, mapping))
 
 
 def velocities_of(e: Expr) -> list[Expr]:
@@ -131,12 +133,12 @@ def linear_form(e: Expr) -> Pfaffian | None:
     coefficients = {}
     velocities = velocities_of(e)
     for v in velocities:
-        coefficient = ex.diff(e, v)
+        coefficient = diff(e, v)
         if any(s.args[0] == "velocity" for s in coefficient.symbols):
             return None
         if not coefficient.is_zero:
             coefficients[str(v.args[1])] = coefficient
-    return Pfaffian(coefficients, ex.substitute(e, dict.fromkeys(velocities, ex.ZERO)))
+    return Pfaffian(coefficients, substitute(e, dict.fromkeys(velocities, ex.ZERO)))
 
 
 def cleared(e: Expr) -> Expr:
@@ -237,7 +239,7 @@ def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
     folds = [u for u in arguments_of(e) if velocities_of(u)]
-    if 0 < len(folds) <= MAX_ARGUMENTS and solved(e, positive) is None:
+    if 0 < len(folds) <= MAX_ARGUMENTS and velocity_branches(e, positive) is None:
         return _by_signs_of_rates(e, folds, positive)
     moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
     branches, notes = zero_set(e, positive, moving)
@@ -275,7 +277,7 @@ def _still(conditions: Sequence[DomainCondition], branch: Sequence[Piece]) -> li
         name = next((n for n, a in form.coefficients.items() if a.op == "num"), next(iter(form.coefficients), None))
         if name is not None:
             others = ex.add(*(a * ex.velocity(n) for n, a in form.coefficients.items() if n != name), form.dt)
-            found = [ex.substitute(c, {ex.velocity(name): -others / form.coefficients[name]}) for c in found]
+            found = [substitute(c, {ex.velocity(name): -others / form.coefficients[name]}) for c in found]
     return [DomainCondition(c, ">=") for c in found if not velocities_of(c) and _moving(c)]
 
 
@@ -289,7 +291,7 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     split = split_quadratic(e, velocities_of(e), positive) or split_power(e, positive)
     if split is not None:
         return [tuple(f for g in branch if (f := linear_form(g)) is not None) for branch in split], QUADRATIC_NOTE
-    found = solved(e, positive)
+    found = velocity_branches(e, positive)
     if found is None:
         return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
     forms = [(linear_form(relation), conditions) for relation, conditions in found]

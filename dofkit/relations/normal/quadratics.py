@@ -12,14 +12,14 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.elimination import by_velocities
-from dofkit.relations.normal.zero_set import Signs, sum_of_even
+from dofkit.relations.normal.semidefinite import Signs, sum_of_even
 
 Matrix = list[list[Expr]]
 
@@ -28,7 +28,7 @@ def split_quadratic(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
     """Branches of linear forms whose zeros are those of ``e``; None where it is not quadratic or does not split."""
     try:
         form = _matrix(e, velocities)
-    except ZeroDivisionError:
+    except NoValueError:
         return None
     if form is None:
         return None
@@ -61,7 +61,7 @@ def split_power(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, ...]] | 
     try:
         canon = Canon(ring)
         terms = by_velocities(canon, canon.quotient(node)[0])
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return None
     if len(terms) != 2 or any(len(moving) > 1 for moving in terms):
         return None
@@ -86,14 +86,14 @@ def _matrix(e: Expr, velocities: Sequence[Expr]) -> Matrix | None:
     n = len(velocities)
     form: Matrix = [[ex.ZERO] * (n + 1) for _ in range(n + 1)]
     for i, v in enumerate(velocities):
-        slope = ex.diff(e, v)
-        form[i][n] = form[n][i] = ex.HALF * ex.substitute(slope, zeros)
+        slope = diff(e, v)
+        form[i][n] = form[n][i] = ex.HALF * substitute(slope, zeros)
         for j, w in enumerate(velocities):
-            second = ex.HALF * ex.diff(slope, w)
+            second = ex.HALF * diff(slope, w)
             if any(s.args[0] == "velocity" for s in second.symbols):
                 return None
             form[i][j] = second
-    form[n][n] = ex.substitute(e, zeros)
+    form[n][n] = substitute(e, zeros)
     return form
 
 
@@ -114,7 +114,7 @@ def _zero(e: Expr) -> bool:
     node = ring.node(e)
     try:
         return Canon(ring).is_zero(node)
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return False
 
 
@@ -125,7 +125,7 @@ def _sign(e: Expr, positive: frozenset[Expr]) -> int:
     try:
         canon = Canon(ring)
         top, bottom = canon.quotient(node)
-    except (TooLargeError, DomainError, ZeroDivisionError):
+    except NoValueError:
         return 0
     signs = Signs(canon, positive)
     if not bottom.is_constant() or sum_of_even(top, signs) is None:

@@ -9,15 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import product as cartesian
 from typing import Any
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.zero_set import never_holds
+from dofkit.relations.normal.semidefinite import never_holds
 
 #: Arguments whose signs are tried.
 MAX_ARGUMENTS = 4
@@ -67,7 +66,7 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
         if a == 0 or a * canon.gens[roots[0].index] + b != top:
             return None
         norm = canon.reduce(a * a * u - b * b * below)
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return None
     return canon.to_expr(norm), DomainCondition(canon.to_expr(canon.reduce(-a * b)), ">=")
 

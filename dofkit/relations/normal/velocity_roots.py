@@ -12,12 +12,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint.utils.flint_exceptions import DomainError
-
-from dofkit.exact.ring.canonical import Canon, TooLargeError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, constantly
 
@@ -47,7 +47,7 @@ def in_one_rate(e: Expr, positive: frozenset[Expr]) -> bool:
     return _in_one_rate(e, positive) is not None
 
 
-def solved(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, tuple[DomainCondition, ...]]] | None:
+def velocity_branches(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, tuple[DomainCondition, ...]]] | None:
     """The branches of ``e = 0``, each linear in the velocities, with its conditions; None where they were not found."""
     found = _in_one_rate(e, positive)
     if found is None:
@@ -88,7 +88,7 @@ def _in_one_rate(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, Expr] | None
             return None
         if any(not is_zero(own[s] * first[v] - own[v] * c, positive) for s, c in first.items()):
             return None
-        mapping[part] = own[v] * RATE + ex.substitute(part, dict.fromkeys(rates(part), ex.ZERO))
+        mapping[part] = own[v] * RATE + substitute(part, dict.fromkeys(rates(part), ex.ZERO))
     return _replaced(e, mapping), combination
 
 
@@ -113,11 +113,11 @@ def _linear_terms(e: Expr) -> list[Expr]:
 
 
 def _is_linear(e: Expr) -> bool:
-    return all(not rates(ex.diff(e, v)) for v in rates(e))
+    return all(not rates(diff(e, v)) for v in rates(e))
 
 
 def _coefficients(part: Expr) -> dict[Expr, Expr]:
-    return {v: ex.diff(part, v) for v in rates(part)}
+    return {v: diff(part, v) for v in rates(part)}
 
 
 def _replaced(e: Expr, mapping: dict[Expr, Expr]) -> Expr:
@@ -138,9 +138,9 @@ def _replaced(e: Expr, mapping: dict[Expr, Expr]) -> Expr:
 
 def _roots(e: Expr, unknown: Expr, depth: int) -> list[Root] | None:
     """The real roots of ``e = 0`` in the unknown."""
-    slope = ex.diff(e, unknown)
+    slope = diff(e, unknown)
     if unknown not in slope.symbols:
-        return [Root(-ex.substitute(e, {unknown: ex.ZERO}) / slope)]
+        return [Root(-substitute(e, {unknown: ex.ZERO}) / slope)]
     if depth > MAX_DEPTH:
         return None
     inner = _sole_function(e, unknown)
@@ -153,7 +153,7 @@ def _roots(e: Expr, unknown: Expr, depth: int) -> list[Root] | None:
         if rewritten is not None and rewritten != e:
             return _roots(rewritten, unknown, 1)
     return (
-        _polynomial_roots(ex.substitute(e, {unknown: _INSIDE}))
+        _polynomial_roots(substitute(e, {unknown: _INSIDE}))
         if inner is None
         else _each([Root(ex.ZERO)], inner, unknown, depth)
     )
@@ -166,7 +166,7 @@ def _numerator(e: Expr) -> Expr | None:
         node = ring.node(e)
         canon = Canon(ring)
         top, bottom = canon.quotient(node)
-    except (TooLargeError, ZeroDivisionError, DomainError):
+    except NoValueError:
         return None
     harmless = all(ring.vars[i].kind == "exp" for i in canon.generators_in(bottom)) and len(bottom) == 1
     return canon.to_expr(top) if harmless else None

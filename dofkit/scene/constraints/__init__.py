@@ -1,50 +1,53 @@
-"""Constraints: one small class a type, each with its equations in its docstring.
+"""Constraints: one small class a type, each with its equations in its docstring and its facts for all others.
 
-`AnyConstraint` at the end is the union of them all, told apart by ``type``; `TYPES` maps every
-``type`` to its class.
+`TYPES` maps every ``type`` to its class: the classes of this folder's modules that have one. A new type is a new file.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, get_args
+from collections.abc import Iterator
+from functools import reduce
+from importlib import import_module
+from operator import or_
+from pathlib import Path
+from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import Field, GetCoreSchemaHandler, GetPydanticSchema
 
 from dofkit.scene.constraints.base import ConstraintBase
-from dofkit.scene.constraints.distances import Link, Rigid, String
-from dofkit.scene.constraints.equations import Equation, On
-from dofkit.scene.constraints.places import Coincident, Fixed, Slot
-from dofkit.scene.constraints.plane_and_space import Prismatic, Revolute, Weld
-from dofkit.scene.constraints.rolling import Gear, Roll
-from dofkit.scene.constraints.spatial import Cylindrical, Planar, Screw, Spherical, Universal
 
-__all__ = [
-    "TYPES", "AnyConstraint", "Coincident", "ConstraintBase", "Cylindrical", "Equation", "Fixed", "Gear", "Link",
-    "On", "Planar", "Prismatic", "Revolute", "Rigid", "Roll", "Screw", "Slot", "Spherical", "String", "Universal",
-    "Weld",
-]  # fmt: skip
+__all__ = ["TYPES", "AnyConstraint", "ConstraintBase"]
 
-AnyConstraint = Annotated[
-    Equation
-    | On
-    | Link
-    | Rigid
-    | Fixed
-    | Revolute
-    | Prismatic
-    | Weld
-    | Cylindrical
-    | Screw
-    | Universal
-    | Spherical
-    | Planar
-    | Coincident
-    | Slot
-    | Roll
-    | String
-    | Gear,
-    Field(discriminator="type"),
-]
+#: The order of the contract's table; what is not in it comes after, by name.
+_ORDER = (
+    "equation", "on", "link", "rigid", "fixed", "revolute", "prismatic", "weld", "cylindrical", "screw", "universal",
+    "spherical", "planar", "coincident", "slot", "roll", "string", "gear",
+)  # fmt: skip
+
+
+def _place(cls: type[ConstraintBase]) -> tuple[int, str]:
+    kind = cls.kind()
+    return _ORDER.index(kind) if kind in _ORDER else len(_ORDER), kind
+
+
+def _defined() -> Iterator[type[ConstraintBase]]:
+    """The classes with a ``type`` that the modules of this folder define."""
+    for path in Path(__file__).parent.glob("[!_]*.py"):
+        module = import_module(f"{__name__}.{path.stem}")
+        for cls in vars(module).values():
+            own = isinstance(cls, type) and issubclass(cls, ConstraintBase) and cls.__module__ == module.__name__
+            if own and "type" in cls.model_fields:
+                yield cls
+
 
 #: Every constraint type by its name in a scene.
-TYPES: dict[str, type[ConstraintBase]] = {cls.kind(): cls for cls in get_args(get_args(AnyConstraint)[0])}
+TYPES: dict[str, type[ConstraintBase]] = {cls.kind(): cls for cls in sorted(_defined(), key=_place)}
+
+
+def _by_type(source: Any, handler: GetCoreSchemaHandler) -> Any:
+    """The union of all types, told apart by ``type``."""
+    del source
+    return handler(Annotated[reduce(or_, TYPES.values()), Field(discriminator="type")])
+
+
+AnyConstraint = Annotated[ConstraintBase, GetPydanticSchema(_by_type)]

@@ -14,7 +14,7 @@ from dofkit.expressions.vectors import Vec, minus, square
 from dofkit.scene.fields import WrittenModel
 from dofkit.scene.frames import Placed
 from dofkit.scene.world import World
-from dofkit.system import Relation
+from dofkit.system import Relation, TypeFacts
 
 
 class ConstraintBase(WrittenModel):
@@ -24,6 +24,8 @@ class ConstraintBase(WrittenModel):
 
     #: The dimensions in which it is defined.
     dimensions: ClassVar[tuple[int, ...]] = (1, 2, 3)
+    #: What everyone else may know of the type.
+    facts: ClassVar[TypeFacts] = TypeFacts()
 
     @classmethod
     def kind(cls) -> str:

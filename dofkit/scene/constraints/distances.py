@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import combinations, pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
+from dofkit.exact.matrices.rows import along, less
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt, substitute
+from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
 from dofkit.expressions.vectors import Vec, difference, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase, root
 from dofkit.scene.fields import Value, as_written
 from dofkit.scene.frames import Placed, between
 from dofkit.scene.parts import Ends, Point, show_point
 from dofkit.scene.world import World
-from dofkit.system import Relation
+from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
+
+
+def kept_distances(at: Kinematics) -> Iterator[VelocityRow]:
+    """(b - a).(v_b - v_a) for every two points."""
+    for j, k in combinations(range(len(at.points)), 2):
+        arm: Sequence[Any] = [q - p for p, q in zip(at.points[j][1], at.points[k][1], strict=True)]
+        yield along(arm, less(at.velocity(k), at.velocity(j)))
 
 
 class Link(ConstraintBase):
@@ -28,6 +37,7 @@ class Link(ConstraintBase):
     type: Literal["link"] = Field(description="two points at a given distance")
     between: Ends = Field(description="the two points")
     length: Value | None = Field(None, description="their distance; may hold t; by default that of the drawing")
+    facts: ClassVar[TypeFacts] = TypeFacts(kept_distances, joint=True, bars=True, surface=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
@@ -114,6 +124,7 @@ class Rigid(ConstraintBase):
 
     type: Literal["rigid"] = Field(description="particles that keep all their distances")
     members: Annotated[tuple[str, ...], Field(min_length=2)] = Field(description="particles")
+    facts: ClassVar[TypeFacts] = TypeFacts(kept_distances, joint=True, bars=True, complete=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         seen: set[str] = set()
@@ -153,6 +164,7 @@ class String(ConstraintBase):
     type: Literal["string"] = Field(description="an inextensible string over small pulleys")
     along: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(description="the points it runs along, in order")
     length: Value | None = Field(None, description="its length; may hold t; by default that of the drawing")
+    facts: ClassVar[TypeFacts] = TypeFacts(string=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         points = [world.point(point, "along", i) for i, point in enumerate(self.along)]

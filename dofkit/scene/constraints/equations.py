@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
-from dofkit.base.errors import TextError
+from dofkit.base.errors import NoValueError, TextError
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.differentials import in_velocities, linear_in_accelerations
-from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, coordinate, mul, power, substitute
+from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, coordinate, mul, power
 from dofkit.scene.constraints.base import ConstraintBase
 from dofkit.scene.fields import Text
 from dofkit.scene.frames import Placed
@@ -17,7 +18,7 @@ from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point
 from dofkit.scene.world import World
-from dofkit.system import Relation
+from dofkit.system import Relation, TypeFacts
 
 LETTERS = ("x", "y", "z")
 
@@ -29,8 +30,9 @@ class Equation(ConstraintBase):
     and second derivatives where it integrates once.
     """
 
-    type: Literal["equation"] = Field("equation", description="an equation or inequality as text")
+    type: Literal["equation"] = Field(default="equation", description="an equation or inequality as text")
     text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
+    facts: ClassVar[TypeFacts] = TypeFacts(written=True, surface=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         for e, sense in world.relations(self.text, "text"):
@@ -50,6 +52,11 @@ class Equation(ConstraintBase):
         return self.text
 
 
+def as_equation(value: object) -> object:
+    """A constraint as it may be written; a plain text is an equation."""
+    return {"type": Equation.kind(), "text": value} if isinstance(value, str) else value
+
+
 def _texts(value: object) -> object:
     return (value,) if isinstance(value, str) else value
 
@@ -66,6 +73,7 @@ class On(ConstraintBase):
     curve: Annotated[
         tuple[Text, ...] | None, Field(min_length=1), BeforeValidator(_texts, json_schema_input_type=str | list[str])
     ] = Field(None, description="equations in x, y, z: a curve in space is where two surfaces meet")
+    facts: ClassVar[TypeFacts] = TypeFacts(written=True, lettered=True, surface=True, shared=True)
 
     def texts(self) -> Iterator[str]:
         yield from () if self.surface is None else (self.surface,)
@@ -93,7 +101,12 @@ class On(ConstraintBase):
             stands = {coordinate(letter): part for letter, part in zip(letters, _position(point), strict=True)}
             for j, (e, sense) in enumerate(read):
                 part = f"at {show_point(member)}" + (f", text {j + 1}" if len(read) > 1 else "")
-                yield Relation(substitute(e, stands), sense, part)
+                try:
+                    found = substitute(e, stands)
+                except NoValueError:
+                    world.fault(f"the text has no value at {show_point(member)}", "members", i)
+                    return
+                yield Relation(found, sense, part)
 
     def notes(self, world: World) -> Iterator[str]:
         if world.dimension != 3 or self.curve is None:

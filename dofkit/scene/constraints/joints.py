@@ -13,6 +13,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
+from dofkit.exact.matrices import rows
 from dofkit.expressions.tree import HALF, MINUS_ONE, Expr, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
 from dofkit.scene.constraints.base import ConstraintBase, labelled
@@ -22,7 +23,7 @@ from dofkit.scene.frames import Frame, between, relative
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
 from dofkit.scene.world import Direction, World
-from dofkit.system import Relation
+from dofkit.system import Kinematics, Relation, VelocityRow
 
 
 class Joint(ConstraintBase):
@@ -96,6 +97,17 @@ class Driven(Axial):
         """The law of the drive, if there is one."""
         if self.drive is not None:
             yield world.expression(self.drive, "drive", allow=LAW)
+
+
+def turn_rate(at: Kinematics) -> VelocityRow:
+    """How fast the second body turns against the first, in space about the axis."""
+    turn = at.turn()
+    return turn[0] if at.dimension == 2 else rows.along(at.directions[0], turn)
+
+
+def slide_rate(at: Kinematics) -> VelocityRow:
+    """How fast the second body moves along the axis against the first."""
+    return rows.along(at.directions[0], at.shift())
 
 
 def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:

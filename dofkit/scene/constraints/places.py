@@ -7,6 +7,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from dofkit.exact.matrices.rows import across, less
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ZERO, Expr, coordinate, mul
 from dofkit.expressions.vectors import Vec, difference, dot, minus, scaled
@@ -15,7 +16,15 @@ from dofkit.scene.fields import Vector
 from dofkit.scene.frames import Frame, Placed, between
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point, show_vector
 from dofkit.scene.world import Direction, World
-from dofkit.system import GROUND, Relation
+from dofkit.system import GROUND, Kinematics, Relation, TypeFacts, VelocityRow
+
+
+def _fixed_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    if at.points:
+        yield from at.velocity(0)
+    else:
+        yield from at.origin(0)
+        yield from at.spin(0)
 
 
 class Fixed(ConstraintBase):
@@ -24,6 +33,7 @@ class Fixed(ConstraintBase):
     type: Literal["fixed"] = Field(description="a point or a whole body that stays where it is")
     point: Point | None = Field(None, description="a particle or a point of a body")
     body: str | None = Field(None, description="a body")
+    facts: ClassVar[TypeFacts] = TypeFacts(_fixed_rows, joint=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         if (self.point is None) == (self.body is None):
@@ -63,11 +73,16 @@ def _hold(frame: Frame) -> Iterator[Relation]:
         yield Relation(difference(coordinate(name), start), part="angle" if frame.chart == "plane" else f"angle {name}")
 
 
+def _coincident_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    yield from less(at.velocity(1), at.velocity(0))
+
+
 class Coincident(ConstraintBase):
     """A - B = 0: d relations."""
 
     type: Literal["coincident"] = Field(description="two points that stay together")
     between: Ends = Field(description="the two points")
+    facts: ClassVar[TypeFacts] = TypeFacts(_coincident_rows, joint=True, merged=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
@@ -85,6 +100,11 @@ class Coincident(ConstraintBase):
         return "coincident " + ", ".join(show_point(end) for end in self.between)
 
 
+def across_a_line(at: Kinematics) -> Iterator[VelocityRow]:
+    """No slip of the point across the direction."""
+    yield from across(at.directions[0], at.slip())
+
+
 class Slot(ConstraintBase):
     """The point P stays on the line through ``at`` along ``axis`` that ``body`` carries: d - 1 relations.
 
@@ -98,6 +118,7 @@ class Slot(ConstraintBase):
     axis: Vector | None = Field(None, description="the line's direction in the reference configuration")
 
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
+    facts: ClassVar[TypeFacts] = TypeFacts(across_a_line, joint=True, slides=True, contact=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         point = world.point(self.point, "point")
@@ -111,8 +132,8 @@ class Slot(ConstraintBase):
         if self.at is not None or self.axis is not None:
             world.drawn.add(frame.name)
         _check_on_line(world, point, place, axis)
-        for across in axis.across:
-            yield Relation(along(frame, point, place, across), part="across", vector=across)
+        for u in axis.across:
+            yield Relation(along(frame, point, place, u), part="across", vector=u)
 
     @property
     def shown(self) -> str:
@@ -133,7 +154,7 @@ def _check_on_line(world: World, point: Placed, place: Vec, axis: Direction) -> 
     stands = point.reference
     if stands is None:
         return
-    offsets = [dot(across, minus(stands, place)) for across in axis.across]
+    offsets = [dot(u, minus(stands, place)) for u in axis.across]
     if not world.any_differs(offsets):
         return
     message = f"the drawing puts {point.label} at {figures(stands)}, off the line through {figures(place)}"

@@ -3,15 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from dofkit.exact.matrices.rows import across
 from dofkit.expressions.vectors import difference
-from dofkit.scene.constraints.joints import Driven, Joint, aligned, apart, held, parallel, shift, together, turned_by
+from dofkit.scene.constraints.joints import (
+    Driven,
+    Joint,
+    aligned,
+    apart,
+    held,
+    parallel,
+    shift,
+    slide_rate,
+    together,
+    turn_rate,
+    turned_by,
+)
 from dofkit.scene.frames import Frame
 from dofkit.scene.world import World
-from dofkit.system import Relation
+from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
+
+
+def _revolute_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    yield from at.shift()
+    if at.dimension == 3:
+        yield from across(at.directions[0], at.turn())
 
 
 class Revolute(Driven):
@@ -21,6 +40,9 @@ class Revolute(Driven):
     """
 
     type: Literal["revolute"] = Field(description="a hinge")
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _revolute_rows, turn_rate, axial=True, half_turns=True, joint=True, planar_pair=True
+    )
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         yield from together(first, second, world.place(self.at, "at"))
@@ -37,6 +59,11 @@ class Revolute(Driven):
             yield turned_by(first, second, axis, law)
 
 
+def _prismatic_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    yield from at.turn()
+    yield from across(at.directions[0], at.shift())
+
+
 class Prismatic(Driven):
     """No relative rotation, no displacement across the axis: 2 relations in the plane, 5 in space.
 
@@ -45,22 +72,31 @@ class Prismatic(Driven):
     """
 
     type: Literal["prismatic"] = Field(description="a slider")
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _prismatic_rows, slide_rate, slides=True, half_turns=True, joint=True, planar_pair=True
+    )
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         if self.at is not None:
             world.place(self.at, "at")
         axis = self.directed(world)
         yield from parallel(first, second)
-        for across in axis.across:
-            yield Relation(shift(first, second, across)[0], part="across", vector=across)
+        for u in axis.across:
+            yield Relation(shift(first, second, u)[0], part="across", vector=u)
         for law in self.driven(world):
             yield held(shift(first, second, axis.vector), axis, law)
+
+
+def _weld_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    yield from at.turn()
+    yield from at.shift()
 
 
 class Weld(Joint):
     """The second body moves as the first: 3 relations in the plane, 6 in space."""
 
     type: Literal["weld"] = Field(description="two bodies joined into one")
+    facts: ClassVar[TypeFacts] = TypeFacts(_weld_rows, welded=True, half_turns=True, joint=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         world.welds.append((first.name, second.name))

@@ -7,6 +7,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from dofkit.exact.matrices.rows import combined
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr, add, mul, velocity
 from dofkit.expressions.vectors import difference
@@ -15,7 +16,7 @@ from dofkit.scene.constraints.joints import Joint
 from dofkit.scene.fields import Value, as_written
 from dofkit.scene.frames import Frame
 from dofkit.scene.world import World
-from dofkit.system import GROUND, Relation
+from dofkit.system import GROUND, Kinematics, Relation, TypeFacts, VelocityRow
 
 
 class Roll(ConstraintBase):
@@ -29,6 +30,7 @@ class Roll(ConstraintBase):
     body: str = Field(description="the body; its origin is its centre")
     radius: Value = Field(description="its radius")
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
+    facts: ClassVar[TypeFacts] = TypeFacts(joint=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         radius = world.fixed(self.radius, "radius")
@@ -64,6 +66,13 @@ def _no_slip(frame: Frame, radius: Expr) -> Iterator[Relation]:
     yield Relation(add(mul(under, rates[1]), mul(radius, spin[0])), part="no slip y")
 
 
+def _gear_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    """(w2 - w) - ratio (w1 - w) = 0, with w of the carrier if there is one."""
+    turns = [at.spin(k)[0] for k in range(len(at.members))]
+    carrier = turns[2] if len(turns) > 2 else {}
+    yield combined(((1, turns[1]), (-at.number, turns[0]), (at.number - 1, carrier)))
+
+
 class Gear(Joint):
     """(theta2 - theta20) - ratio (theta1 - theta10) = 0, angles against ``carrier`` if there is one: 1 relation.
 
@@ -74,6 +83,7 @@ class Gear(Joint):
     ratio: Value = Field(description="angle of the second by angle of the first; negative for wheels that mesh outside")
     carrier: str | None = Field(None, description="the body that carries both axes, as in a planetary gear")
     dimensions: ClassVar[tuple[int, ...]] = (2,)
+    facts: ClassVar[TypeFacts] = TypeFacts(_gear_rows, joint=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         ratio = world.mentioned.number = world.fixed(self.ratio, "ratio")

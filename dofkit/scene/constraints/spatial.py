@@ -7,6 +7,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from dofkit.exact.matrices import rows
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import PI, add, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, length, plus, scaled
@@ -19,21 +20,28 @@ from dofkit.scene.constraints.joints import (
     held,
     shift,
     slide,
+    slide_rate,
     together,
+    turn_rate,
     turned_by,
 )
 from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
 from dofkit.scene.parts import show_vector
 from dofkit.scene.world import Direction, World, within
-from dofkit.system import Relation
+from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
 
 def coaxial(first: Frame, second: Frame, place: Vec, axis: Direction) -> Iterator[Relation]:
     """The axis stays one line: 2 relations for its direction, 2 for its place."""
     yield from aligned(first, second, axis)
-    for across in axis.across:
-        yield Relation(slide(first, second, place, across)[0], part="across", vector=across)
+    for u in axis.across:
+        yield Relation(slide(first, second, place, u)[0], part="across", vector=u)
+
+
+def _cylindrical_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    yield from rows.across(at.directions[0], at.turn())
+    yield from rows.across(at.directions[0], at.shift())
 
 
 class Cylindrical(Driven):
@@ -44,12 +52,19 @@ class Cylindrical(Driven):
 
     type: Literal["cylindrical"] = Field(description="a sleeve on a shaft")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
+    facts: ClassVar[TypeFacts] = TypeFacts(_cylindrical_rows, slide_rate, axial=True, half_turns=True, joint=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         place, axis = world.place(self.at, "at"), self.directed(world)
         yield from coaxial(first, second, place, axis)
         for law in self.driven(world):
             yield held(slide(first, second, place, axis.vector), axis, law)
+
+
+def _screw_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    """n.(v2 - v1) - h n.(w2 - w1) = 0 with h the advance by radian."""
+    yield from _cylindrical_rows(at)
+    yield rows.combined(((1, slide_rate(at)), (-at.number, turn_rate(at))))
 
 
 class Screw(Driven):
@@ -61,6 +76,9 @@ class Screw(Driven):
     type: Literal["screw"] = Field(description="a nut on a thread")
     pitch: Value = Field(description="the advance along the axis for one turn, right-handed")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _screw_rows, turn_rate, by_turn=True, axial=True, half_turns=True, joint=True
+    )
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         place, axis = world.place(self.at, "at"), self.directed(world)
@@ -77,6 +95,11 @@ class Screw(Driven):
         return f"{super().shown}, pitch {as_written(self.pitch)}"
 
 
+def _universal_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    yield from at.shift()
+    yield rows.along(rows.cross(*at.directions), at.turn())
+
+
 class Universal(LocatedJoint):
     """X1 = X2, and the first axis, carried by the first body, stays across the second: 4 relations."""
 
@@ -85,6 +108,7 @@ class Universal(LocatedJoint):
         None, description="two perpendicular axes, the first carried by the first body, the second by the second"
     )
     dimensions: ClassVar[tuple[int, ...]] = (3,)
+    facts: ClassVar[TypeFacts] = TypeFacts(_universal_rows, directions=2, axial=True, half_turns=True, joint=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         yield from together(first, second, world.place(self.at, "at"))
@@ -119,12 +143,17 @@ class Universal(LocatedJoint):
         return told if self.axes is None else f"{told} along {' and '.join(show_vector(axis) for axis in self.axes)}"
 
 
+def _spherical_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    yield from at.shift()
+
+
 class Spherical(LocatedJoint):
     """X1 = X2: 3 relations."""
 
     type: Literal["spherical"] = Field(description="a ball in a socket")
     axis: Vector | None = Field(None, description="not needed: the joint turns every way")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
+    facts: ClassVar[TypeFacts] = TypeFacts(_spherical_rows, half_turns=True, joint=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         if self.axis is not None:
@@ -132,11 +161,17 @@ class Spherical(LocatedJoint):
         yield from together(first, second, world.place(self.at, "at"))
 
 
+def _planar_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    yield from rows.across(at.directions[0], at.turn())
+    yield slide_rate(at)
+
+
 class Planar(Axial):
     """The normal n keeps its direction (2 relations), and (R n).(p2 - p1) - n.(p02 - p01) = 0: 3 relations."""
 
     type: Literal["planar"] = Field(description="a face that slides on a face")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
+    facts: ClassVar[TypeFacts] = TypeFacts(_planar_rows, half_turns=True, joint=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         if self.at is not None:

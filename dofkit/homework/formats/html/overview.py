@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.html.pages import BADGES, asked, percent
+from dofkit.homework.formats.html.pages import BADGES, percent, question_text
 from dofkit.homework.formats.wording import number
 from dofkit.homework.key.misconceptions import ERRORS
 from dofkit.homework.result import Item, Result, Status
@@ -137,7 +137,7 @@ class Overview:
             shares = [(status, counts[status], 100 * counts[status] / total) for status in BADGES if counts[status]]
             known = total - counts["needs_review"]
             mean = self.gained[place] / known if known else None
-            yield Question(f"{problem.id}.{question.id}", asked(question), shares, mean, float(question.points))
+            yield Question(f"{problem.id}.{question.id}", question_text(question), shares, mean, float(question.points))
 
 
 def _mean(scores: Counter[float]) -> float | None:

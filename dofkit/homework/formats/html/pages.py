@@ -81,7 +81,9 @@ def student_page(result: Result, prepared: Prepared) -> StudentPage:
     sections = []
     for problem in prepared.assignment.problems:
         rows = [
-            AnswerRow(found.pop((problem.id, q.id)), asked(q)) for q in problem.questions if (problem.id, q.id) in found
+            AnswerRow(found.pop((problem.id, q.id)), question_text(q))
+            for q in problem.questions
+            if (problem.id, q.id) in found
         ]
         if rows:
             sections.append(Section(problem_title(problem), rows))
@@ -95,7 +97,7 @@ def problem_title(problem: Problem) -> str:
     return problem.id if problem.title is None else f"{problem.id}: {problem.title}"
 
 
-def asked(question: QuestionBase) -> str:
+def question_text(question: QuestionBase) -> str:
     """What a question asks for, in words."""
     told = type(question).model_fields["ask"].description or question.kind()
     about = getattr(question, "constraint", None) or getattr(question, "coordinate", None)

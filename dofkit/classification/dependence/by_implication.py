@@ -1,0 +1,125 @@
+"""What can go because it holds at every state of motion that the others leave, on all their branches."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from functools import partial
+from itertools import combinations
+
+from dofkit.base.deadline import unless_late
+from dofkit.classification.dependence.circuits import Redundancies, left_open
+from dofkit.classification.dependence.implication import follows
+from dofkit.classification.freedom.through_reference import all_of
+from dofkit.relations.normal.normal_form import Finite, Normal
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+
+#: Constraints of one set that are tried one by one, and seconds spent on leaving constraints out.
+MAX_CHOICES, LEAVING_SECONDS = 40, 5.0
+
+
+def implied(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
+    """By implication; left open where the constraints are too many or there is no time left for them."""
+    if len(numbers) > MAX_CHOICES:
+        return left_open(numbers)
+    return unless_late(partial(_by_implication, reduced, setting, numbers), left_open(numbers))
+
+
+def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
+    """A constraint is redundant where it holds at every state of motion that the others leave, on all their branches.
+
+    The last in the order goes first; where more can go together in its place, they do.
+    """
+    until = time.process_time() + LEAVING_SECONDS
+    kept, unknown = list(numbers), list[int]()
+    for i in reversed(numbers):
+        told = (
+            None
+            if time.process_time() > until
+            else constraint_follows(reduced, i, [j for j in kept if j != i], setting)
+        )
+        if told:
+            kept.remove(i)
+        elif told is None:
+            unknown.append(i)
+    dropped = _more(reduced, setting, numbers, [i for i in numbers if i not in kept], until)
+    kept = [i for i in numbers if i not in dropped]
+    circuits = {i: _needed(reduced, reduced[i].normals, kept, setting) for i in dropped}
+    groups = [(reduced[i].equations, sorted({i, *circuits[i]})) for i in dropped]
+    undecided = [i for i in unknown if i in kept]
+    independent, more = _equation_by_equation(reduced, setting, numbers, kept)
+    known = {i: n for i, n in independent.items() if i not in undecided}
+    return Redundancies(known, dropped, [*groups, *more], circuits, tuple(undecided))
+
+
+def _equation_by_equation(
+    reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], kept: Sequence[int]
+) -> tuple[dict[int, int], list[tuple[int, list[int]]]]:
+    """(equations of each that are independent of all before it, groups of equations within what is kept).
+
+    What is finite comes before what is differential.
+    """
+    order = sorted(numbers, key=lambda i: any(not isinstance(p, Finite) for n in reduced[i].normals for p in n.pieces))
+    independent: dict[int, int] = {}
+    groups: list[tuple[int, list[int]]] = []
+    for k, i in enumerate(order):
+        before = [j for j in order[:k] if j in kept]
+        single = reduced[i].equations == 1
+        known_not_to = single and i in kept and before == order[:k]
+        said = [] if known_not_to else _equations_implied(reduced, i, order[:k], setting)
+        independent[i] = reduced[i].equations - len(said)
+        if i in kept and not single:
+            said = said if before == order[:k] else _equations_implied(reduced, i, before, setting)
+            groups += [(len(said), sorted({i, *_needed(reduced, said, before, setting)}))] if said else []
+    return independent, groups
+
+
+def _more(
+    reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], dropped: list[int], until: float
+) -> list[int]:
+    """More constraints that can go together than ``dropped``, where there are: x = 0 and y = 0 beside x^2 + y^2 = 0.
+
+    Where every constraint is one row there are none (the exchange of bases).
+    """
+    rows = [b for i in numbers for n in reduced[i].normals for b in n.branches]
+    if not dropped or (len(rows) == len(numbers) and all(len(b) == 1 for b in rows)):
+        return dropped
+    single = [i for i in numbers if constraint_follows(reduced, i, [j for j in numbers if j != i], setting)]
+    for choice in combinations(reversed(single), len(dropped) + 1):
+        if time.process_time() > until:
+            break
+        kept = [j for j in numbers if j not in choice]
+        if all(constraint_follows(reduced, i, kept, setting) for i in choice):
+            return _more(reduced, setting, numbers, sorted(choice), until)
+    return dropped
+
+
+def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int], setting: Setting) -> list[Normal]:
+    """The equations of a constraint that follow from those before it and from its own first ones."""
+    known = [n for j in before for n in reduced[j].normals]
+    said = []
+    for n in reduced[i].normals:
+        if follows(n, known, setting):
+            said.append(n)
+        else:
+            known.append(n)
+    return said
+
+
+def constraint_follows(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> bool | None:
+    """Does a constraint follow from others, all of its equations? None where that was not decided."""
+    known = [n for j in others for n in reduced[j].normals]
+    return all_of(follows(n, known, setting) for n in reduced[i].normals)
+
+
+def _needed(
+    reduced: Sequence[Reduced], normals: Sequence[Normal], others: Sequence[int], setting: Setting
+) -> list[int]:
+    """A minimal set of the others that some equations follow from."""
+    kept = list(others)
+    for j in reversed(others):
+        fewer = [n for k in kept if k != j for n in reduced[k].normals]
+        if all(follows(n, fewer, setting) for n in normals):
+            kept.remove(j)
+    return kept

@@ -1,0 +1,85 @@
+"""Regularity: does an answer with the same solutions also have as good a gradient on them, on every branch?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import chain
+from itertools import product as cartesian
+
+from dofkit.configuration.generic_points import field_jacobian
+from dofkit.configuration.search import find
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.expressions.tree import Expr
+from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian, Piece
+from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+
+#: Choices of branches on which gradients are looked at.
+MAX_BRANCHES = 16
+
+
+@dataclass(frozen=True)
+class Regularity:
+    """The relations of others, those that were asked for, and the constraints of an answer with the same solutions."""
+
+    others: Sequence[Normal]
+    wanted: Sequence[Normal]
+    given: Sequence[Reduced]
+    setting: Setting
+    coordinates: Sequence[str]
+
+    def irregular(self) -> bool | None:
+        """Does the answer's gradient lose rank where that of what was asked for does not? None: not decided."""
+        answer = [n for r in self.given for n in r.normals]
+        if any(isinstance(p, Pfaffian) for n in answer for p in n.pieces):
+            return any(map(_is_square, self.given))
+        if _lost(answer) and not _lost(self.wanted):
+            return True
+        branches = list(cartesian(*(n.branches for n in (*self.others, *self.wanted) if n.branches)))
+        regular = {self._as_regular(choice) for choice in branches[:MAX_BRANCHES]}
+        if None in regular or len(branches) > MAX_BRANCHES:
+            return None if any(n.notes for n in answer) else False
+        return False in regular
+
+    def _as_regular(self, choice: Sequence[Sequence[Piece]]) -> bool | None:
+        """Do the gradients of the answer as written span as much as those that were asked for, on one branch?"""
+        finite = [[p for p in branch if isinstance(p, Finite)] for branch in choice]
+        others = len([n for n in self.others if n.branches])
+        before = [p.expr for branch in finite[:others] for p in branch]
+        wanted = [p.expr for branch in finite[others:] for p in branch]
+        if not wanted:
+            return True
+        raw = [e.expr for r in self.given for e in r.constraint.relations]
+        ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *wanted])
+        return None if ranks is None else ranks[0] >= ranks[1]
+
+    def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
+        """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""
+        blocks, _ = split(self.coordinates, [Row(0, p) for p in on])
+        rows = tuple(row for b in blocks for row in b.rows)
+        whole = Block(tuple(n for n in self.coordinates if any(n in b.coordinates for b in blocks)), rows)
+        chart = make_chart(whole, self.setting, more=list(chain(*sets)))
+        found = find(chart, {}, 7)
+        if not found.samples:
+            return None
+        try:
+            point = found.samples[0]
+            jacobians = [field_jacobian(chart, point, [chart.ring.node(e) for e in s]) for s in sets]
+        except NoValueError:
+            return None
+        return [rank_of_rows(j, point.p) for j in jacobians]
+
+
+def _lost(normals: Sequence[Normal]) -> bool:
+    """Was a relation a power or a sum of squares in exponentials? Points over GF(p) do not know the zeros of those."""
+    return any(EXPONENT_NOTE in n.notes and not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes) for n in normals)
+
+
+def _is_square(r: Reduced) -> bool:
+    """Was a relation between velocities a power or a sum of squares of forms?"""
+    return any(n.notes and all(isinstance(p, Pfaffian) for p in n.pieces) for n in r.normals)

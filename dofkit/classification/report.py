@@ -1,0 +1,186 @@
+"""The fields of a report, a function each: what is told of a `Study`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from dofkit.base.deadline import unless_late
+from dofkit.base.verdicts import Verdict, weakest
+from dofkit.classification.dependence.redundancy import merged
+from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.generalized_coordinates import generalized
+from dofkit.classification.labels.integrable_part import integrable_part
+from dofkit.classification.study import Study
+from dofkit.expressions.text import to_text
+from dofkit.mobility.textbook_count import CountedFacts, count
+from dofkit.relations.blocks import uses_time
+from dofkit.relations.integration_constants import about_constants
+from dofkit.relations.normal.normal_form import Finite
+from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
+from dofkit.system import System
+
+
+def instantaneous_dof(study: Study) -> int | None:
+    """Velocities allowed to first order at the reference configuration; None without one, or where branches cross."""
+    outcome = study.outcome
+    if study.system.reference is None or outcome.consistent is not True or outcome.kinked:
+        return None
+    if outcome.first_order is not None:
+        return outcome.first_order
+    parts = [a.instantaneous for a in outcome.answers]
+    if any(p is None for p in parts):
+        return None
+    return len(outcome.untouched) + sum(p for p in parts if p is not None)
+
+
+def singular(study: Study) -> bool | None:
+    """Does the drawing allow other velocities than finite motions have? None without a drawing."""
+    here, velocities = instantaneous_dof(study), study.outcome.velocity_dof
+    return None if here is None or velocities is None else here != velocities
+
+
+def of_all(labels: Sequence[bool | None]) -> bool | None:
+    """True where all are, False where one is not, else None."""
+    if any(label is False for label in labels):
+        return False
+    return None if any(label is None for label in labels) else True
+
+
+def lecture_count(study: Study) -> Count:
+    """f = N d - k beside the truth."""
+    reduced, outcome = study.reduced, study.outcome
+    written = sum(all(isinstance(p, Finite) for p in normal.pieces) for r in reduced for normal in r.normals)
+    constants = [c for r in reduced for c in r.constants]
+    hidden = sum(not about_constants(g, constants) for a in outcome.answers for g in a.hidden)
+    return count(study.system, CountedFacts(written, outcome.dof, outcome.consistent, hidden, 0, study.entries))
+
+
+def redundant(study: Study) -> list[str]:
+    """The names of what can be dropped together, in the scene's order."""
+    names = study.names
+    return [names[i] for i in sorted({i for r in study.dependence.dependent for i in r.redundant})]
+
+
+def redundancies(study: Study) -> list[Redundancy]:
+    """Groups of constraints that depend on each other."""
+    names, dependent = study.names, study.dependence.dependent
+    if study.redundant_equations == 0:
+        dependent = [r for r in dependent if r.redundant]
+    return [Redundancy(nullity=nullity, members=[names[i] for i in members]) for nullity, members in merged(dependent)]
+
+
+def generalized_coordinates(study: Study) -> list[str] | None:
+    """An independent choice of ``dof`` coordinates: those that are not pivots of what integrates."""
+    return unless_late(partial(_generalized, study), None)
+
+
+def _generalized(study: Study) -> list[str] | None:
+    system, outcome = study.system, study.outcome
+    if outcome.dof is None:
+        return None
+    chosen = set(outcome.untouched)
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        own = generalized(block, a, study.setting, system.rotations)
+        if own is None:
+            return None
+        chosen |= set(own)
+    return [c.name for c in system.coordinates if c.name in chosen]
+
+
+def largest_integrable_part(study: Study) -> IntegrablePart | None:
+    """What the forms say in finite relations; None where that is not known."""
+    return unless_late(partial(integrable_part, study.outcome, study.entries, study.company), None)
+
+
+def growth_vector(outcome: Outcome, entries: Sequence[ConstraintEntry]) -> list[int] | None:
+    """Dimensions of D, D + [D, D], ... for the whole: blocks do not bracket with each other; they share only time."""
+    if not outcome.consistent or not any(b.forms for b in outcome.blocks):
+        return None
+    growths: list[tuple[int, ...]] = []
+    timed = timeless = 0
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        shared = uses_time(block)
+        timed += shared
+        owners = {r.constraint for r in block.rows}
+        timeless += shared and all(entries[i].scleronomic and entries[i].catastatic is not False for i in owners)
+        if block.nonlinear or (a.growth is None and block.forms) or a.velocity_dof is None:
+            return None
+        growths.append(a.growth if a.growth is not None else (a.velocity_dof + shared,))
+    length = max(len(g) for g in growths)
+    base = len(outcome.untouched) - (timed if timed == timeless else max(0, timed - 1))
+    return [base + sum(g[min(k, len(g) - 1)] for g in growths) for k in range(length)]
+
+
+def forces(study: Study) -> list[ForceEntry]:
+    """The forces: no constraints, with the reason."""
+    return [ForceEntry(name=f.name, reason=f.reason) for f in study.system.forces]
+
+
+def verdict(study: Study) -> Verdict:
+    """The weakest of all entries and blocks."""
+    if study.outcome.consistent is None:
+        return "undecided"
+    return weakest(*(e.verdict for e in study.entries), *(a.verdict for a in study.outcome.answers))
+
+
+def method(study: Study) -> str:
+    """What ran."""
+    return "; ".join(dict.fromkeys(a.method for a in study.outcome.answers if a.method)) or "count"
+
+
+def modelled(system: System, outcome: Outcome) -> str:
+    """What the model kept and left out, and why."""
+    parts = []
+    touched = len(system.coordinates) - len(outcome.untouched)
+    if outcome.blocks:
+        many = len(outcome.blocks)
+        parts.append(f"{touched} coordinates in {many} independent part{'s' if many > 1 else ''}")
+    if outcome.untouched:
+        shown = ", ".join(outcome.untouched[:12]) + (", ..." if len(outcome.untouched) > 12 else "")
+        parts.append(f"counted but not computed with, because nothing constrains them: {shown}")
+    finite = sum(not b.forms and not b.nonlinear for b in outcome.blocks)
+    if finite:
+        parts.append("no integrability test where all relations are finite (d(dg) = 0)")
+    parts += _looked_at(outcome)
+    if system.forces:
+        parts.append("forces are left out: they do not constrain")
+    return "; ".join(parts) or "nothing constrains anything"
+
+
+def _looked_at(outcome: Outcome) -> Iterator[str]:
+    """What of the relations had to be followed to tell motions from shakes."""
+    looked = [a.looked for a in outcome.answers]
+    left_out, rigid, followed = (
+        sum(k.left_out for k in looked),
+        sum(k.rigid for k in looked),
+        sum(k.followed for k in looked),
+    )
+    if left_out:
+        many = sum(len(b.rows) for b in outcome.blocks)
+        yield f"{left_out} of {many} relations are in no dependent set (trees and the like): not followed"
+    if rigid:
+        yield f"{rigid} dependent set{'s' * (rigid > 1)} taken for one rigid body each"
+    if followed and left_out:
+        yield f"{followed} other dependent set{'s' * (followed > 1)} followed apart from all else"
+    spared = sum(k.spared for k in looked)
+    if spared:
+        yield (
+            f"{spared} coordinate{'s' * (spared > 1)} fewer where motions were followed (welded bodies and rigid "
+            "clusters as one, bodies that do not turn as particles, what a linear relation gives explicitly)"
+        )
+
+
+def warnings(study: Study) -> list[str]:
+    """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
+    told = list(study.system.warnings)
+    for r in study.reduced:
+        for normal in r.normals:
+            told += [f"'{r.constraint.name}': {note}" for note in normal.notes]
+            if len(normal.branches) > 1:
+                told.append(BRANCH_WARNING.format(name=r.constraint.name))
+        told += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
+    for a in study.outcome.answers:
+        told += a.reasons
+        told += [f"hidden finite relation: {to_text(g)} = 0" for g in a.hidden]
+    return list(dict.fromkeys(told))

@@ -1,0 +1,104 @@
+"""What is known of one system: the one argument of every pass. Nothing in it is worked out before it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import NamedTuple
+
+from dofkit.base.deadline import part, unless_late
+from dofkit.classification.dependence.circuits import Redundancies, left_open
+from dofkit.classification.dependence.conflicts import conflict
+from dofkit.classification.dependence.redundancy import all_needed, redundancies
+from dofkit.classification.freedom.branches import Outcome, solve
+from dofkit.classification.freedom.preparation import prepared
+from dofkit.classification.labels.companions import Companionship
+from dofkit.classification.labels.entries import entries_of
+from dofkit.exact.engines import BOTH, Engines
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.reductions import ALL, Reductions
+from dofkit.relations.setting import Setting
+from dofkit.report import ConstraintEntry
+from dofkit.system import System
+
+#: Of the time that is left after the blocks: for what depends on what; the rest is for labels.
+DEPENDENCE = 0.5
+
+
+class Dependence(NamedTuple):
+    """A minimal set of constraints that cannot hold together, and what depends on what, each by numbers."""
+
+    conflicting: list[int]
+    dependent: list[Redundancies]
+
+
+@dataclass(frozen=True)
+class Study:
+    """A system, its relations over the reals, what may be assumed of its symbols, and its blocks' answers."""
+
+    system: System
+    reduced: Sequence[Reduced]
+    setting: Setting
+    outcome: Outcome
+
+    @property
+    def names(self) -> list[str]:
+        """The constraints' names, by number."""
+        return [c.name for c in self.system.constraints]
+
+    @property
+    def equations(self) -> int:
+        """Bilateral scalar equations."""
+        return sum(r.equations for r in self.reduced)
+
+    @property
+    def redundant_equations(self) -> int | None:
+        """Equations less (coordinates - velocities), never below 0; None where the velocities are not known."""
+        velocities = self.outcome.velocity_dof
+        return None if velocities is None else max(0, self.equations - (len(self.system.coordinates) - velocities))
+
+    @cached_property
+    def dependence(self) -> Dependence:
+        """What conflicts and what depends on what, in a share of the time."""
+        nothing = left_open(i for i, r in enumerate(self.reduced) if r.normals)
+        conflicting: list[int] = []
+        with part(DEPENDENCE):
+            if self.outcome.consistent is False:
+                look = partial(conflict, self.system, self.reduced, self.setting, self.outcome)
+                conflicting = unless_late(look, conflicting)
+            dependent = unless_late(partial(redundancies, self.reduced, self.setting, self.outcome), [nothing])
+        if self.redundant_equations == 0:
+            dependent = [all_needed(r, self.reduced, self.outcome) for r in dependent]
+        return Dependence(conflicting, dependent)
+
+    @cached_property
+    def company(self) -> Companionship:
+        """The blocks, to be asked what a form integrates to together with which others."""
+        return Companionship(self.setting)
+
+    @cached_property
+    def entries(self) -> list[ConstraintEntry]:
+        """The constraints' entries, in order."""
+        return self.entries_beside(self.dependence.dependent)
+
+    def entries_beside(self, dependent: Sequence[Redundancies]) -> list[ConstraintEntry]:
+        """The constraints' entries, where this is known of what depends on what."""
+        return entries_of(self.reduced, self.setting, self.outcome, dependent, self.names, self.company)
+
+    def by_name(self, labels: Sequence[bool | None]) -> Mapping[str, bool | None]:
+        """A label for each constraint, by its name."""
+        return dict(zip(self.names, labels, strict=True))
+
+
+def study(
+    system: System, engines: Engines = BOTH, reductions: Reductions = ALL, grows: bool = True, flag: bool = False
+) -> Study:
+    """The blocks of a system answered by some engines, with some reductions in use.
+
+    ``grows``: the growth vector; ``flag``: the derived flag. Raises OutOfTimeError, and SceneError where a relation
+    cannot be read over the reals.
+    """
+    reduced, setting = prepared(system, reductions)
+    setting = replace(setting, engines=engines, grows=grows, flag=flag)
+    return Study(system, reduced, setting, solve(system, reduced, setting))

@@ -1,0 +1,111 @@
+"""Points over GF(p) on the configuration space of a block, random ones or with given values, and the Jacobian there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError, PoleError
+from dofkit.exact.matrices.sparse import SparseRow
+from dofkit.exact.points.field import FieldPoint, field_point
+from dofkit.exact.points.frames import Pivots, sparse_frame
+from dofkit.exact.ring.instructions import VAR, reachable
+from dofkit.exact.ring.program import gradient, value_of, values
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.tree import Expr
+from dofkit.relations.chart import Chart
+
+#: Points over GF(p) that must agree.
+SAMPLES, MORE_SAMPLES = 2, 6
+
+
+def samples_for(chart: Chart) -> int:
+    """More points where signs and roots may be chosen differently at each."""
+    free = any(v.kind in ("sign", "root") and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars)
+    return MORE_SAMPLES if free else SAMPLES
+
+
+def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None = None) -> list[SparseRow]:
+    """dg/d(columns) over GF(p), row by row without zeros."""
+    at = values(chart.ring, point)
+    one = point.number(ex.ONE.args[0])
+    place = {c: i for i, c in enumerate(chart.columns) if c >= 0}
+    rows = []
+    for node in chart.nodes if nodes is None else nodes:
+        check()
+        slope = gradient(chart.ring, at, point, [(node, one)])
+        rows.append({place[c]: int(v) for c, v in slope.items() if c in place and v != 0})
+    return rows
+
+
+def on_variety(chart: Chart, point: FieldPoint) -> bool:
+    """Do all finite relations hold at the point?"""
+    try:
+        at = values(chart.ring, point)
+    except NoValueError:
+        return False
+    return all(at[n] == 0 for n in chart.nodes)
+
+
+def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
+    """The point where the symbols have the given exact values and the others are random."""
+    known = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
+    fixed = _settled(chart.ring, known)
+    if fixed is None:
+        return None
+    for attempt in range(60):
+        try:
+            point = field_point([chart.ring], 1000 * seed + attempt)
+            for index, node in fixed:
+                point.set(chart.ring.vars[index], value_of(chart.ring, point, node))
+            values(chart.ring, point)
+        except PoleError:
+            return None
+        except NoValueError:
+            continue
+        return point
+    return None
+
+
+def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:
+    """(generator, node of its value) for symbols and for the functions of them that have a known value."""
+    settled: dict[int, int] = {}
+    try:
+        for _ in range(3):
+            before = len(ring.vars)
+            for var in list(ring.vars):
+                shown = ring.var_expr[var.index]
+                if var.index in settled or known.keys().isdisjoint(shown.symbols):
+                    continue
+                settled[var.index] = ring.node(substitute(substitute(shown, ring.alias), known))
+            if len(ring.vars) == before:
+                break
+    except NoValueError:
+        return None
+    return sorted(settled.items(), key=lambda pair: pair[1])
+
+
+def pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[FieldPoint]:
+    """Points of the set at which the symbols have the given values; none where some of them are not on it."""
+    if not pose:
+        return []
+    found = []
+    for k in range(SAMPLES):
+        point = pose_point(chart, pose, seed + k)
+        if point is None or not on_variety(chart, point):
+            return []
+        found.append(point)
+    return found
+
+
+def generators_of(chart: Chart) -> set[int]:
+    """The generators that the finite relations reach."""
+    code = chart.ring.code
+    return {code[i][1] for i in reachable(chart.ring, chart.nodes) if code[i][0] == VAR}
+
+
+def frame_at(chart: Chart, point: FieldPoint) -> Pivots:
+    """Independent relations and dependent columns at a point."""
+    return sparse_frame(field_jacobian(chart, point), len(chart.columns), point.p)

@@ -1,0 +1,177 @@
+"""The germ of {g = 0} at one of its points: what the criteria ask of it, computed when it is first asked for.
+
+Let J be the Jacobian at P, of rank r, on n columns, and m = n - r. As many independent relations as there are give a
+manifold M of dimension m through P; the others are functions f_1, ..., f_k on M without linear part. The set is
+{f_1 = ... = f_k = 0} on M. The motions of the whole as one rigid body are mu dimensions of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import NamedTuple
+
+from flint import arb
+
+from dofkit.base.verdicts import Verdict
+from dofkit.configuration.local import critical_set, degrees, initial_forms, quadratic_cone
+from dofkit.configuration.local.critical_set import Split
+from dofkit.configuration.local.initial_forms import InitialForms
+from dofkit.configuration.local.manifold import Form, Manifold, is_zero
+from dofkit.configuration.local.neighbourhood import holds_away
+from dofkit.exact.points.series import Series
+from dofkit.exact.ring.instructions import Scalar
+
+#: Orders to which the other relations are followed on M; the second where one motion is in question.
+ORDER, LONG_ORDER = 8, 16
+#: Relations of this degree are not followed, over balls beyond the long order: their series may begin later.
+LONGEST = 64
+#: The order to which they are followed on their critical set, and random directions in which a sign is looked at.
+CRITICAL_ORDER, DIRECTIONS = 12, 12
+
+
+class Conclusion(NamedTuple):
+    """What a criterion says of the set: its dimension, None where that is open; ``confined``: time is constant on it.
+
+    ``verdict``: where it is less sure than the criterion may be.
+    """
+
+    dimension: int | None
+    reason: str
+    confined: bool = False
+    verdict: Verdict = "proved"
+
+
+class Germ:
+    """The set near a point, with the manifold M over GF(p) (``field``), over balls (``ball``), or both.
+
+    A coefficient over GF(p) that is not 0 proves that the function is not; a ball decides signs. With balls alone what
+    a tiny one contains 0 of is taken for 0. ``rigid`` is mu; ``time`` is the number of time's column, if it is one.
+    """
+
+    def __init__(self, field: Manifold | None, ball: Manifold | None, rigid: int, time: int | None = None) -> None:
+        manifold = ball if field is None else field
+        if manifold is None:
+            raise ValueError("a germ needs a manifold")
+        self.manifold, self.field, self.ball = manifold, field, ball
+        self.rigid, self.time = rigid, time
+
+    @property
+    def exact(self) -> bool:
+        """Is there a point over GF(p)?"""
+        return self.field is not None
+
+    @property
+    def m(self) -> int:
+        """The dimension of M."""
+        return self.manifold.dimension
+
+    @property
+    def dependent(self) -> int:
+        """k, the number of dependent relations."""
+        return len(self.manifold.others)
+
+    @cached_property
+    def degree(self) -> int:
+        """A bound on the degree of the dependent relations along a line of the free columns."""
+        return degrees.degree(self.manifold)
+
+    @cached_property
+    def order(self) -> int:
+        """The order to which the dependent relations are followed on M."""
+        few = self.exact and self.m - self.rigid <= 1
+        return max(LONG_ORDER if few else ORDER, self.degree + 1)
+
+    @cached_property
+    def along(self) -> list[Series]:
+        """The dependent relations along a random curve of M."""
+        return self.manifold.follow(random_direction(self.manifold), self.order)
+
+    @cached_property
+    def vanishes(self) -> bool:
+        """Are they 0 along it, to the order?"""
+        return all(is_zero(s.coefficient(k)) for s in self.along for k in range(self.order))
+
+    @cached_property
+    def vanishes_away(self) -> bool | None:
+        """Are they 0 at a distance too? None where the curve could not be followed that far."""
+        return True if self.ball is None else holds_away(self.ball, _ahead(self.ball, self.m), self.exact)
+
+    @cached_property
+    def signs(self) -> list[Form]:
+        """The second-order parts of the dependent relations over balls; none without balls."""
+        return [] if self.ball is None else self.ball.quadratic_forms()
+
+    @cached_property
+    def signature(self) -> tuple[int, int]:
+        """Certified numbers of positive and negative squares of the first of them."""
+        return quadratic_cone.signature_of(self.signs[0])
+
+    @cached_property
+    def forms(self) -> list[Form]:
+        """The same over GF(p); none without a point there."""
+        return [] if self.field is None else self.field.quadratic_forms()
+
+    @cached_property
+    def cone(self) -> int:
+        """An upper bound of the dimension of the second-order cone."""
+        return quadratic_cone.bound(self.forms, self.rigid)
+
+    @cached_property
+    def parts(self) -> Split:
+        """Which equations of the critical set N can be solved for which of M's coordinates."""
+        return critical_set.split(self.forms)
+
+    @cached_property
+    def remainders(self) -> list[Series]:
+        """The dependent relations along a random curve of N."""
+        assert self.field is not None
+        direction = [self.field.base.random() for _ in self.parts.free]
+        return critical_set.along(self.field, self.forms, self.parts, direction, CRITICAL_ORDER)
+
+    @cached_property
+    def remainder_order(self) -> int | None:
+        """The order at which the first of them begins; None where it is 0 as far as it is followed."""
+        return next((k for k in range(CRITICAL_ORDER) if self.remainders[0].coefficient(k) != 0), None)
+
+    @cached_property
+    def remainder_signs(self) -> set[int]:
+        """Signs of its leading coefficient in random directions of N, as far as balls tell them."""
+        assert self.ball is not None
+        assert self.remainder_order is not None
+        rng, found = self.ball.base.rng, set[int]()
+        for _ in range(DIRECTIONS):
+            direction = [arb(rng.choice((-1, 1)) * rng.randrange(64, 512)) / 256 for _ in self.parts.free]
+            series = critical_set.along(self.ball, self.signs, self.parts, direction, self.remainder_order + 1)[0]
+            value = series.coefficient(self.remainder_order)
+            found |= set() if value.contains(0) else {1 if value > 0 else -1}
+        return found
+
+    @cached_property
+    def initial_forms(self) -> InitialForms:
+        """The lowest-order parts of the dependent relations on a plane across the motions of the whole."""
+        assert self.field is not None
+        return initial_forms.initial_forms(self.field)
+
+    def ahead(self) -> list[float]:
+        """A random direction of N in which it is looked at from a distance."""
+        assert self.ball is not None
+        return _ahead(self.ball, len(self.parts.free))
+
+
+def random_direction(manifold: Manifold) -> Sequence[Scalar]:
+    """A random direction of the manifold's free columns, in its own numbers."""
+    if isinstance(manifold.sample, arb):
+        return [arb(manifold.base.rng.randrange(64, 512)) / 256 for _ in range(manifold.dimension)]
+    return [manifold.base.random() for _ in range(manifold.dimension)]
+
+
+def time_moves(manifold: Manifold, time: int, order: int) -> bool:
+    """Does time, the column of that number, change along a random curve of the manifold, to the order?"""
+    path = manifold.line(random_direction(manifold), order).path[time]
+    return any(not is_zero(path.coefficient(k)) for k in range(1, order))
+
+
+def _ahead(ball: Manifold, count: int) -> list[float]:
+    """Random numbers of either sign, of sizes between a half and one."""
+    return [ball.base.rng.choice((-1, 1)) * ball.base.rng.randrange(128, 256) / 256 for _ in range(count)]

@@ -1,0 +1,102 @@
+"""What is decided beyond the second order: on the critical set N of dependent relations, by a branch, by initial forms.
+
+For one relation f = Q(y) + g(z) in suitable coordinates, Q its second-order part, N = {y = 0} and g its values on N
+(splitting lemma). Q of one sign and g = 0: the set is N. Both signs together: the set has dimension m - 1. One sign,
+and g a function of one variable across the motions of the whole: these are all. For several, N is a branch of the set
+where all of them vanish on it, and the second-order cone bounds what else there is; so it is with a branch that is
+followed in numbers. In two variables across the motions of the whole, initial forms without a common zero leave these.
+"""
+
+from __future__ import annotations
+
+from dofkit.configuration.local.branches import largest_branch
+from dofkit.configuration.local.germ import CRITICAL_ORDER, Conclusion, Germ
+from dofkit.configuration.local.initial_forms import definite_degree, have_no_common_zero
+from dofkit.configuration.local.neighbourhood import holds_on_critical
+from dofkit.configuration.local.second_order import one_form
+
+
+def split_form(germ: Germ) -> bool:
+    """k = 1 over both engines, time is no column, and balls see the whole rank of Q."""
+    if not one_form(germ) or not germ.exact or germ.time is not None:
+        return False
+    return sum(germ.signature) == len(germ.parts.solved)
+
+
+def least_along_a_motion(germ: Germ) -> Conclusion | None:
+    """Q of one sign and g = 0: the set is N, all of it singular [GromollMeyer1969]."""
+    if germ.remainder_order is not None or not germ.parts.solved or not _vanishes_on_critical(germ):
+        return None
+    why = f"to order {CRITICAL_ORDER - 1} the dependent relation has its least value along a motion, all of it singular"
+    return Conclusion(len(germ.parts.free), why)
+
+
+def changing_sign(germ: Germ) -> Conclusion | None:
+    """Q and the lowest order of g have both signs together: f separates M [HurewiczWallman1941]."""
+    order = germ.remainder_order
+    if order is None:
+        return None
+    why = f"beyond its second order the dependent relation changes sign at order {order}"
+    if order % 2:
+        return Conclusion(germ.m - 1, f"{why}: the motion goes on")
+    return Conclusion(germ.m - 1, why) if len(germ.remainder_signs | _sign(germ)) > 1 else None
+
+
+def definite_at_higher_order(germ: Germ) -> Conclusion | None:
+    """Q and g have one sign, and g depends on one variable beside the motions of the whole [GromollMeyer1969]."""
+    order = germ.remainder_order
+    if order is None or germ.remainder_signs != _sign(germ) or len(germ.parts.free) - germ.rigid != 1:
+        return None
+    return Conclusion(germ.rigid, f"the dependent relation is definite at order {order}: no finite motion")
+
+
+def critical_branch(germ: Germ) -> Conclusion | None:
+    """All f_i vanish on N, whose dimension is that of the second-order cone [TangentCone]."""
+    if len(germ.parts.free) != germ.cone:
+        return None
+    if any(s.poly.degree() >= 0 for s in germ.remainders) or not _vanishes_on_critical(germ):
+        return None
+    return Conclusion(
+        germ.cone,
+        f"a motion that is singular all along holds to order {CRITICAL_ORDER - 1}, and the second order allows no more",
+    )
+
+
+def branch_followed(germ: Germ) -> Conclusion | None:
+    """A branch of the dimension of the second-order cone is seen, and there is no larger one [TangentCone]."""
+    if germ.ball is None or largest_branch(germ.ball, germ.signs, germ.cone) != germ.cone:
+        return None
+    why = "a motion was followed away from here to high precision, and the second order allows no more"
+    return Conclusion(germ.cone, why)
+
+
+def of_two_variables(germ: Germ) -> bool:
+    """m - mu = 2, over both engines, and time is no column."""
+    return germ.exact and germ.ball is not None and germ.time is None and germ.m - germ.rigid == 2
+
+
+def no_common_zero(germ: Germ) -> Conclusion | None:
+    """A curve of the set leaves along a common zero of the initial forms, and there is none [CurveSelection]."""
+    if not have_no_common_zero(germ.initial_forms):
+        return None
+    return Conclusion(germ.rigid, "the initial forms of the dependent relations have no common zero: no finite motion")
+
+
+def definite_initial_form(germ: Germ) -> Conclusion | None:
+    """One initial form alone has no real zero [CurveSelection]."""
+    degree = None if germ.ball is None else definite_degree(germ.ball, germ.initial_forms)
+    if degree is None:
+        return None
+    why = f"a dependent relation begins with a definite form of degree {degree}: no finite motion"
+    return Conclusion(germ.rigid, why)
+
+
+def _vanishes_on_critical(germ: Germ) -> bool:
+    """Do the dependent relations vanish on N at a distance too?"""
+    return germ.ball is not None and holds_on_critical(germ.ball, germ.parts, germ.ahead())
+
+
+def _sign(germ: Germ) -> set[int]:
+    """The sign of Q, where it has one."""
+    positive, negative = germ.signature
+    return {1} if positive else {-1} if negative else set()

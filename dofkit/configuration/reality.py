@@ -1,0 +1,83 @@
+"""The real points of a configuration space, and what they say of an answer from points over GF(p)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dofkit.base.verdicts import weakest
+from dofkit.configuration.generic_points import generators_of
+from dofkit.configuration.singular_points import numeric_local
+from dofkit.configuration.variety import Variety
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.zero.independence import independent_generators
+from dofkit.relations.chart import Chart
+
+#: Blocks with more columns than this are not certified with balls.
+BALL_COLUMNS = 60
+
+
+def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
+    """A real point of the nodes ``core``, with balls; None where none is found, or none is looked for."""
+    if len(chart.columns) > BALL_COLUMNS or "balls" not in chart.engines:
+        return None
+    search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
+    try:
+        return search.search(seed)
+    except (OverflowError, ValueError, NoValueError):
+        return None
+
+
+def with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
+    """Hold the real point against what the field said."""
+    real = found.real
+    if "balls" not in chart.engines:
+        return _by_field_alone(chart, found)
+    if len(chart.columns) > BALL_COLUMNS:
+        found.verdict = weakest(found.verdict, "probable")
+        return found
+    if real is None:
+        return _without_reality(chart, found)
+    if not real.certified or not real.consistent:
+        return near_singular_point(chart, found)
+    if real.rank != rank:
+        found.verdict, found.dimension = "undecided", None
+        found.reasons.append("real points and points over GF(p) disagree about the rank: the set has several parts")
+    return found
+
+
+def _by_field_alone(chart: Chart, found: Variety) -> Variety:
+    """Without balls a rank stands only where no relation between functions can have been missed."""
+    if independent_generators(chart.ring):
+        found.verdict = weakest(found.verdict, "probable")
+        return found
+    found.consistent, found.dimension, found.verdict = None, None, "undecided"
+    found.reasons.append("the functions that occur may be related in a way that points over GF(p) do not show")
+    return found
+
+
+def _without_reality(chart: Chart, found: Variety) -> Variety:
+    """No real point: an unknown function may be chosen so that there is one; else nothing is known."""
+    calls = any(chart.ring.vars[i].kind == "call" for i in generators_of(chart))
+    if calls:
+        found.verdict = weakest(found.verdict, "probable")
+        found.reasons.append("for an unknown function that allows real configurations")
+        return found
+    found.consistent, found.dimension, found.verdict = None, None, "undecided"
+    found.reasons.append("no real configuration was found, and none was ruled out")
+    return found
+
+
+def near_singular_point(chart: Chart, found: Variety) -> Variety:
+    """All real points that were found are singular: the dimension is that of the set near one of them."""
+    real = found.real
+    local = None if real is None else numeric_local(chart, real)
+    if local is None or local.dimension is None or local.confined:
+        found.consistent = None
+        found.verdict, found.dimension = "undecided", None
+        found.reasons.append("every real configuration that was found is singular; what moves there was not decided")
+        return found
+    found.dimension = local.dimension - (len(chart.columns) - chart.coordinates)
+    found.verdict = weakest(found.verdict, "numeric")
+    found.reasons.append(f"every real configuration that was found is singular: {local.reason}")
+    return found

@@ -1,0 +1,266 @@
+"""Several expressions as one program over boxes: bounds of all values, forward and backward, and of derivatives.
+
+Running it backward narrows the arguments of every step to those for which it can have its result (hull consistency).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from dofkit.exact.boxes import functions
+from dofkit.exact.boxes import intervals as iv
+from dofkit.exact.boxes.intervals import Interval
+from dofkit.exact.errors import raising_no_value
+from dofkit.expressions.tree import Expr
+
+HALF_TURNS: Interval = (-3.1415926535897936, 3.1415926535897936)
+
+
+Box = list[Interval]
+
+
+@dataclass(frozen=True)
+class Node:
+    """One step: ``op`` is num, var, add, mul, pow, root, fn, atan2 or any; ``args`` are earlier steps."""
+
+    op: str
+    args: tuple[int, ...] = ()
+    data: Any = None
+
+
+class BoxProgram:
+    """A program whose roots must each lie in a given interval.
+
+    Symbols are variables; so is every value of an unknown function, which may be anything.
+    """
+
+    @raising_no_value
+    def __init__(self, wanted: Sequence[tuple[Expr, Interval]]) -> None:
+        self.nodes: list[Node] = []
+        self.variables: list[Expr] = []
+        self._seen: dict[Any, int] = {}
+        self.roots = [(self._node(e), interval) for e, interval in wanted]
+        self.place = {self.nodes[i].data: i for i in range(len(self.nodes)) if self.nodes[i].op == "var"}
+        self.var_nodes = [self.place[k] for k in range(len(self.variables))]
+        self.equations = [node for node, interval in self.roots if interval == (0.0, 0.0)]
+        self.work = 0
+
+    # -- the program ----------------------------------------------------------------------------
+
+    def _emit(self, op: str, args: tuple[int, ...] = (), data: Any = None) -> int:
+        key = (op, args, data)
+        if key not in self._seen:
+            self._seen[key] = len(self.nodes)
+            self.nodes.append(Node(op, args, data))
+        return self._seen[key]
+
+    def _variable(self, e: Expr) -> int:
+        if e not in self._seen:
+            self._seen[e] = self._emit("var", (), len(self.variables))
+            self.variables.append(e)
+        return self._seen[e]
+
+    def _node(self, e: Expr) -> int:
+        if e.op == "num":
+            return self._emit("num", (), iv.number(e.args[0]))
+        if e.op == "const":
+            return self._emit("num", (), functions.constant(e.args[0]))
+        if e.op in ("sym", "call"):
+            return self._variable(e)
+        if e.op in ("add", "mul"):
+            return self._emit(e.op, tuple(self._node(part) for part in e.args))
+        if e.op == "pow":
+            return self._power(e)
+        return self._function(e.args[0], [self._node(part) for part in e.args[1:]])
+
+    def _power(self, e: Expr) -> int:
+        base, exponent = e.args
+        if exponent.op != "num":
+            log = self._emit("fn", (self._node(base),), "log")
+            return self._emit("fn", (self._emit("mul", (self._node(exponent), log)),), "exp")
+        value = exponent.args[0]
+        node = self._node(base)
+        if value.denominator > 1:
+            node = self._emit("root", (node,), value.denominator)
+        if value.numerator != 1:
+            node = self._emit("pow", (node,), abs(value.numerator)) if abs(value.numerator) > 1 else node
+            node = self._emit("inverse", (node,)) if value < 0 else node
+        return node
+
+    def _function(self, name: str, args: list[int]) -> int:
+        if name == "atan2":
+            return self._emit("atan2", tuple(args))
+        if name in ("cot", "sec", "csc"):
+            below = self._emit("fn", (args[0],), "cos" if name == "sec" else "sin")
+            inverse = self._emit("inverse", (below,))
+            return self._emit("mul", (self._emit("fn", (args[0],), "cos"), inverse)) if name == "cot" else inverse
+        return self._emit("fn", (args[0],), name)
+
+    # -- hull consistency ------------------------------------------------------------------------
+
+    def forward(self, box: Box) -> list[Interval]:
+        """The values of all steps over the box. Raises EmptyError where one has none."""
+        at: list[Interval] = []
+        self.work += len(self.nodes)
+        for node in self.nodes:
+            at.append(self._value(node, at, box))
+        return at
+
+    def _value(self, node: Node, at: list[Interval], box: Box) -> Interval:
+        op, args = node.op, node.args
+        if op == "num":
+            value: Interval = node.data
+            return value
+        if op == "var":
+            known: Interval = box[node.data]
+            return known
+        if op in ("add", "mul"):
+            combine = iv.add if op == "add" else iv.mul
+            total = at[args[0]]
+            for i in args[1:]:
+                total = combine(total, at[i])
+            return total
+        return HALF_TURNS if op == "atan2" else _of_one(node, at[args[0]])
+
+    def backward(self, at: list[Interval]) -> None:
+        """Narrow ``at`` from the roots down. Raises EmptyError."""
+        for root, wanted in self.roots:
+            at[root] = iv.meet(at[root], wanted)
+        for i in range(len(self.nodes) - 1, -1, -1):
+            node = self.nodes[i]
+            if node.op in ("add", "mul"):
+                self._backward_many(node, at, at[i])
+            elif node.args and node.op != "atan2":
+                (j,) = node.args
+                at[j] = self._narrowed(node, at[j], at[i])
+
+    def _narrowed(self, node: Node, x: Interval, result: Interval) -> Interval:
+        """The part of the one argument for which the step can have the result."""
+        if node.op == "pow":
+            if node.data % 2:
+                return iv.meet(x, iv.root(result, node.data))
+            return iv.solve_even(x, iv.root(iv.meet(result, iv.NON_NEGATIVE), node.data))
+        if node.op == "inverse":
+            return iv.solve_product(x, result, (1.0, 1.0))
+        if node.op == "root":
+            allowed = result if node.data % 2 else iv.meet(result, iv.NON_NEGATIVE)
+            return iv.meet(x, iv.integer_power(allowed, node.data))
+        return functions.solve_function(node.data, x, result)
+
+    def _backward_many(self, node: Node, at: list[Interval], result: Interval) -> None:
+        """Each term or factor from the result and the others."""
+        adds = node.op == "add"
+        combine, neutral = (iv.add, (0.0, 0.0)) if adds else (iv.mul, (1.0, 1.0))
+        after = [neutral]
+        for i in reversed(node.args[1:]):
+            after.append(combine(after[-1], at[i]))
+        before = neutral
+        for i, rest in zip(node.args, reversed(after), strict=True):
+            others = combine(before, rest)
+            old = at[i]
+            at[i] = iv.meet(old, iv.minus(result, others)) if adds else iv.solve_product(old, others, result)
+            before = combine(before, old)
+
+    def total(self, at: list[Interval]) -> bool:
+        """Is every step defined for all arguments in the box?"""
+        return all(_defined(node, at[node.args[0]]) for node in self.nodes if len(node.args) == 1)
+
+    # -- derivatives ----------------------------------------------------------------------------------
+
+    def gradient(self, root: int, at: list[Interval]) -> list[Interval]:
+        """Bounds of the derivatives of one root by every variable over the box."""
+        bars: dict[int, Interval] = {root: (1.0, 1.0)}
+        found: list[Interval] = [(0.0, 0.0)] * len(self.variables)
+        for i in range(root, -1, -1):
+            bar = bars.pop(i, None)
+            if bar is None:
+                continue
+            node = self.nodes[i]
+            if node.op == "var":
+                found[node.data] = bar
+            for j, slope in self._slopes(node, at, i):
+                part = iv.mul(bar, slope)
+                bars[j] = iv.add(bars[j], part) if j in bars else part
+        return found
+
+    def _slopes(self, node: Node, at: list[Interval], i: int) -> list[tuple[int, Interval]]:
+        op, args = node.op, node.args
+        if op == "add":
+            return [(j, (1.0, 1.0)) for j in args]
+        if op == "mul":
+            found = []
+            for k, j in enumerate(args):
+                others: Interval = (1.0, 1.0)
+                for other, m in enumerate(args):
+                    if other != k:
+                        others = iv.mul(others, at[m])
+                found.append((j, others))
+            return found
+        if op == "atan2":
+            return [(j, iv.WHOLE) for j in args]
+        return [(args[0], _slope(node, at[args[0]], at[i]))] if args else []
+
+
+def _of_one(node: Node, x: Interval) -> Interval:
+    """All values of a step with one argument. Raises EmptyError where it has none."""
+    if node.op == "pow":
+        return iv.integer_power(x, node.data)
+    if node.op == "inverse":
+        return iv.hull(iv.inverse(x))
+    return iv.root(x, node.data) if node.op == "root" else functions.function(node.data, x)
+
+
+def _defined(node: Node, x: Interval) -> bool:
+    if node.op == "inverse":
+        return not iv.contains_zero(x)
+    if node.op == "root":
+        return x[0] >= 0.0 or node.data % 2 == 1
+    if node.op == "fn" and node.data in ("asin", "acos"):
+        return x[0] >= -1.0 and x[1] <= 1.0
+    if node.op == "fn" and node.data == "tan":
+        return functions.function("tan", x) != iv.WHOLE
+    return node.op != "fn" or node.data != "log" or x[0] > 0.0
+
+
+def _slope(node: Node, x: Interval, value: Interval) -> Interval:
+    """Bounds of the derivative of a step with one argument."""
+    if node.op == "pow":
+        power = iv.integer_power(x, node.data - 1) if node.data > 1 else (1.0, 1.0)
+        return iv.mul((float(node.data), float(node.data)), power)
+    if node.op == "inverse":
+        return iv.negative(iv.integer_power(value, 2))
+    if node.op == "root":
+        below = iv.mul((float(node.data), float(node.data)), iv.integer_power(value, node.data - 1))
+        return _inverse(below)
+    return _function_slope(node.data, x, value)
+
+
+def _inverse(a: Interval) -> Interval:
+    parts = iv.inverse(a)
+    return iv.hull(parts) if parts and not a[0] < 0.0 < a[1] else iv.WHOLE
+
+
+def _function_slope(name: str, x: Interval, value: Interval) -> Interval:
+    square = iv.integer_power(x, 2)
+    if name == "exp":
+        return value
+    if name in ("sin", "cos"):
+        other = functions.function("cos" if name == "sin" else "sin", x)
+        return other if name == "sin" else iv.negative(other)
+    if name in ("sinh", "cosh"):
+        return functions.function("cosh" if name == "sinh" else "sinh", x)
+    if name == "tan":
+        return iv.add((1.0, 1.0), iv.integer_power(value, 2))
+    if name == "tanh":
+        return iv.meet(iv.minus((1.0, 1.0), iv.integer_power(value, 2)), (0.0, 1.0))
+    if name == "log":
+        return _inverse(x)
+    if name == "atan":
+        return _inverse(iv.add((1.0, 1.0), square))
+    if name in ("asin", "acos"):
+        inside = iv.minus((1.0, 1.0), square)
+        slope = _inverse(iv.root((max(inside[0], 0.0), max(inside[1], 0.0)), 2))
+        return slope if name == "asin" else iv.negative(slope)
+    return ((1.0, 1.0) if x[0] > 0 else (-1.0, -1.0) if x[1] < 0 else (-1.0, 1.0)) if name == "abs" else iv.WHOLE

@@ -1,0 +1,258 @@
+"""Real points of {g = 0}: a search in floating point, and a certificate in balls.
+
+Gauss-Newton from random starts in floating point, refined to high precision on a regular subset of the relations,
+and certified by the interval Newton test: the ball then contains a true real zero of that subset, and only one.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from flint import arb, arb_mat, ctx
+
+from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part
+from dofkit.exact.matrices.singular_values import independent_part
+from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions.tree import Expr
+
+STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
+#: So often a step that leaves the domain of the functions is halved.
+HALVINGS = 8
+#: After this many singular points no regular one is looked for.
+SINGULAR_TRIES = 4
+#: A Newton step smaller than the precision by so many bits ends the refinement.
+SPARE_BITS = 16
+
+
+@dataclass(frozen=True)
+class RealPoint:
+    """A real point of the variety.
+
+    ``point``: ball values of all symbols. ``part``: of the Jacobian there by the unknowns, a regular part of its rows;
+    ``certified``: the ball contains a true zero of as many independent relations; ``consistent``: the other
+    relations' balls contain 0 too. ``matrix``: the Jacobian by the ranked symbols that occur.
+    """
+
+    point: BallPoint
+    part: PivotedPart
+    certified: bool
+    consistent: bool
+    matrix: list[list[arb]]
+
+    @property
+    def rank(self) -> int:
+        return self.part.rank
+
+    @property
+    def rows(self) -> tuple[int, ...]:
+        return tuple(self.part.rows)
+
+    @property
+    def gap(self) -> float:
+        return self.part.gap
+
+
+class RealSearch:
+    """Looks for real points on the zero set of ``nodes``, moving ``unknowns``.
+
+    Generic geometry is among the unknowns: it is whatever the point makes it.
+    """
+
+    def __init__(
+        self,
+        ring: Ring,
+        nodes: Sequence[int],
+        unknowns: Sequence[Expr],
+        positive: frozenset[Expr],
+        ranked: Sequence[Expr] | None = None,
+    ) -> None:
+        """``ranked``: the symbols by which the rank is meant, where it is not all unknowns."""
+        self.ring = ring
+        self.nodes = list(nodes)
+        self.ranked = None if ranked is None else [i for s in ranked if (i := ring.var_index(s)) is not None]
+        self.unknowns = [u for u in unknowns if ring.var_index(u) is not None]
+        self.columns = [ring.var_index(u) or 0 for u in self.unknowns]
+        self.positive = positive
+        self.upto = len(ring.code)
+
+    def start(self, seed: int, given: Mapping[Expr, float]) -> dict[Expr, float]:
+        """Random dyadic values, so that what is not solved for is an exact number."""
+        rng = random.Random(f"dofkit start {seed}")
+        found = {}
+        for var in self.ring.vars:
+            if var.kind == "symbol":
+                low = 256 if var.key in self.positive or var.key.args[0] in ("time", "parameter") else -1024
+                value = rng.randrange(low, 1025) / 512 or 0.25
+                found[var.key] = given.get(var.key, value)
+        return found
+
+    @raising_no_value
+    def search(
+        self,
+        seed: int = 0,
+        given: Mapping[Expr, float] | None = None,
+        starts: int = STARTS,
+        steps: int = ITERATIONS,
+    ) -> RealPoint | None:
+        """The first certified point found, else any; ``given`` values of symbols are where the search begins."""
+        singular: RealPoint | None = None
+        tries = 0
+        for attempt in range(starts):
+            symbols = self.start(seed * STARTS + attempt, given or {})
+            found = self.descend(symbols, seed, steps)
+            refined = None if found is None else self.refine(symbols, found, seed)
+            if refined is not None and refined.certified and refined.consistent:
+                return refined
+            tries += refined is not None
+            singular = singular or refined
+            if tries == SINGULAR_TRIES:
+                break
+        return singular
+
+    def descend(self, symbols: dict[Expr, float], seed: int, steps: int = ITERATIONS) -> np.ndarray | None:
+        """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end.
+
+        At a singular point each step only halves the distance: it goes on until the steps are fast, or to the last.
+        """
+        if not self.nodes:
+            return np.zeros((0, len(self.columns)))
+        previous, j = math.inf, np.zeros((0, 0))
+        base, step = dict.fromkeys(self.unknowns, 0.0), np.array([symbols[u] for u in self.unknowns])
+        for _ in range(steps):
+            check()
+            found = self._within_domain(symbols, base, step, seed)
+            if found is None:
+                return None
+            f, j = found
+            reach = max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
+            scale = np.abs(j).max(axis=1, initial=0) + 1e-300
+            residual = float(np.max(np.abs(f) / scale)) / reach
+            if not math.isfinite(residual):
+                return None
+            fast, stands = residual <= previous / 8, residual >= 0.9 * previous
+            if residual == 0 or (residual < 1e-13 and (fast or stands)) or (residual < 1e-11 and stands):
+                return j
+            previous = residual
+            step = np.linalg.lstsq(j / scale[:, None], -f / scale, rcond=1e-12)[0]
+            length = float(np.linalg.norm(step))
+            if length > 4 * reach:
+                step *= 4 * reach / length
+            base = {u: symbols[u] for u in self.unknowns}
+            for u, s in zip(self.unknowns, step, strict=True):
+                symbols[u] += float(s)
+        return j if previous < 1e-13 else None
+
+    def _within_domain(
+        self, symbols: dict[Expr, float], base: Mapping[Expr, float], step: np.ndarray, seed: int
+    ) -> tuple[np.ndarray, np.ndarray] | None:
+        """The system at ``symbols``; where it has no value there, at ``base`` and half of the step, and so on."""
+        for halvings in range(HALVINGS):
+            try:
+                return self.float_system(symbols, seed)
+            except (ValueError, OverflowError, NoValueError):
+                for u, s in zip(self.unknowns, step, strict=True):
+                    symbols[u] = base[u] + float(s) / 2 ** (halvings + 1)
+        return None
+
+    def float_system(self, symbols: Mapping[Expr, float], seed: int) -> tuple[np.ndarray, np.ndarray]:
+        point = FloatPoint(symbols, seed)
+        at = values(self.ring, point, self.upto)
+        f = np.array([at[n] for n in self.nodes], dtype=float)
+        j = np.array(jacobian(self.ring, at, point, self.nodes, self.columns, 0.0), dtype=float)
+        return f, j.reshape(len(self.nodes), len(self.columns))
+
+    def refine(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
+        """To high precision on independent rows, and the interval Newton test.
+
+        Rows that floating point takes for dependent are tried as independent where the others do not imply them.
+        """
+        if any(symbols[p] <= 0 for p in self.positive if p in symbols):
+            return None
+        with ctx.workprec(max(ctx.prec, precision())):
+            return self._precise(symbols, j, seed)
+
+    def _precise(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
+        _, _, rows, columns = independent_part(j)
+        found = self._refined(symbols, rows, columns, seed)
+        if (found is not None and found.certified and found.consistent) or len(rows) == len(self.nodes):
+            return found
+        part = self._part_at(symbols, seed)
+        if part is None or part.rank <= len(rows):
+            return found
+        other = self._refined(symbols, part.rows, part.columns, seed)
+        return other if other is not None and other.certified and other.consistent else found
+
+    def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> PivotedPart | None:
+        """A regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
+        if len(self.nodes) ** 2 * len(self.columns) > ORDERED:
+            return None
+        point = BallPoint({s: arb(v) for s, v in symbols.items()}, seed)
+        try:
+            at = values(self.ring, point, self.upto)
+            return ball_part(jacobian(self.ring, at, point, self.nodes, self.columns, arb(0)))
+        except NoValueError:
+            return None
+
+    def _refined(
+        self, symbols: Mapping[Expr, float], rows: Sequence[int], columns: Sequence[int], seed: int
+    ) -> RealPoint | None:
+        exact, certified = {s: arb(v) for s, v in symbols.items()}, True
+        if rows:
+            moved = self._newton(exact, rows, columns, seed)
+            if moved is None:
+                return None
+            exact, certified = moved
+        point = BallPoint(exact, seed)
+        try:
+            at = values(self.ring, point, self.upto)
+            ranked = self.columns if self.ranked is None else self.ranked
+            matrix = jacobian(self.ring, at, point, self.nodes, ranked, arb(0))
+        except NoValueError:
+            return None
+        consistent = all(at[n].contains(0) for n in self.nodes)
+        return RealPoint(point, ball_part(matrix), certified, consistent, matrix)
+
+    def _newton(
+        self, exact: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
+    ) -> tuple[dict[Expr, arb], bool] | None:
+        nodes = [self.nodes[r] for r in rows]
+        unknowns = [self.unknowns[c] for c in columns]
+        indices = [self.columns[c] for c in columns]
+        tiny = 2.0 ** (SPARE_BITS - precision())
+        try:
+            for _ in range(NEWTON_STEPS):
+                f, j = self._ball_system(exact, nodes, indices, seed)
+                step = j.solve(f)
+                for i, u in enumerate(unknowns):
+                    exact[u] = (exact[u] - step[i, 0]).mid()
+                if all(abs(step[i, 0]) <= (1 + abs(exact[u])) * tiny for i, u in enumerate(unknowns)):
+                    break
+            radius = arb(0, arb(2) ** -(precision() // 2))
+            boxed = {**exact, **{u: exact[u] + radius for u in unknowns}}
+            f, _ = self._ball_system(exact, nodes, indices, seed)
+            _, j = self._ball_system(boxed, nodes, indices, seed)
+            step = j.solve(f)
+        except NoValueError:
+            return None
+        inside = True  # [KrawczykNewton]
+        for i, u in enumerate(unknowns):
+            new = exact[u] - step[i, 0]
+            inside = inside and bool(boxed[u].contains_interior(new))
+            boxed[u] = new
+        return boxed, inside
+
+    def _ball_system(
+        self, exact: Mapping[Expr, arb], nodes: Sequence[int], indices: Sequence[int], seed: int
+    ) -> tuple[arb_mat, arb_mat]:
+        point = BallPoint(exact, seed)
+        at = values(self.ring, point, self.upto)
+        j = jacobian(self.ring, at, point, nodes, indices, arb(0))
+        return arb_mat([[at[n]] for n in nodes]), arb_mat(j)

@@ -1,0 +1,86 @@
+"""Substitution in expressions, and their partial derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+
+from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr, add, call, children, fn, mul, num, power, rebuild
+
+
+def substitute(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
+    """``e`` with symbols replaced by expressions, all at once."""
+    keys = frozenset(mapping)
+    memo: dict[Expr, Expr] = {}
+
+    def go(node: Expr) -> Expr:
+        if keys.isdisjoint(node.symbols):
+            return node
+        if node.op == "sym":
+            return mapping[node]
+        found = memo.get(node)
+        if found is None:
+            found = memo[node] = rebuild(node, tuple(go(child) for child in children(node)))
+        return found
+
+    return go(e)
+
+
+_DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
+    "sin": lambda u: fn("cos", u),
+    "cos": lambda u: -fn("sin", u),
+    "tan": lambda u: power(fn("cos", u), num(-2)),
+    "cot": lambda u: -power(fn("sin", u), num(-2)),
+    "sec": lambda u: fn("sin", u) * power(fn("cos", u), num(-2)),
+    "csc": lambda u: -fn("cos", u) * power(fn("sin", u), num(-2)),
+    "asin": lambda u: power(ONE - u * u, num(Fraction(-1, 2))),
+    "acos": lambda u: -power(ONE - u * u, num(Fraction(-1, 2))),
+    "atan": lambda u: power(ONE + u * u, MINUS_ONE),
+    "sinh": lambda u: fn("cosh", u),
+    "cosh": lambda u: fn("sinh", u),
+    "tanh": lambda u: power(fn("cosh", u), num(-2)),
+    "exp": lambda u: fn("exp", u),
+    "log": lambda u: power(u, MINUS_ONE),
+    "abs": lambda u: u / fn("abs", u),
+}
+
+
+def diff(e: Expr, symbol: Expr) -> Expr:
+    """The partial derivative by one symbol, all other symbols held."""
+    memo: dict[Expr, Expr] = {}
+
+    def go(node: Expr) -> Expr:
+        if node is symbol or node == symbol:
+            return ONE
+        if symbol not in node.symbols:
+            return ZERO
+        found = memo.get(node)
+        if found is None:
+            found = memo[node] = _diff_node(node, go)
+        return found
+
+    return go(e)
+
+
+def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:
+    if node.op == "add":
+        return add(*(go(term) for term in node.args))
+    if node.op == "mul":
+        parts = node.args
+        return add(*(mul(go(part), *parts[:i], *parts[i + 1 :]) for i, part in enumerate(parts)))
+    if node.op == "pow":
+        base, exponent = node.args
+        if exponent.op == "num":
+            return mul(exponent, power(base, exponent - 1), go(base))
+        return mul(node, go(exponent) * fn("log", base) + exponent * go(base) / base)
+    if node.op == "call":
+        name, orders, arguments = node.args
+        raised = (tuple(o + (i == j) for j, o in enumerate(orders)) for i in range(len(orders)))
+        return add(*(mul(call(name, arguments, up), go(a)) for up, a in zip(raised, arguments, strict=True)))
+    if node.args[0] == "atan2":
+        y: Expr
+        x: Expr
+        y, x = node.args[1:]
+        return (x * go(y) - y * go(x)) / (x * x + y * y)
+    argument: Expr = node.args[1]
+    return mul(_DERIVATIVES[node.args[0]](argument), go(argument))

@@ -1,0 +1,274 @@
+"""An answer's Lagrangian or equations of motion, compared with those that are right.
+
+Lagrangians are the same where the difference satisfies Euler's equation identically (then it is a total derivative by
+time). Equations of motion are the same where they allow the same accelerations: an answer's equation follows where the
+accelerations of the scene's own equations satisfy it, and the system is complete where it fixes all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from itertools import permutations
+from typing import NamedTuple
+
+from flint import nmod_mat
+
+from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero.independence import independent_generators
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr
+from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
+from dofkit.motion.lagrange.rates import by_time
+
+#: Systems up to this size are solved by Cramer's rule where points alone may mislead.
+BY_CRAMER = 3
+
+
+def euler(e: Expr, name: str) -> Expr:
+    """d/dt de/dqdot - de/dq."""
+    return by_time(diff(e, ex.velocity(name))) - diff(e, ex.coordinate(name))
+
+
+def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | None:
+    """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then.
+
+    Beside finite relations it is enough that it gives no other force than the relations do, where they hold.
+    """
+    gap = answer - right
+    if any(s.args[0] == "acceleration" for s in gap.symbols):
+        return None
+    forces = [euler(gap, n) for n in known.names]
+    told = [is_zero(e, known.positive) for e in forces]
+    if False in told and known.relations:
+        return _spanned(forces, known)
+    return False if False in told else None if None in told else True
+
+
+def _spanned(forces: Sequence[Expr], known: RightMotion) -> bool | None:
+    """Are forces sums of those of the constraints, at every state and acceleration that these allow?"""
+    columns = [ex.sym("acceleration", n) for n in known.names]
+    lines = [linear(known.on_constraints(e), columns) for e in forces]
+    held = [linear(known.on_constraints(e), columns) for e in known.rows]
+    if None in lines or None in held:
+        return None
+    ring = Ring([e for row in (*lines, *held) for e in row or ()] + [*known.relations], known.positive)
+    nodes = [[[ring.node(e) for e in row or ()] for row in rows] for rows in (lines, held)]
+    told = []
+    for p, at in points(ring, known.relations):
+        own, rows = ([[int(at[i]) for i in row] for row in part] for part in nodes)
+        moving = _accelerations(rows, p)
+        if moving is None:
+            continue
+        force = [(_dot(row[:-1], moving) + row[-1]) % p for row in own]
+        gradients = [row[:-1] for row in rows]
+        told.append(rank_of([*gradients, force], p) == rank_of(gradients, p))
+    if len(told) < POINTS:
+        return None
+    return all(told) if all(told) or independent_generators(ring) else None
+
+
+def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
+    """Some accelerations that satisfy rows whose last entry is the constant term, random where they are free."""
+    n = len(rows[0]) - 1
+    chosen = [pow(3, 7 + i, p) for i in range(n)]
+    reduced, rank = nmod_mat([list(row) for row in rows], p).rref()
+    for i in range(int(rank)):
+        row = [int(reduced[i, j]) for j in range(n + 1)]
+        pivot = next(j for j, v in enumerate(row) if v)
+        if pivot == n:
+            return None
+        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j > pivot)) % p
+    for i in range(int(rank) - 1, -1, -1):
+        row = [int(reduced[i, j]) for j in range(n + 1)]
+        pivot = next(j for j, v in enumerate(row) if v)
+        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j != pivot)) % p
+    return chosen
+
+
+class MotionSameness(Enum):
+    """How an equation of motion compares with the scene's; the value is a stable code."""
+
+    FOLLOWS = "FOLLOWS"
+    NOT = "WRONG_MOTION"
+    TRIVIAL = "NO_ACCELERATION"
+
+
+@dataclass(frozen=True)
+class AnsweredMotion:
+    """Equations of an answer (each is 0) beside those that are right; ``own``: the answer's names for multipliers."""
+
+    known: RightMotion
+    equations: tuple[Expr, ...]
+    own: tuple[Expr, ...] = ()
+
+    @cached_property
+    def columns(self) -> list[Expr]:
+        """The accelerations of the coordinates kept."""
+        return [ex.sym("acceleration", n) for n in self.known.names]
+
+    @cached_property
+    def rows(self) -> list[list[Expr]] | None:
+        """Coefficients of accelerations and own multipliers, and the rest; None where the equations are not linear."""
+        found = []
+        unknown = [*self.columns, *self.own]
+        for e in self.equations:
+            e = self.known.on_constraints(self.known.in_kept(_in_time(e)))
+            row = linear(e, unknown)
+            if row is None:
+                return None
+            found.append(row)
+        return found
+
+    @cached_property
+    def right(self) -> list[list[Expr]]:
+        """The same of the scene's equations with their multipliers, and the constraints' accelerations."""
+        unknown = [*self.columns, *self.known.multipliers]
+        given = [*self.known.equations.values(), *self.known.rows]
+        return [row for e in given if (row := linear(self.known.on_constraints(e), unknown)) is not None]
+
+    @property
+    def decidable(self) -> bool:
+        """Can it be decided at points: is everything linear?"""
+        whole = len(self.known.names) + len(self.known.multipliers)
+        return self.rows is not None and len(self.right) == whole
+
+    def follow(self) -> tuple[list[MotionSameness], int] | None:
+        """How each equation compares, and how many accelerations those that follow fix; None where it is open.
+
+        Multipliers of the answer's own may have any value: an equation follows where there is one at which the
+        scene's accelerations satisfy all that hold it.
+        """
+        rows = self.rows
+        if rows is None or not self.decidable:
+            return None
+        ring = Ring([*(e for row in (*rows, *self.right) for e in row), *self.known.relations], self.known.positive)
+        given = [[ring.node(e) for e in row] for row in rows]
+        right = [[ring.node(e) for e in row] for row in self.right]
+        told = list(_at_points(ring, right, given, len(self.columns), self.known))
+        if not told:
+            return None
+        sound = [all(t.sound[i] for t in told) for i in range(len(rows))]
+        if not all(sound) and not independent_generators(ring):
+            exact = self._by_cramer()
+            if exact is None:
+                return None
+            sound = exact
+        n = len(self.columns)
+        rank = max(t.rank if all(sound) else t.sound_rank(sound, n) for t in told)
+        still = [not any(v for t in told for v in t.rows[i][:n]) for i in range(len(rows))]
+        return [_verdict(s, z) for s, z in zip(sound, still, strict=True)], rank
+
+    def _by_cramer(self) -> list[bool] | None:
+        """Which equations the accelerations satisfy, identically: det(M) times the equation, by Cramer's rule."""
+        n = len(self.columns)
+        if self.own or self.known.multipliers or n > BY_CRAMER or self.rows is None:
+            return None
+        matrix = [row[:n] for row in self.right]
+        rest = [row[n] for row in self.right]
+        whole = determinant(matrix)
+        solved = [determinant([[*r[:j], ex.mul(MINUS_ONE, b), *r[j + 1 :]] for r, b in zip(matrix, rest, strict=True)])
+                  for j in range(n)]  # fmt: skip
+        sums = [ex.add(row[n] * whole, *(a * s for a, s in zip(row[:n], solved, strict=True))) for row in self.rows]
+        told = [is_zero(e, self.known.positive) for e in sums]
+        return None if None in told else [t is True for t in told]
+
+
+def _verdict(sound: bool, still: bool) -> MotionSameness:
+    if not sound:
+        return MotionSameness.NOT
+    return MotionSameness.TRIVIAL if still else MotionSameness.FOLLOWS
+
+
+class PointFindings(NamedTuple):
+    """At one point over GF(p): which rows follow, the rank of all, and the rows."""
+
+    sound: list[bool]
+    rank: int
+    rows: list[list[int]]
+    p: int
+
+    def sound_rank(self, sound: Sequence[bool], n: int) -> int:
+        """The rank of the accelerations in the rows that follow everywhere, if they hold no multipliers."""
+        return rank_of([row[:n] for row, s in zip(self.rows, sound, strict=True) if s and not any(row[n:-1])], self.p)
+
+
+def _at_points(
+    ring: Ring, right: Sequence[Sequence[int]], given: Sequence[Sequence[int]], n: int, known: RightMotion
+) -> Iterator[PointFindings]:
+    """At random points: which rows hold with the right accelerations, and the rank of all."""
+    constraints = len(known.rows)
+    for p, at in points(ring, known.relations):
+        rows = [[int(at[i]) for i in row] for row in right]
+        try:
+            solution = _solve(rows, p)
+        except NoValueError:
+            continue
+        own = [[int(at[i]) for i in row] for row in given]
+        inserted = [[*row[n:-1], (row[-1] + _dot(row[:n], solution[:n])) % p] for row in own]
+        sound = _consistent(inserted, p)
+        held = rows[len(rows) - constraints :] if constraints else []
+        width = len(own[0]) - 1 - n if own else 0
+        every = [row[:-1] for row in own] + [[*row[:n], *([0] * width)] for row in held]
+        rank = rank_of(every, p) - rank_of([row[n:-1] for row in own], p) if own else 0
+        yield PointFindings(sound, rank - (rank_of([row[:n] for row in held], p) if held else 0), own, p)
+
+
+def _dot(a: Sequence[int], b: Sequence[int]) -> int:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+@raising_no_value
+def _solve(rows: list[list[int]], p: int) -> list[int]:
+    """The solution of rows whose last entry is the constant term."""
+    if not rows:
+        return []
+    matrix = nmod_mat([row[:-1] for row in rows], p)
+    column = nmod_mat([[-row[-1] % p] for row in rows], p)
+    found = matrix.solve(column)
+    return [int(found[i, 0]) for i in range(len(rows))]
+
+
+def _consistent(rows: list[list[int]], p: int) -> list[bool]:
+    """For each row (own multipliers, constant): can it hold together with the rows before it that can?"""
+    kept: list[list[int]] = []
+    told = []
+    for row in rows:
+        tried = [*kept, row]
+        holds = rank_of(tried, p) == rank_of([r[:-1] for r in tried], p)
+        told.append(holds)
+        if holds:
+            kept = tried
+    return told
+
+
+def _in_time(e: Expr) -> Expr:
+    """Differentials read as velocities."""
+    rates = {s: ex.velocity(str(s.args[1])) for s in e.symbols if s.args[0] == "differential"}
+    return substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
+
+
+def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
+    """The coefficients of unknowns and what is left without them; None where ``e`` is not linear as written."""
+    row = [diff(e, s) for s in unknown]
+    moving = {*unknown}
+    if any(c.symbols & moving or any(s.args[0] == "acceleration" for s in c.symbols) for c in row):
+        return None
+    rest = substitute(e, dict.fromkeys(unknown, ZERO))
+    if any(s.args[0] in ("acceleration", "differential", "dt") for s in rest.symbols):
+        return None
+    return [*row, rest]
+
+
+def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
+    """By Leibniz's formula, for a few rows."""
+    terms = []
+    for order in permutations(range(len(rows))):
+        swaps = sum(a > b for i, a in enumerate(order) for b in order[i + 1 :])
+        terms.append(ex.mul(MINUS_ONE if swaps % 2 else ONE, *(rows[i][j] for i, j in enumerate(order))))
+    return ex.add(*terms)

@@ -1,0 +1,160 @@
+"""The equations of motion that are right for a scene, as expressions to compare an answer with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from dofkit.base.errors import DofkitError
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.field import field_point
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.exact.zero.independence import independent_generators
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.tree import ZERO, Expr
+from dofkit.motion.lagrange.derivation import derive
+from dofkit.motion.lagrange.elimination import ELIMINATIONS
+from dofkit.motion.lagrange.equations import derived_of, read
+from dofkit.motion.lagrange.model import in_velocities
+from dofkit.motion.lagrange.rates import by_time
+from dofkit.relations.normal.normal_form import Finite, Pfaffian
+from dofkit.scene.scene import Scene
+
+#: Points over GF(p), and how many are tried for them.
+POINTS, ATTEMPTS = 3, 40
+#: Larger expressions are not compared.
+MOST_NODES = 4000
+
+
+@dataclass(frozen=True)
+class RightMotion:
+    """What is right: in the coordinates that are kept.
+
+    ``motions`` replaces what is eliminated, ``rates`` the velocities that constraints give by others. ``rows`` are
+    d/dt of the constraints that keep a multiplier, ``relations`` those of them that hold between coordinates.
+    """
+
+    names: tuple[str, ...]
+    lagrangian: Expr
+    total: Expr
+    momenta: Mapping[str, Expr]
+    forces: Mapping[str, Expr]
+    equations: Mapping[str, Expr]
+    multipliers: tuple[Expr, ...]
+    motions: Mapping[Expr, Expr]
+    rates: Mapping[Expr, Expr]
+    rows: tuple[Expr, ...]
+    relations: tuple[Expr, ...]
+    unreduced: Mapping[str, tuple[Expr, Expr]]
+    positive: frozenset[Expr]
+
+    def in_kept(self, e: Expr) -> Expr:
+        """An answer in the coordinates that are kept."""
+        return substitute(e, self.motions)
+
+    def on_constraints(self, e: Expr) -> Expr:
+        """The same where the constraints hold."""
+        return substitute(e, self.rates)
+
+    def zero(self, e: Expr) -> bool | None:
+        """Is an expression 0 where the constraints hold? None where that was not decided."""
+        moved = self.on_constraints(e)
+        found = is_zero(moved, self.positive)
+        return found if found is not False or not self.relations else self._zero_there(moved)
+
+    def _zero_there(self, e: Expr) -> bool | None:
+        """At points where the finite relations hold."""
+        ring = Ring([e, *self.relations], self.positive)
+        node = ring.node(e)
+        told = [found[node] == 0 for _, found in points(ring, self.relations)]
+        if len(told) < POINTS:
+            return None
+        return all(told) if all(told) or independent_generators(ring) else None
+
+
+def points(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
+    """Random points over GF(p) where the relations hold, a few: the prime, and the values of the ring's nodes."""
+    solver = TriangularSolver(ring, [ring.node(g) for g in relations], seed=3) if relations else None
+    found = 0
+    for seed in range(ATTEMPTS):
+        point = field_point([ring], 500 + seed) if solver is None else solver.draw(500 + seed)
+        if point is None:
+            return
+        try:
+            at = values(ring, point)
+        except NoValueError:
+            continue
+        yield point.p, at
+        found += 1
+        if found == POINTS:
+            return
+
+
+def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
+    """What is right of a scene; ``whole``: with nothing eliminated. Raises DofkitError without equations of motion."""
+    derived = derive(read(scene).model(ELIMINATIONS[-1])) if whole else derived_of(scene)
+    model = derived.model
+    rates: dict[Expr, Expr] = {}
+    for piece in model.constraints:
+        if isinstance(piece, (Pfaffian, Finite)):
+            form = by_time(piece.expr) if isinstance(piece, Finite) else in_velocities(piece)
+            _add_rate(form, rates, model.positive)
+    given = model.whole
+    unreduced = {}
+    for c in model.study.system.coordinates:
+        v = ex.velocity(c.name)
+        force = diff(given.lagrangian, ex.coordinate(c.name)) - diff(given.dissipation, v)
+        pair = (diff(given.lagrangian, v), force + given.forces.get(c.name, ZERO))
+        unreduced[c.name] = (substitute(pair[0], model.motions), substitute(pair[1], model.motions))
+    rows = [by_time(by_time(p.expr)) if isinstance(p, Finite) else by_time(in_velocities(p)) for p in model.constraints]
+    return RightMotion(
+        model.names,
+        derived.lagrangian,
+        model.energy.kinetic + model.energy.potential,
+        derived.momenta,
+        derived.forces,
+        derived.equations,
+        tuple(ex.parameter(n) for n in derived.multipliers),
+        model.motions,
+        rates,
+        tuple(rows),
+        tuple(model.holonomic),
+        unreduced,
+        model.positive,
+    )
+
+
+def _add_rate(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) -> None:
+    """One more velocity by the others, from a form that is 0."""
+    form = substitute(form, rates)
+    for v in sorted((s for s in form.symbols if s.args[0] == "velocity"), key=lambda s: s.args):
+        slope = diff(form, v)
+        if is_zero(slope, positive) is False:
+            value = -substitute(form, {v: ZERO}) / slope
+            rates.update({w: substitute(e, {v: value}) for w, e in rates.items()})
+            rates[v] = value
+            return
+
+
+def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
+    """Zero identically? None where it is too large, has no value or was told by figures only."""
+    if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
+        return None
+    try:
+        found, verdict = zero_and_verdict(e, positive)
+    except ArithmeticError:
+        return None
+    return None if found and verdict not in ("proved", "probable") else found
+
+
+def right_motion_or_why(scene: Scene, whole: bool = False) -> RightMotion | DofkitError:
+    """What is right of a scene, or why it is not known."""
+    try:
+        return right_motion(scene, whole)
+    except DofkitError as error:
+        return error

@@ -1,0 +1,44 @@
+"""Freedom and labels of a block with differential relations from real points alone."""
+
+from __future__ import annotations
+
+from flint import arb
+
+from dofkit.base.verdicts import Verdict
+from dofkit.configuration.drawing.at_reference import CLEAR
+from dofkit.exact.matrices.certified import ball_part, dependencies
+from dofkit.exact.matrices.sparse import sparse
+from dofkit.exact.points.frames import pairing
+from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.ring.program import values
+from dofkit.integrability.codistribution import Codistribution, linear_rows
+from dofkit.integrability.lie_algebra_at_points import ball_span
+from dofkit.relations.answer import Answer, HolonomyLabel
+from dofkit.relations.blocks import Block
+from dofkit.relations.normal.normal_form import Finite
+
+
+def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> None:
+    """With real points only: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
+    at = values(forms.chart.ring, real.point)
+    matrix = forms.rows.matrix(at, arb(0))
+    part = ball_part(matrix)
+    rank = part.rank
+    total, n = len(forms.chart.symbols), forms.n
+    found = ball_span(forms, rank, real.point)
+    if found is None or part.gap < CLEAR:
+        result.verdict, result.consistent = "undecided", None
+        result.reasons.append("the only points found are singular")
+        return
+    span, _ = found
+    result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
+    result.velocity_dof, result.dof = n - rank, n - (total - span.dimension)
+    if "field" not in forms.chart.engines:
+        result.matrix = sparse(dependencies(matrix, part))
+        if real.consistent and len(real.rows) == forms.finite and rank == len(matrix):
+            result.verdict = "proved" if span.dimension == total or total - rank <= 1 else "numeric"
+    result.reasons.append(f"decided at real points of high precision, with a gap of {part.gap:.1e} between pivots")
+    for i, row, place in linear_rows(block, forms):
+        zero = all(v.contains(0) for v in pairing(matrix[place], span.vectors))
+        sure: Verdict = "proved" if isinstance(row.piece, Finite) or not zero else "numeric"
+        result.labels[i] = HolonomyLabel(zero, sure)

@@ -1,0 +1,52 @@
+"""The Lie algebra of the admissible velocities at points: over GF(p), and with balls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from flint import arb
+
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import Pivots, field_frame
+from dofkit.exact.ring.program import values
+from dofkit.expressions import tree as ex
+from dofkit.integrability.codistribution import Codistribution
+from dofkit.integrability.lie_algebra import Span, lie_span
+
+
+@dataclass(frozen=True)
+class SampledSpan:
+    """A span at a point, with the matrix and the frame there."""
+
+    span: Span
+    matrix: list[list[Any]]
+    frame: Pivots
+
+
+def span_at(forms: Codistribution, point: FieldPoint) -> SampledSpan | None:
+    """The Lie algebra at a point over GF(p); None where a form has no value there."""
+    try:
+        zero = point.number(ex.ZERO.args[0])
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
+        frame = field_frame(matrix, len(forms.chart.symbols), point.p)
+        return SampledSpan(lie_span(forms.rows, frame, point), matrix, frame)
+    except NoValueError:
+        return None
+
+
+def ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span, list[list[arb]]] | None:
+    """The Lie algebra with balls; None where the point is no regular one, or has another rank than over GF(p)."""
+    try:
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
+        part = ball_part(matrix)
+        if part.rank != rank:
+            return None
+        free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(part.columns))
+        point.rng.seed("dofkit curve")
+        return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point), matrix
+    except NoValueError:
+        return None

@@ -1,0 +1,182 @@
+"""The real zeros of a polynomial in a ring's generators, by its factors: the branches, and what vanishes on each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from itertools import product as cartesian
+from typing import Any
+
+from flint import fmpq
+
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.extremes import EXTREME_NOTE, apart
+from dofkit.relations.normal.semidefinite import Signs, fraction, semidefinite, sum_of_even
+
+#: More branches than this are not told apart: the expression is then kept as it is.
+MAX_BRANCHES = 16
+
+Conjunction = tuple[Expr, ...]
+Zeros = tuple[tuple[Conjunction, ...], tuple[str, ...]]
+
+POWER_NOTE = "a power is zero where its base is: the base is used, because the power's gradient vanishes there"
+SQUARES_NOTE = "a sum of squares is zero over the reals only where every term is: each term is one equation"
+PRODUCT_NOTE = "a product is zero on several branches; each is looked at, and the largest one counts"
+EMPTY_NOTE = "no real configuration satisfies it: every term has the same sign and one never vanishes"
+POLE_NOTE = "where a denominator vanishes it says nothing: such zeros of the numerator are left out"
+FACTOR_NOTE = "a factor that never vanishes was taken out"
+EXPONENT_NOTE = "two exponentials are equal over the reals only where their exponents are: those are compared"
+
+
+class TooManyBranchesError(Exception):
+    """The zero set has more than `MAX_BRANCHES` branches."""
+
+
+class HiddenZeroError(Exception):
+    """A constant factor may be 0 by an identity that is not known."""
+
+
+def branches_of(branches: list[Conjunction], notes: list[str]) -> Zeros:
+    """The zero set with these branches. Raises TooManyBranchesError."""
+    if len(branches) > MAX_BRANCHES:
+        raise TooManyBranchesError
+    if len(branches) > 1:
+        notes.append(PRODUCT_NOTE)
+    return tuple(branches), tuple(dict.fromkeys(notes))
+
+
+def products_of(options: Iterable[Iterable[Conjunction]]) -> list[Conjunction]:
+    """What vanishes together, with one conjunction of each. Raises TooManyBranchesError."""
+    combined: list[Conjunction] = []
+    for choice in cartesian(*options):
+        together = tuple(dict.fromkeys(g for conjunction in choice for g in conjunction))
+        if together not in combined:
+            combined.append(together)
+        if len(combined) > MAX_BRANCHES:
+            raise TooManyBranchesError
+    return combined
+
+
+def vanishes(constant: Expr, positive: frozenset[Expr]) -> bool:
+    """Is a constant 0? Raises HiddenZeroError where neither that nor the contrary is certain."""
+    if constant.op == "sym":
+        return False
+    zero, sure = zero_and_verdict(constant, positive)
+    if zero and sure != "proved":
+        raise HiddenZeroError
+    return bool(zero)
+
+
+class PolynomialZeros:
+    """The zeros of polynomials in one ring's generators, in some variables; ``zeros_of``: those of an expression."""
+
+    def __init__(
+        self, canon: Canon, positive: frozenset[Expr], variables: frozenset[Expr], zeros_of: Callable[[Expr], Zeros]
+    ) -> None:
+        self.canon, self.positive, self.variables, self.zeros_of = canon, positive, variables, zeros_of
+        self.signs = Signs(canon, positive)
+
+    def of(self, numerator: Any, bottom: Any, written: Expr) -> Zeros:
+        """The zeros of a quotient, which is written so."""
+        if numerator == 0:
+            return ((),), ()
+        canon = self.canon
+        branches: list[Conjunction] = []
+        notes: list[str] = []
+        factors = canon.factors(numerator)
+        kept = [(f, k) for f, k in factors if self._depends(f)]
+        if any(vanishes(canon.to_expr(f), self.positive) for f, _ in factors if not self._depends(f)):
+            return ((),), ()
+        defined = [(f, k) for f, k in kept if not self._undefined(f, bottom)]
+        if len(defined) < len(kept):
+            kept, notes = defined, [POLE_NOTE]
+        extremes, rest = apart(canon, kept, self.variables)
+        if extremes:
+            branches, notes = extremes, [*notes, EXTREME_NOTE]
+        for factor, multiplicity in rest:
+            if multiplicity > 1:
+                notes.append(POWER_NOTE)
+            alone = len(kept) == 1 and multiplicity == 1 and len(factors) == 1
+            found, said = self._factor(factor, written if alone else None)
+            notes += said if found or len(kept) == 1 else [FACTOR_NOTE]
+            branches += [b for b in found if b not in branches]
+        if not kept:
+            return (), (EMPTY_NOTE,)
+        return branches_of(branches, notes)
+
+    def _undefined(self, factor: Any, bottom: Any) -> bool:
+        """Does a denominator vanish wherever the factor does?"""
+        if bottom.is_constant():
+            return False
+        if not factor.gcd(bottom).is_constant():
+            return True
+        canon = self.canon
+        if all(canon.ring.vars[i].kind == "symbol" for i in canon.generators_in(factor)):
+            return False
+        zero, pole = canon.to_expr(factor), canon.to_expr(bottom)
+        ring = Ring([zero, pole], self.positive)
+        nodes = ring.node(zero), ring.node(pole)
+        point = TriangularSolver(ring, nodes[:1]).draw(1)
+        try:
+            return point is not None and bool(values(ring, point)[nodes[1]] == 0)
+        except NoValueError:
+            return False
+
+    def _depends(self, factor: Any) -> bool:
+        shown = (self.canon.ring.var_expr[i] for i in self.canon.generators_in(factor))
+        return any(not self.variables.isdisjoint(s.symbols) for s in shown)
+
+    def _factor(self, factor: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
+        exponent = difference_of_exponents(self.canon, factor)
+        if exponent is not None:
+            found, said = self.zeros_of(exponent)
+            return list(found), [EXPONENT_NOTE, *said]
+        even = sum_of_even(factor, self.signs)
+        if even is not None:
+            if any(not zeros for zeros in even):
+                return [], [EMPTY_NOTE]
+            if len(even) > 1 or written is None:
+                return self._monomials(even)
+        split = semidefinite(self.canon, self.signs, factor)
+        if split is not None:
+            if not split:
+                return [], [EMPTY_NOTE]
+            return [tuple(split)], [SQUARES_NOTE]
+        return [(written if written is not None else self.canon.to_expr(factor),)], []
+
+    def _monomials(self, even: list[list[int]]) -> tuple[list[Conjunction], list[str]]:
+        """Every monomial vanishes: of each, one generator does."""
+        options = [[(self._generator_zero(i),) for i in self._varying(zeros)] for zeros in even]
+        return products_of(options), [SQUARES_NOTE] if len(even) > 1 else []
+
+    def _varying(self, zeros: list[int]) -> list[int]:
+        """The generators that depend on the variables; generic constants do not vanish."""
+        shown = self.canon.ring.var_expr
+        return [i for i in zeros if not self.variables.isdisjoint(shown[i].symbols)] or zeros
+
+    def _generator_zero(self, index: int) -> Expr:
+        shown = self.canon.ring.var_expr[index]
+        return ex.children(shown)[0] if self.canon.ring.vars[index].kind == "root" else shown
+
+
+def difference_of_exponents(canon: Canon, factor: Any) -> Expr | None:
+    """u - v - log(c) of exp(u) - c exp(v), c > 0; None of anything else, and where velocities occur."""
+    terms = list(factor.to_dict().items())
+    present = canon.generators_in(factor)
+    if len(terms) != 2 or any(canon.ring.vars[i].kind != "exp" for i in present):
+        return None
+    (first, a), (second, b) = terms
+    shown = {i: canon.ring.var_expr[i] for i in present}
+    moving = any(s.args[0] == "velocity" for e in shown.values() for s in e.symbols)
+    if a * b > 0 or moving or any(e.op != "fn" for e in shown.values()):
+        return None
+    last = len(first) - 1
+    powers = {i: int(first[last - i]) - int(second[last - i]) for i in present}
+    scale = ex.fn("log", ex.num(fraction(fmpq(-a) / fmpq(b))))
+    return ex.add(scale, *(ex.mul(ex.num(k), shown[i].args[1]) for i, k in powers.items()))

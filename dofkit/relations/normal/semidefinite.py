@@ -1,0 +1,170 @@
+"""Polynomials that do not change sign: sums of terms of one sign, and semidefinite quadratic forms."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from flint import fmpq, fmpq_mat
+
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+
+
+class Signs:
+    """What is known of the signs of a ring's generators."""
+
+    def __init__(self, canon: Canon, positive: frozenset[Expr]) -> None:
+        self.positive = {
+            var.index
+            for var in canon.ring.vars
+            if var.kind in ("exp", "pi")
+            or (var.kind == "symbol" and var.key in positive)
+            or (var.kind == "root" and isinstance(var.key[0], Expr))
+        }
+        self.nonnegative = {v.index for v in canon.ring.vars if v.kind == "root" and v.degree % 2 == 0}
+        self.circular = {v.index for v in canon.ring.vars if v.kind in ("cos", "sin")}
+        self.n = len(canon.ring.vars)
+
+    def bounded_away(self, poly: Any) -> bool:
+        """True for a polynomial in sines and cosines whose constant outweighs the rest."""
+        constant = rest = Fraction(0)
+        for exponents, coefficient in poly.to_dict().items():
+            present = {self.n - 1 - i for i, k in enumerate(exponents) if k}
+            if not present <= self.circular:
+                return False
+            if present:
+                rest += abs(fraction(coefficient))
+            else:
+                constant += abs(fraction(coefficient))
+        return constant > rest
+
+    def monomial(self, exponents: tuple[int, ...]) -> tuple[bool, list[int]]:
+        """(is it >= 0 everywhere, the generators of which one must vanish where it is 0)."""
+        zeros = []
+        for place, exponent in enumerate(exponents):
+            index = self.n - 1 - place
+            if not exponent or index in self.positive:
+                continue
+            if exponent % 2 and index not in self.nonnegative:
+                return False, []
+            zeros.append(index)
+        return True, zeros
+
+
+def sum_of_even(poly: Any, signs: Signs) -> list[list[int]] | None:
+    """For a polynomial all of whose terms are >= 0 (or all <= 0): per term, the generators that may vanish.
+
+    The zero set is then that of every term. An empty list among them: the polynomial never vanishes.
+    None: some term changes sign.
+    """
+    if signs.bounded_away(poly):
+        return [[]]
+    found, overall = [], 0
+    for exponents, coefficient in poly.to_dict().items():
+        even, zeros = signs.monomial(tuple(int(k) for k in exponents))
+        sign = 1 if coefficient > 0 else -1
+        if not even or (overall and sign != overall):
+            return None
+        overall = sign
+        found.append(zeros)
+    return found
+
+
+def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
+    """True where ``e >= 0`` (or > 0) is proved to hold nowhere: -e is a sum of terms that are >= 0, one of them > 0."""
+    try:
+        ring = Ring([e], positive)
+        node = ring.node(e)
+        canon = Canon(ring)
+        top, bottom = canon.quotient(node)
+    except NoValueError:
+        return False
+    if top == 0:
+        return strict
+    if not bottom.is_constant():
+        return False
+    if bottom.leading_coefficient() < 0:
+        top = -top
+    even = sum_of_even(top, Signs(canon, positive))
+    if even is None or _some_positive(top):
+        return False
+    return strict or any(not zeros for zeros in even)
+
+
+def _some_positive(poly: Any) -> bool:
+    """With terms of one sign: is that sign +?"""
+    return any(c > 0 for c in poly.to_dict().values())
+
+
+def semidefinite(canon: Canon, signs: Signs, factor: Any) -> list[Expr] | None:
+    """A semidefinite quadratic polynomial with rational coefficients as the linear forms that vanish with it.
+
+    An empty list: it is definite, with no zero. None: indefinite, or no such polynomial.
+    """
+    if factor.total_degree() != 2:
+        return None
+    present = canon.generators_in(factor)
+    if any(canon.ring.vars[i].kind not in ("symbol", "exp") for i in present):
+        return None
+    place = {index: i for i, index in enumerate(present)}
+    form, one = _quadratic_form(canon, factor, place), len(present)
+    rows = _semidefinite_rows(form)
+    if rows is None:
+        return None
+    shown = [canon.ring.var_expr[i] for i in present] + [ex.ONE]
+    reduced, rank = fmpq_mat(rows).rref() if rows else (fmpq_mat(0, one + 1), 0)
+    linear = []
+    for r in range(rank):
+        entries = [reduced[r, c] for c in range(one + 1)]
+        told = [i for i, v in zip(present, entries[:one], strict=True) if v != 0]
+        if not told or (len(told) == 1 and told[0] in signs.positive and entries[one] == 0):
+            return []
+        linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, shown, strict=True))))
+    return linear
+
+
+def _quadratic_form(canon: Canon, factor: Any, place: dict[int, int]) -> list[list[Fraction]]:
+    """The symmetric matrix of the homogenised quadratic polynomial; the last row and column are for 1."""
+    n, total = len(place), len(canon.ring.vars)
+    form = [[Fraction(0)] * (n + 1) for _ in range(n + 1)]
+    for exponents, coefficient in factor.to_dict().items():
+        slots = [place[total - 1 - i] for i, k in enumerate(exponents) for _ in range(int(k))]
+        a, b = [*slots, n, n][:2]
+        value = fraction(coefficient)
+        if a == b:
+            form[a][a] += value
+        else:
+            form[a][b] += value / 2
+            form[b][a] += value / 2
+    return form
+
+
+def fraction(value: fmpq) -> Fraction:
+    """The same number, as Python's."""
+    return Fraction(int(value.p), int(value.q))
+
+
+def _semidefinite_rows(form: list[list[Fraction]]) -> list[list[fmpq]] | None:
+    """Rows that span a semidefinite form's range (Lagrange's reduction [Sylvester1852]); None for an indefinite one."""
+    n = len(form)
+    work = [row[:] for row in form]
+    rows, sign = [], 0
+    for i in range(n):
+        pivot = work[i][i]
+        if pivot == 0:
+            if any(work[i]):
+                return None
+            continue
+        if sign and (pivot > 0) != (sign > 0):
+            return None
+        sign = 1 if pivot > 0 else -1
+        row = work[i][:]
+        rows.append([fmpq(v.numerator, v.denominator) for v in row])
+        for j in range(n):
+            for k in range(n):
+                work[j][k] -= row[j] * row[k] / pivot
+    return rows

@@ -1,0 +1,147 @@
+"""A cam: a point that stays on the profile of a body of the plane."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import ClassVar, Literal, NamedTuple
+
+from pydantic import Field
+
+from dofkit.base.errors import NoValueError
+from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.enclosures import approximate, differs_from_zero, has_call
+from dofkit.expressions.tree import MINUS_ONE, TIME, ZERO, Expr, coordinate, fn, mul
+from dofkit.expressions.vectors import Matrix, Vec, apply, minus, square, transposed
+from dofkit.scene.constraints.base import ConstraintBase, figures, root
+from dofkit.scene.constraints.places import across_a_line
+from dofkit.scene.fields import Text
+from dofkit.scene.frames import Frame, Placed
+from dofkit.scene.ledger import FINITE, symbols_of
+from dofkit.scene.names import within_member
+from dofkit.scene.parts import Point, show_point
+from dofkit.scene.world import World
+from dofkit.system import Relation, TypeFacts
+
+OWN = ("x", "y")
+X, Y = (coordinate(letter) for letter in OWN)
+
+
+class Cam(ConstraintBase):
+    """g(x, y) = 0 for the point P in the body's own coordinates, (x, y) = R(theta)^T (P - p): 1 relation.
+
+    The profile g = 0 turns and moves with the body; its axes are those of the body's frame (origin p, angle theta). A
+    higher pair of the plane, of freedom 2: the point slides along the profile and turns on it. Where the drawing gives
+    the contact, it moves to first order as a slot along the tangent there. There is none in space, where a follower
+    touches a surface.
+    """
+
+    type: Literal["cam"] = Field(description="a point on the profile of a body, in the plane")
+    point: Point = Field(description="the follower's point, or a particle")
+    body: str = Field(description="the cam, or ground")
+    curve: Text = Field(description="the profile: an equation in x and y, the body's own coordinates; may hold t")
+
+    dimensions: ClassVar[tuple[int, ...]] = (2,)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        across_a_line, directions=1, written=True, lettered=True, contact=True, joint=True
+    )
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        point = world.point(self.point, "point")
+        frame = world.frame(self.body, "body")
+        if point.frame == frame.name:
+            world.fault(f"the point is a point of {frame.name} itself", "point", hint="name a point of something else")
+            return
+        profile = self._profile(world)
+        if profile is None:
+            return
+        drawn = None if point.reference is None else _drawn(profile, frame, point.reference)
+        world.mentioned.directions.append(None if drawn is None else drawn.tangent(bool(world.tolerance)))
+        if drawn is not None:
+            self._check(world, frame, point, drawn)
+        yield Relation(substitute(profile, _own(frame, point)), part="contact")
+
+    def _profile(self, world: World) -> Expr | None:
+        """g; None after a fault."""
+        before = len(world.faults)
+        names = within_member(world.names, OWN)
+        used = {s.args[1] for s in symbols_of(self.curve, names) if s.args[0] == "coordinate"}
+        if used - {*OWN}:
+            hint = "only x and y of the body, parameters and time may be used"
+            world.fault(f"the coordinate {min(used - {*OWN})} cannot stand here", "curve", hint=hint)
+            return None
+        found = world.relations(self.curve, "curve", names=replace(names, coordinates=frozenset(OWN)), allow=FINITE)
+        if len(world.faults) > before:
+            return None
+        if [sense for _, sense in found] != ["="] or not used:
+            hint = "such as x^2 + y^2 = 4; an inequality or a chain is no profile"
+            world.fault("a profile is one equation in x and y", "curve", hint=hint)
+            return None
+        return found[0][0]
+
+    def _check(self, world: World, frame: Frame, point: Placed, drawn: DrawnContact) -> None:
+        """A point that is off the profile where both are drawn is a fault that shows by how much."""
+        body = None if frame.fixed else frame.name
+        place = point.label if point.frame else f"{point.label} at {figures(point.reference)}"
+        hint = "move the point or the body, or set `tolerance` if they are measured"
+        if drawn.gap is None:
+            told = f"the drawing puts {place}, where `{self.curve}` has no value"
+            world.misfit(None, told, "point", hint=hint, body=body)
+        elif world.differs(drawn.gap, body):
+            gap, steepness = approximate(drawn.gap), root(square(drawn.slope))
+            told = f"the drawing puts {place}, off the profile of {frame.name}: there `{self.curve}` fails"
+            told = told if gap is None else f"{told} by {abs(gap):.6g}"
+            world.misfit(None if gap is None or not steepness else gap / steepness, told, "point", hint=hint, body=body)
+
+    def texts(self) -> Iterator[str]:
+        yield self.curve
+
+    @property
+    def shown(self) -> str:
+        return f"cam {show_point(self.point)} on {self.body}: {self.curve}"
+
+
+def _turned(angle: Expr) -> Matrix:
+    """R(angle)."""
+    c, s = fn("cos", angle), fn("sin", angle)
+    return ((c, mul(MINUS_ONE, s)), (s, c))
+
+
+def _own(frame: Frame, point: Placed) -> dict[Expr, Expr]:
+    """x and y of the point in the body's own coordinates."""
+    arm = minus(point.over, frame.position)
+    if not frame.fixed:
+        arm = apply(transposed(_turned(coordinate(frame.angles[0]))), arm)
+    return dict(zip((X, Y), arm, strict=True))
+
+
+class DrawnContact(NamedTuple):
+    """g and its gradient at the drawing, in the world's axes; no value, and no slope at a corner, are None and 0."""
+
+    gap: Expr | None
+    slope: Vec
+
+    def tangent(self, measured: bool) -> Vec | None:
+        """Along the profile; None where the point is off it, at a corner or cusp, or where that is not known."""
+        if self.gap is None or any(map(has_call, (self.gap, *self.slope))):
+            return None
+        if not any(map(differs_from_zero, self.slope)) or (not measured and differs_from_zero(self.gap)):
+            return None
+        return mul(MINUS_ONE, self.slope[1]), self.slope[0]
+
+
+def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
+    """The profile where a point is drawn."""
+    turn = _turned(frame.initial[0]) if frame.initial else None
+    arm = minus(place, frame.start)
+    own = arm if turn is None else apply(transposed(turn), arm)
+    at = {**dict(zip((X, Y), own, strict=True)), TIME: ZERO}
+    try:
+        gap = substitute(profile, at)
+    except NoValueError:
+        return DrawnContact(None, (ZERO, ZERO))
+    try:
+        slope = tuple(substitute(diff(profile, letter), at) for letter in (X, Y))
+    except NoValueError:
+        slope = (ZERO, ZERO)
+    return DrawnContact(gap, slope if turn is None else apply(turn, slope))

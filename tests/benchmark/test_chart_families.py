@@ -1,0 +1,141 @@
+"""Stress families: every truth is of its kind, both kinds occur, and what can be counted in another way agrees."""
+
+from __future__ import annotations
+
+import random
+from collections import defaultdict
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import pytest
+
+import dofkit
+from dofkit.benchmark.failures import TRAITS
+from dofkit.benchmark.trials import FAMILIES
+from dofkit.benchmark.trials.construction import kind
+from dofkit.benchmark.trials.frameworks import Framework
+from dofkit.benchmark.trials.random_systems import dependent
+from dofkit.benchmark.trials.trial import Trial
+from dofkit.methods.dispatch import answered
+
+#: Families meant for cost against size.
+LADDERS = (
+    "cliques", "double bananas", "Henneberg", "links on a line", "clusters", "doors", "cranks", "loops of hinges",
+    "braced grids", "triangulated grids", "chains of links", "chains of bodies", "trees of bodies", "rolling",
+    "chained forms", "trailers",
+    "chains of equations", "many blocks", "discs with one heading", "mixed forms", "rates of rates", "power sums",
+    "sums of squares", "large answers",
+)  # fmt: skip
+#: Families whose scenes are links between particles, and how many joints are still checked by the rank.
+GRAPHS = ("cliques", "complete bipartite", "double bananas", "Henneberg", "links on a line", "clusters")
+DRAWN = ("braced grids", "triangulated grids", "chains of links")
+JOINTS = 30
+
+
+@cache
+def trials(family: str) -> tuple[Trial, ...]:
+    return tuple(FAMILIES[family](False))
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_trials_are_told_apart_and_of_their_kind(family: str) -> None:
+    made = trials(family)
+    assert len({trial.name for trial in made}) == len(made)
+    assert [trial.name for trial in made if trial.family != family or not trial.because or not trial.traits] == []
+    assert [trial.name for trial in made if not _of_its_kind(trial)] == []
+    assert {trait for trial in made for trait in trial.traits} <= TRAITS.keys()
+
+
+def _of_its_kind(trial: Trial) -> bool:
+    truth, question = trial.truth, trial.question
+    names = [
+        c["name"] if isinstance(c, dict) and "name" in c else f"c{i + 1}"
+        for i, c in enumerate(trial.scene.get("constraints", ()))
+    ]
+    if question == "dof":
+        return isinstance(truth, int) and not isinstance(truth, bool) and truth >= -1
+    if question == "redundancy":
+        return isinstance(truth, list) and truth == sorted(truth) and set(truth) <= set(names)
+    if question == "integrability":
+        return isinstance(truth, dict) and set(truth) == set(names)
+    return isinstance(truth, bool) and trial.answer is not None and trial.answer["constraint"] in names
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_no_answer_is_always_right(family: str) -> None:
+    """Both kinds occur: who always says the same is wrong somewhere."""
+    kinds = defaultdict(set)
+    for trial in trials(family):
+        kinds[trial.question].add(kind(trial))
+    mixed = {question for question, found in kinds.items() if len(found) > 1 or (False, True) in found}
+    assert kinds.keys() - mixed == set()
+
+
+@pytest.mark.parametrize("family", LADDERS)
+def test_sizes_make_a_ladder(family: str) -> None:
+    assert len({trial.size for trial in trials(family)}) >= 4
+
+
+def test_there_are_many_and_all_questions() -> None:
+    made = [trial for family in FAMILIES for trial in trials(family)]
+    assert len(made) >= 2000
+    assert {trial.question for trial in made} == {"dof", "integrability", "redundancy", "equivalence"}
+    assert sum(1 for family in FAMILIES for _ in FAMILIES[family](True)) <= 160
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_the_few_that_stand_for_a_family_are_not_answered_wrongly(family: str) -> None:
+    wrong = []
+    for trial in FAMILIES[family](True):
+        told = answered(dict(trial.scene), trial.question, "auto", answer=trial.answer).value
+        if isinstance(told, dict) and isinstance(trial.truth, dict):
+            agrees = all(value in (None, trial.truth[name]) for name, value in told.items())
+        else:
+            agrees = told is None or (sorted(told) if isinstance(told, list) else told) == trial.truth
+        wrong += [] if agrees else [(trial.name, told, trial.truth)]
+    assert wrong == []
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_scenes_are_read(family: str) -> None:
+    for trial in trials(family)[::17]:
+        assert dofkit.load(dict(trial.scene)).constraints is not None
+
+
+# The rank, at random places or at the drawing
+
+
+def framework(scene: Any, rng: random.Random) -> Framework:
+    """Links between particles; those without a place at random ones."""
+    d = scene["dimension"]
+    joints = {}
+    for particle in scene["particles"]:
+        at = particle["at"] if isinstance(particle, dict) else [rng.randrange(10**6) for _ in range(d)]
+        joints[particle["name"] if isinstance(particle, dict) else particle] = tuple(map(Fraction, at))
+    ground: list[tuple[Fraction, ...]] = []
+    bars: list[tuple[str | int, str | int]] = []
+    for link in scene["constraints"]:
+        ends: list[str | int] = []
+        for end in link["between"]:
+            if isinstance(end, str):
+                ends.append(end)
+            else:
+                ground.append(tuple(map(Fraction, end)))
+                ends.append(len(ground) - 1)
+        bars.append((ends[0], ends[1]))
+    return Framework(joints, tuple(ground), tuple(bars))
+
+
+@pytest.mark.parametrize("family", [*GRAPHS, *DRAWN])
+def test_links_are_counted_by_the_rank_over_the_rationals(family: str) -> None:
+    rng = random.Random(family)
+    for trial in trials(family):
+        if len(trial.scene["particles"]) > JOINTS:
+            continue
+        drawn = framework(trial.scene, rng)
+        if trial.question == "dof":
+            assert drawn.by_rank() == trial.truth, trial.name
+        if trial.question == "redundancy":
+            names = [c.get("name", f"c{i + 1}") for i, c in enumerate(trial.scene["constraints"])]
+            assert sorted(names[i] for i in dependent(drawn)) == trial.truth, trial.name

@@ -1,0 +1,69 @@
+"""What the README shows of speed and accuracy is the output of its command, and holds what is said of it."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+
+from dofkit.benchmark import storing
+from dofkit.benchmark.record import AUTO, ChartRun, Data
+from dofkit.benchmark.statistics import against
+from dofkit.benchmark.trials import FAMILIES
+from dofkit.methods.table import METHODS
+
+ROOT = Path(__file__).parents[2]
+CHARTS = ROOT / "tests" / "charts"
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+LEAST = 2000
+TWICE = 2
+
+
+@cache
+def data() -> Data:
+    return storing.read(CHARTS)
+
+
+def test_of_more_than_two_thousand_trials_auto_answers_none_wrong() -> None:
+    mine = [line for line in data().lines if line.method == AUTO]
+    assert len(mine) >= LEAST
+    assert not [line for line in mine if line.outcome == "wrong"]
+    assert sum(line.outcome == "right" for line in mine) >= 0.97 * len(mine)
+
+
+def test_every_method_met_every_trial_and_every_failure_is_explained() -> None:
+    lines = data().lines
+    trials = {(line.question, line.family, line.trial) for line in lines}
+    assert {line.method for line in lines} == set(METHODS)
+    assert len(lines) == len(trials) * len(METHODS)
+    assert {family for _, family, _ in trials} == set(FAMILIES)
+    assert all(len(line.why.split()) > 2 and line.why.endswith(".") for line in lines if line.outcome != "right")
+
+
+def test_auto_is_on_the_front_and_hardly_slower_than_what_is_sound() -> None:
+    """No method that is never wrong is right more often; and mostly at most twice as slow as the fastest of them."""
+    lines = data().lines
+    for question in {line.question for line in lines}:
+        here = [line for line in lines if line.question == question]
+        right = {m: sum(line.outcome == "right" for line in here if line.method == m) for m in METHODS}
+        wrong = {m for m in METHODS if any(line.outcome == "wrong" for line in here if line.method == m)}
+        assert all(right[AUTO] >= right[m] for m in METHODS if m not in wrong)
+    sound = [row for row in against(lines) if row.sound_ratio is not None]
+    assert sum(row.sound_ratio is not None and row.sound_ratio <= TWICE for row in sound) >= 0.9 * len(sound)
+
+
+def test_no_reduction_changed_an_answer() -> None:
+    assert data().reductions
+    assert all(row.unchanged for row in data().reductions)
+
+
+def test_the_figures_of_the_readme_are_there_and_made_by_its_command() -> None:
+    shown = re.findall(r"\]\((tests/charts/[^)]+)\)", README)
+    assert shown
+    assert all((ROOT / path).is_file() for path in shown)
+    chart = ChartRun.model_validate_json((CHARTS / storing.SUMMARY).read_text(encoding="utf-8"))
+    assert chart.ran.complete
+    assert chart.ran.command == "dofkit chart"
+    assert "`dofkit chart --out tests/charts`" in README
+    assert all(caption.endswith("Made by: dofkit chart") for caption in chart.captions.values())
+    assert f"{chart.ran.trials:,} trials".replace(",", " ") in README

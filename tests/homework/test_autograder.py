@@ -1,0 +1,461 @@
+"""Grading where a course platform has put a submission, and what the platform is given for it."""
+
+from __future__ import annotations
+
+import ast
+import base64
+import doctest
+import hashlib
+import importlib
+import json
+import os
+import subprocess
+import sys
+import threading
+import types
+import zipfile
+from collections.abc import Callable
+from dataclasses import replace
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from dofkit.homework import notebooks, otter
+from dofkit.homework.assignment import AssignmentError, load_assignment
+from dofkit.homework.autograder import SITES, grade_at, main, undecided
+from dofkit.homework.export import ExportError, export_gradescope, wheels
+from dofkit.homework.export.inline import exact_json, inlined
+from dofkit.homework.formats.wording import standing
+from dofkit.homework.judgement import needs_review
+from dofkit.homework.nbgrader import points
+from dofkit.homework.notebooks import QuestionError
+from dofkit.homework.questions import QuestionBase
+from dofkit.interface.cli import app
+
+MEMORY = 2 << 30
+ASSIGNMENT = """\
+title: Sheet 1
+problems:
+- id: pendulum
+  scene: pendulum.yaml
+  questions:
+  - {id: f, ask: dof, points: 2}
+  - {id: rod, ask: equation, constraint: rod, points: 8}
+- id: disc
+  scene: disc-rolling-on-plane
+  questions:
+  - {id: f, ask: dof, points: 0.5}
+"""
+SCENE = """\
+dimension: 2
+particles: [A]
+constraints:
+- {name: rod, type: link, between: [[0, 0], A], length: 0.1}
+"""
+#: f = 1 is right; the squared equation is worth half; the disc has f = 4, not 2.
+ANSWERS: dict[str, dict[str, Any]] = {"pendulum": {"f": "f = 1", "rod": "(x_A^2 + y_A^2 - 0.01)^2"}, "disc": {"f": 2}}
+
+
+@pytest.fixture
+def sheet(tmp_path: Path) -> Path:
+    folder = tmp_path / "sheet"
+    folder.mkdir()
+    (folder / "pendulum.yaml").write_text(SCENE)
+    (folder / "assignment.yaml").write_text(ASSIGNMENT)
+    return folder / "assignment.yaml"
+
+
+def hand_in(folder: Path, **files: str) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in files.items():
+        (folder / name.replace("__", ".")).write_text(text)
+    return folder.parent
+
+
+def written(root: Path, site: str) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads((root / SITES[site].results).read_text(encoding="ascii"))
+    return found
+
+
+def submission(**more: Any) -> str:
+    return json.dumps({"answers": ANSWERS, **more})
+
+
+def test_gradescope(sheet: Path, tmp_path: Path) -> None:
+    root = hand_in(tmp_path / "autograder" / "submission", anything__json=submission(student="somebody else"))
+    (root / "submission_metadata.json").write_text('{"users": [{"email": "ada@uni.example", "name": "Ada", "id": 1}]}')
+    assert main(["gradescope", str(sheet), "--root", str(root)]) == 0
+    found = written(root, "gradescope")
+    assert found["score"] == 6.0
+    assert found["extra_data"]["student"] == "ada@uni.example"
+    assert [(t["number"], t["score"], t["max_score"], t["status"]) for t in found["tests"]] == [
+        ("1.1", 2.0, 2.0, "passed"),
+        ("1.2", 4.0, 8.0, "failed"),
+        ("2.1", 0.0, 0.5, "failed"),
+    ]
+    assert sorted(path.name for path in (root / "results").iterdir()) == ["results.json"]
+
+
+@pytest.mark.parametrize("sign", [".", "_", "-"])
+def test_prairielearn_takes_what_was_typed(sign: str, sheet: Path, tmp_path: Path) -> None:
+    given = {f"{p}{sign}{q}": str(a) for p, answers in ANSWERS.items() for q, a in answers.items()}
+    root = hand_in(tmp_path / "grade" / "data", data__json=json.dumps({"submitted_answers": {**given, "_files": []}}))
+    grade_at(replace(SITES["prairielearn"], root=root), sheet, MEMORY)
+    found = written(root, "prairielearn")
+    assert (found["gradable"], found["score"]) == (True, 6 / 10.5)
+    assert [test["points"] for test in found["tests"]] == [2.0, 4.0, 0.0]
+
+
+def test_prairielearn_takes_a_file_before_what_was_typed(sheet: Path, tmp_path: Path) -> None:
+    root = hand_in(tmp_path / "grade" / "student", answers__json=submission())
+    hand_in(root / "data", data__json=json.dumps({"submitted_answers": {"pendulum.f": "3"}}))
+    assert grade_at(replace(SITES["prairielearn"], root=root), sheet, MEMORY).score == 6.0
+
+
+def test_coursera(sheet: Path, tmp_path: Path) -> None:
+    root = hand_in(tmp_path / "shared" / "submission", answers__csv="student,pendulum.f,disc.f\nada,1,4\n")
+    assert main(["coursera", str(sheet), "--root", str(root)]) == 0
+    found = written(root, "coursera")
+    assert found["fractionalScore"] == pytest.approx(2.5 / 10.5)
+    assert found["feedback"].startswith("Points: 2.5 of 10.5.")
+
+
+def two(folder: Path) -> None:
+    hand_in(folder, a__json=submission(), b__json=submission())
+
+
+def several(folder: Path) -> None:
+    hand_in(folder, answers__json=f"[{submission()}, {submission()}]")
+
+
+def rows(folder: Path) -> None:
+    hand_in(folder, answers__csv="student,disc.f\nada,4\nbob,4\n")
+
+
+def link(folder: Path) -> None:
+    hand_in(folder.parent, secret__json=submission())
+    folder.mkdir()
+    (folder / "answers.json").symlink_to(folder.parent / "secret.json")
+
+
+def broken(folder: Path) -> None:
+    hand_in(folder, answers__json='{"answers": {')
+
+
+def empty(folder: Path) -> None:
+    folder.mkdir(parents=True)
+
+
+def other(folder: Path) -> None:
+    hand_in(folder, essay__pdf="%PDF", script__py="import os")
+
+
+@pytest.mark.parametrize("site", ["gradescope", "prairielearn", "coursera"])
+@pytest.mark.parametrize(
+    ("make", "why"),
+    [
+        (two, "there is more than one file: a.json, b.json"),
+        (several, "holds 2 submissions, not one"),
+        (rows, "holds 2 submissions, not one"),
+        (link, "there is no file with answers"),
+        (broken, "line 1"),
+        (empty, "there is no file with answers"),
+        (other, "there is no file with answers"),
+    ],
+)
+def test_what_is_no_submission_is_said(
+    make: Callable[[Path], None], why: str, site: str, sheet: Path, tmp_path: Path
+) -> None:
+    root = tmp_path / "root"
+    root.mkdir()
+    make(root / SITES[site].folder)
+    result = grade_at(replace(SITES[site], root=root), sheet, MEMORY)
+    assert result.error is not None
+    assert result.score is None
+    assert why in result.error
+    found = written(root, site)
+    assert why in json.dumps(found)
+    assert found.get("gradable") is not True
+
+
+def test_one_file_of_several_may_be_called_answers(sheet: Path, tmp_path: Path) -> None:
+    root = hand_in(tmp_path / "root" / "submission", notes__json="{}", Answers__json=submission(), x__pdf="%PDF")
+    assert grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY).score == 6.0
+
+
+class Up(threading.Timer):
+    """A clock that has run out when it is set."""
+
+    def start(self) -> None:
+        self.function()
+
+
+def test_where_time_is_up_everything_is_open(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    root = hand_in(tmp_path / "root" / "submission", answers__json=submission())
+    monkeypatch.setattr(threading, "Timer", Up)
+    result = grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY)
+    assert result.needs_review == 3
+    found = written(root, "gradescope")
+    assert "not final" in found["output"]
+    assert all("score" not in test for test in found["tests"])
+
+
+def test_a_faulty_assignment_is_nobodys_fault(tmp_path: Path) -> None:
+    faulty = tmp_path / "assignment.yaml"
+    faulty.write_text("title: x\nproblems: []\n")
+    for site, result in (("gradescope", True), ("prairielearn", True), ("coursera", False)):
+        root = hand_in(tmp_path / site / "submission", answers__json=submission())
+        assert main([site, str(faulty), "--root", str(root)]) == 2
+        assert (root / SITES[site].results).exists() is result
+    assert "not your fault" in written(tmp_path / "gradescope", "gradescope")["output"]
+    assert written(tmp_path / "prairielearn", "prairielearn")["gradable"] is False
+
+
+@pytest.mark.parametrize("metadata", ["", "[]", '{"users": 3}', '{"users": [7]}', '{"users": []}', "[" * 100_000])
+def test_metadata_may_be_anything(metadata: str, sheet: Path, tmp_path: Path) -> None:
+    root = hand_in(tmp_path / "root" / "submission", answers__json=submission())
+    (root / "submission_metadata.json").write_text(metadata)
+    assert grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY).score == 6.0
+
+
+def unpacked(sheet: Path, tmp_path: Path) -> Path:
+    """An autograder as Gradescope lays it out, with a submission."""
+    archive = tmp_path / "out" / "autograder.zip"
+    assert export_gradescope(sheet, archive, wheels=False)
+    root = hand_in(tmp_path / "autograder" / "submission", answers__json=submission())
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(root / "source")
+    script = root / "run_autograder"
+    script.write_bytes((root / "source" / "run_autograder").read_bytes())
+    script.chmod(0o755)
+    return root
+
+
+def run(root: Path, **more: str) -> subprocess.CompletedProcess[str]:
+    path = os.pathsep.join(p for p in sys.path if p)
+    environment = {**os.environ, "DOFKIT_AUTOGRADER": str(root), "DOFKIT_PYTHON": sys.executable, "PYTHONPATH": path}
+    return subprocess.run(
+        [str(root / "run_autograder")],
+        env={**environment, **more},
+        cwd=root,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+
+
+def test_the_exported_autograder_runs(sheet: Path, tmp_path: Path) -> None:
+    root = unpacked(sheet, tmp_path)
+    sheet.unlink()
+    (sheet.parent / "pendulum.yaml").unlink()
+    done = run(root)
+    assert written(root, "gradescope")["score"] == 6.0
+    assert done.stdout == "3 answers, 0 to review\n"
+
+
+@pytest.mark.parametrize(
+    "more", [{"DOFKIT_PYTHON": "/bin/false"}, {"DOFKIT_SECONDS": "0.05"}, {"DOFKIT_PYTHON": "/no"}]
+)
+def test_an_autograder_that_fails_leaves_a_result(more: dict[str, str], sheet: Path, tmp_path: Path) -> None:
+    root = unpacked(sheet, tmp_path)
+    done = run(root, **more)
+    assert "needs a review" in done.stdout
+    found = written(root, "gradescope")
+    assert found["output"].startswith("So far 0 of 10.5 points are given, which is not final: 3 answers worth 10.5")
+    assert [test["name"] for test in found["tests"]] == ["pendulum.f", "pendulum.rod", "disc.f"]
+    assert all(not {"score", "status"} & set(test) for test in found["tests"])
+    assert all("cut short" in test["output"] for test in found["tests"])
+
+
+def test_the_zip(sheet: Path, tmp_path: Path) -> None:
+    for name in ("a.zip", "b.zip"):
+        export_gradescope(sheet, tmp_path / name, ["3.11", "3.13"], wheels=False)
+    assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
+    with zipfile.ZipFile(tmp_path / "a.zip") as packed:
+        modes = {info.filename: oct(info.external_attr >> 16) for info in packed.infolist()}
+        pythons = packed.read("pythons").decode()
+    assert modes == {
+        "README.txt": "0o644", "run_autograder": "0o755", "setup.sh": "0o755", "assignment.json": "0o644",
+        "fallback.json": "0o644", "pythons": "0o644",
+    }  # fmt: skip
+    assert pythons == "3.11\n3.13\n"
+
+
+def test_wheels_that_cannot_be_had_are_no_failure(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "executable", "/bin/false")
+    (note,) = export_gradescope(sheet, tmp_path / "a.zip")
+    assert note.startswith("wheels for Python 3.12 could not be had")
+    with zipfile.ZipFile(tmp_path / "a.zip") as packed:
+        assert [name for name in packed.namelist() if name.endswith(".whl")] == ["wheels/dofkit-0.1.0-py3-none-any.whl"]
+
+
+def test_a_zip_that_cannot_be_written(sheet: Path, tmp_path: Path) -> None:
+    with pytest.raises(ExportError, match="cannot be written"):
+        export_gradescope(sheet, tmp_path / "sheet" / "assignment.yaml" / "a.zip", wheels=False)
+    with pytest.raises(AssignmentError):
+        export_gradescope(tmp_path / "none.yaml", tmp_path / "a.zip", wheels=False)
+
+
+def test_scripts_are_shell(tmp_path: Path) -> None:
+    for script in ("setup.sh", "run_autograder"):
+        path = Path(wheels.__file__).parent / "scripts" / script
+        subprocess.run(["bash", "-n", str(path)], check=True)
+
+
+def test_our_wheel(tmp_path: Path) -> None:
+    wheel = wheels.own_wheel(tmp_path)
+    with zipfile.ZipFile(wheel) as packed:
+        names = set(packed.namelist())
+        record = packed.read("dofkit-0.1.0.dist-info/RECORD").decode()
+        listed = dict(line.split(",", 1) for line in record.splitlines())
+        assert set(listed) == names
+        for name in ("dofkit/interface/cli.py", "dofkit/homework/formats/html/templates/base.html"):
+            data = packed.read(name)
+            digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+            assert listed[name] == f"sha256={digest},{len(data)}"
+    assert {"dofkit/py.typed", "dofkit/homework/export/scripts/setup.sh"} <= names
+    assert any(name.startswith("dofkit/_catalog/") and name.endswith("/disc-rolling-on-plane.yaml") for name in names)
+    assert not [name for name in names if "__pycache__" in name]
+
+
+def test_an_assignment_in_one_piece(sheet: Path, tmp_path: Path) -> None:
+    value = inlined(sheet)
+    assert value["problems"][0]["scene"]["constraints"][0]["length"] == Decimal("0.1")
+    assert value["problems"][0]["scene"]["name"] == "pendulum"
+    assert value["problems"][1]["scene"]["name"] == "disc-rolling-on-plane"
+    (tmp_path / "alone.json").write_text(exact_json(value))
+    first, second = load_assignment(sheet), load_assignment(tmp_path / "alone.json")
+    for name, key in first.keys.items():
+        assert second.keys[name].scene == key.scene
+        assert second.keys[name].report == key.report
+
+
+@pytest.mark.parametrize("module", ["nbgrader", "export.inline"])
+def test_documentation(module: str) -> None:
+    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.{module}"))
+    assert outcome.failed == 0
+    assert outcome.attempted > 0
+
+
+@pytest.mark.parametrize(
+    ("question", "answer", "expected"),
+    [("f", 1, 2.0), ("f", "3", 0.0), ("f", "§", 0.0), ("f", None, 0.0), ("rod", ANSWERS["pendulum"]["rod"], 4.0)],
+)
+def test_nbgrader(
+    question: str, answer: object, expected: float, sheet: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    found = points(sheet, "pendulum", question, answer)
+    assert type(found) is float
+    assert found == expected
+    printed = capfd.readouterr()
+    assert printed.err == ""
+    assert printed.out.startswith(f"pendulum.{question}: ")
+
+
+def undecided_judge(self: QuestionBase, *rest: object) -> Any:
+    del self, rest
+    return needs_review("x", "the test says so.")
+
+
+def test_an_open_answer_in_a_notebook(sheet: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any) -> None:
+    prepared = load_assignment(sheet)
+    for _, question in prepared.questions():
+        monkeypatch.setattr(type(question), "judge", undecided_judge)
+    assert points(prepared, "pendulum", "rod", "x = 1") == 4.0
+    assert "until a person has looked" in capsys.readouterr().out
+    otter.check(prepared, {"pendulum": {"rod": "x = 1"}}, "pendulum", "rod", 1, 2)
+    with pytest.raises(AssertionError, match="will be looked at: the test says so"):
+        otter.check(prepared, {"pendulum": {"rod": "x = 1"}}, "pendulum", "rod", 2, 2)
+
+
+@pytest.mark.parametrize("place", [("pendulum", "g"), ("pendulums", "f")])
+def test_a_question_that_is_not_asked(place: tuple[str, str], sheet: Path) -> None:
+    with pytest.raises(QuestionError, match="has no question"):
+        points(sheet, *place, 1)
+
+
+def test_a_changed_assignment_is_read_again(sheet: Path) -> None:
+    assert points(sheet, "pendulum", "f", 1) == 2.0
+    sheet.write_text(ASSIGNMENT.replace("points: 2", "points: 3"))
+    os.utime(sheet, ns=(1, 1))
+    assert points(sheet, "pendulum", "f", 1) == 3.0
+    notebooks._grader.cache_clear()
+
+
+class Case:
+    """What otter's decorator keeps."""
+
+    def __init__(self, **fields: Any) -> None:
+        self.fields = fields
+        self.run: Callable[[object], None] = lambda answers: None
+
+    def __call__(self, run: Callable[[object], None]) -> Case:
+        self.run = run
+        return self
+
+
+def test_otter(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = otter.write_tests(sheet, tmp_path / "otter" / "tests")
+    assert [path.name for path in files] == ["pendulum_f.py", "pendulum_rod.py", "disc_f.py"]
+    stand_in = types.ModuleType("otter.test_files")
+    monkeypatch.setattr(stand_in, "test_case", Case, raising=False)
+    monkeypatch.setitem(sys.modules, "otter", types.ModuleType("otter"))
+    monkeypatch.setitem(sys.modules, "otter.test_files", stand_in)
+    monkeypatch.chdir(tmp_path / "otter")
+    given = {}
+    for path in files:
+        ast.parse(path.read_text())
+        scope: dict[str, Any] = {}
+        exec(compile(path.read_text(), str(path), "exec"), scope)
+        assert scope["OK_FORMAT"] is False
+        cases = [value for value in scope.values() if isinstance(value, Case)]
+        assert sum(case.fields["points"] for case in cases) == scope["points"]
+        assert all(set(case.fields) == {"name", "points", "hidden"} for case in cases)
+        given[scope["name"]] = sum(case.fields["points"] * passes(case) for case in cases)
+    assert given == {"pendulum_f": 2.0, "pendulum_rod": 4.0, "disc_f": 0.0}
+
+
+def test_the_commands(sheet: Path, tmp_path: Path) -> None:
+    runner = CliRunner()
+    zipped = runner.invoke(app, ["export", "gradescope", str(sheet), "--no-wheels", "--out", str(tmp_path / "a.zip")])
+    assert (zipped.exit_code, zipfile.is_zipfile(tmp_path / "a.zip")) == (0, True)
+    tests = runner.invoke(app, ["export", "otter", str(sheet), "--out", str(tmp_path / "otter" / "tests")])
+    assert [Path(line).name for line in tests.stdout.split()] == ["pendulum_f.py", "pendulum_rod.py", "disc_f.py"]
+    for command in ("gradescope", "otter"):
+        refused = runner.invoke(app, ["export", command, str(tmp_path / "none.yaml"), "--out", str(tmp_path / "no")])
+        assert refused.exit_code == 2
+        assert "there is no file" in refused.stderr
+    for what in ("scene", "assignment", "submission", "result", "report"):
+        printed = runner.invoke(app, ["schema", what] if what != "scene" else ["schema"])
+        assert json.loads(printed.stdout)["title"].lower() == what
+    assert runner.invoke(app, ["schema", "homework"]).exit_code == 2
+
+
+def passes(case: Case) -> bool:
+    try:
+        case.run(ANSWERS)
+    except AssertionError:
+        return False
+    return True
+
+
+@pytest.mark.parametrize("answers", [None, 3, {}, {"pendulum": 3}, {"pendulum": {}}])
+def test_otter_without_answers(answers: object, sheet: Path) -> None:
+    with pytest.raises(AssertionError, match="No answer"):
+        otter.check(sheet, answers, "pendulum", "f", 1, 2)
+
+
+def test_parts_of_questions() -> None:
+    asked = [
+        {"id": "a", "ask": "label", "constraint": "rod", "parts": ["holonomic", "scleronomic", "bilateral"]},
+        {"id": "b", "ask": "equation", "constraint": ["rod"]},
+        {"id": "c", "ask": "dof"},
+    ]
+    rod = {"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": 1}
+    scene = {"dimension": 2, "particles": ["A"], "constraints": [rod]}
+    prepared = load_assignment({"title": "x", "problems": [{"id": "p", "scene": scene, "questions": asked}]})
+    assert [otter.parts_of(question) for _, question in prepared.questions()] == [6, 2, 2]
+    assert standing(undecided(prepared, "a", "b")).startswith("So far 0 of 3")

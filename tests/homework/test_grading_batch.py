@@ -1,0 +1,499 @@
+"""Grading in bulk: what is handed in is told apart, nobody is lost, nothing that one hands in touches another."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import pytest
+from shared.grading_jobs import orders
+from shared.homework_cases import FILES, document
+
+import dofkit
+from dofkit.homework.answers.sources import Handed, hand_ins
+from dofkit.homework.answers.submission import FilePlace, of_value
+from dofkit.homework.grading import Grader
+from dofkit.homework.runs.batch import Orders
+from dofkit.homework.runs.crew import local_crew
+from dofkit.homework.runs.in_order import HandedIn, in_order
+from dofkit.homework.runs.journal import BusyError, Journal
+from dofkit.homework.runs.keeper import Keeper
+from dofkit.interface import cli
+
+POINT = {"coordinates": ["x", "y"], "constraints": [{"name": "circle", "type": "equation", "text": "x^2 + y^2 = 1"}]}
+QUESTIONS = [
+    {"id": "f", "ask": "dof", "points": 2},
+    {"id": "label", "ask": "label", "constraint": "circle"},
+    {"id": "eq", "ask": "equation", "constraint": "circle"},
+]
+ASSIGNMENT = {"title": "A circle", "problems": [{"id": "p", "scene": POINT, "questions": QUESTIONS}]}
+KNOWN = {"p.f": ("p", "f"), "p.q.a": ("p.q", "a")}
+
+
+@pytest.fixture
+def assignment(tmp_path: Path) -> str:
+    path = tmp_path / "assignment.json"
+    path.write_text(json.dumps(ASSIGNMENT))
+    return str(path)
+
+
+def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, list[dict[str, Any]], str]:
+    """Run in this process: exit status, the objects on standard output, standard error."""
+    status = 0
+    try:
+        cli.app(list(arguments))
+    except SystemExit as stop:
+        status = stop.code if isinstance(stop.code, int) else 0
+    told = capsys.readouterr()
+    return status, [json.loads(line) for line in told.out.splitlines()], told.err
+
+
+def read(path: Path, data: str | bytes) -> list[tuple[str, Any]]:
+    """Every submission in a file: its student with its answers, or with its error."""
+    path.write_bytes(data if isinstance(data, bytes) else data.encode())
+    found = [one for h in hand_ins([str(path)], KNOWN) for one in h.submissions()]
+    return [(s.student, s.error.removeprefix(f"{path}") if s.error else dict(s.answers)) for s in found]
+
+
+TABLES: dict[str, tuple[str | bytes, Any]] = {
+    "plain": ("student,p.f,p.q.a\nana,1,x\n", [("ana", {"p": {"f": "1"}, "p.q": {"a": "x"}})]),
+    "zeros of a number stay": ("student,p.f\n007,1\n", [("007", {"p": {"f": "1"}})]),
+    "semicolons": ("student;p.f\r\nana;3,5\r\n", [("ana", {"p": {"f": "3,5"}})]),
+    "sep=": ("sep=|\nstudent|p.f\nana|1\n", [("ana", {"p": {"f": "1"}})]),
+    "byte order mark": (b"\xef\xbb\xbfstudent,p.f\nana,1\n", [("ana", {"p": {"f": "1"}})]),
+    "UTF-16": ("student\tp.f\r\nana\t1\r\n".encode("utf-16"), [("ana", {"p": {"f": "1"}})]),
+    "old Macintosh": ("student,p.f\rana,1\rbo,2\r", [("ana", {"p": {"f": "1"}}), ("bo", {"p": {"f": "2"}})]),
+    "quotes": ('student,p.f\nana,"a, ""b""\nc"\n', [("ana", {"p": {"f": 'a, "b"\nc'}})]),
+    "empty cells and rows": ("student,p.f,p.g\n\nana,,2\n,,\n", [("ana", {"p": {"g": "2"}})]),
+    "cells beyond the header": (
+        "student,p.f\nana,1,,\nbo,1,2\n",
+        [("ana", {"p": {"f": "1"}}), ("bo", ", line 3: the row has 3 cells, the header 2")],
+    ),
+    "ragged": (
+        "student,p.f,p.g\nana,1\nbo,1,2\n",
+        [("ana", ", line 2: the row has 2 cells, the header 3"), ("bo", {"p": {"f": "1", "g": "2"}})],
+    ),
+    "an open quote loses nobody": (
+        'student,p.f\nana,"1\nbo,2\ncy,3\n',
+        [("ana", ", line 2: a quote is never closed"), ("bo", {"p": {"f": "2"}}), ("cy", {"p": {"f": "3"}})],
+    ),
+    "two open quotes": (
+        'student,p.f\nana,"1\nbo,"2\ncy,3\n',
+        [
+            ("ana", ", line 2: a quote stands inside a cell"),
+            ("bo", ", line 3: a quote is never closed"),
+            ("cy", {"p": {"f": "3"}}),
+        ],
+    ),
+    "one row is not in UTF-8": (
+        b"student,p.f\nan\xe9,1\nbo,2\n",
+        [("an\ufffd", ", line 2: the row is not in UTF-8 (save the table as UTF-8)"), ("bo", {"p": {"f": "2"}})],
+    ),
+    "a header with a column twice": (
+        "student,p.f,p.f\nana,1,2\nbo,1,2\n",
+        [(name, f", line {n}: the header (line 1) has the column 'p.f' twice") for n, name in ((2, "ana"), (3, "bo"))],
+    ),
+    "no name": ("student,p.f\n,1\n", [("", ", line 2: the row names no student")]),
+    "unknown columns": ("student,email\nana,a@b\n", [("ana", {"email": {"": "a@b"}})]),
+    "no student": ("name,p.f\nana,1\n", [("t", ", line 1: its header has no column 'student' but name, p.f")]),
+    "empty": ("", [("t", ", line 1: it is empty")]),
+}
+
+
+@pytest.mark.parametrize("case", list(TABLES))
+def test_tables(case: str, tmp_path: Path) -> None:
+    data, expected = TABLES[case]
+    assert read(tmp_path / "t.csv", data) == expected
+
+
+SHAPE = "(write 'student: NAME' and 'answers: {PROBLEM: {QUESTION: answer}}')"
+DOCUMENTS = {
+    "student: 007\nanswers: {p: {f: 4.0, g: [x, y]}}": [("007", {"p": {"f": 4, "g": ("x", "y")}})],
+    "answers: {p: {f: 1}}": [("s", {"p": {"f": 1}})],
+    "student: ana\nanswers:\n": [("ana", {})],
+    '{"student": "ana", "answers": {"p": {"f": 1e999999999, "g": 2}}}': [("ana", {"p": {"f": "1e999999999", "g": 2}})],
+    "- {student: ana, answers: {}}\n- {student: bo, answers: 3}": [
+        ("ana", {}),
+        ("bo", ", line 2, column 26: 'answers' is a mapping of problems to mappings of questions to answers"),
+    ],
+    "student: ana\nanswers:\n  p: 3": [
+        ("ana", ", line 3, column 6: the answers to problem 'p' are a mapping of questions to answers")
+    ],
+    "student: ana\nanswer: {}": [
+        ("ana", ", line 2, column 1: unknown key 'answer': there are 'student' and 'answers'")
+    ],
+    "student: [ana]\nanswers: {}": [("s", ", line 1, column 10: 'student' is a name or a number")],
+    "student: ana\nanswers: {p: {f: 1, f: 2}}": [
+        ("ana", ", line 2, column 21: the key 'f' is written twice (keep one of the two)")
+    ],
+    '{"student": "ana", "answers': [("ana", ", line 1, column 20: a quoted text is never closed (close the quotes)")],
+    "": [("s", f", line 1, column 1: the file is empty {SHAPE}")],
+    "[]": [("s", f": there is no submission in it {SHAPE}")],
+    "3": [("s", f": a submission is a mapping with 'student' and 'answers' {SHAPE}")],
+}
+
+
+@pytest.mark.parametrize("text", list(DOCUMENTS))
+def test_documents(text: str, tmp_path: Path) -> None:
+    assert read(tmp_path / "s.yaml", text) == DOCUMENTS[text]
+
+
+def test_lines_of_json(tmp_path: Path) -> None:
+    told = read(tmp_path / "s.jsonl", '{"student": "a", "answers": {}}\n\n{"student": "b"\n\xff\n{"answers": {}}')
+    assert [name for name, _ in told] == ["a", "b", "s:4", "s:5"]
+    assert told[1][1].startswith(", line 3, column 16: ")
+    assert told[2][1].startswith(", line 4")
+
+
+def test_a_folder_is_read_in_order_and_nobody_in_it_is_lost(tmp_path: Path) -> None:
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / "two.yaml").write_text("answers: {p: {f: 2}}")
+    (tmp_path / "c.csv").write_text("student,p.f\nthree,3\n")
+    (tmp_path / "a.json").write_text('{"student": "one", "answers": {}}')
+    (tmp_path / "d.pdf").write_bytes(b"%PDF")
+    (tmp_path / "e.yaml").symlink_to("/etc/hostname")
+    (tmp_path / ".DS_Store").write_text("")
+    found = [one for h in hand_ins([str(tmp_path), str(tmp_path / "no.csv")], KNOWN) for one in h.submissions()]
+    assert [(s.student, s.error is None) for s in found] == [
+        ("one", True), ("two", True), ("three", True), ("d", False), ("e", False), ("no", False),
+    ]  # fmt: skip
+
+
+# the command
+
+
+def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    table = tmp_path / "t.csv"
+    table.write_text("student,p.f,p.label,p.eq,p.zz\nana,1,,x^2 = 1 - y^2,\nbo,2,((,,5\nana,1,,,\ncy,1\n")
+    status, told, err = called(capsys, "grade", assignment, str(table), "--workers", "1")
+    assert (status, err) == (2, "")
+    assert [line["student"] for line in told] == ["ana", "bo", "ana", "cy"]
+    assert [line["score"] for line in told] == [3.0, 0.0, None, None]
+    assert {line["max_score"] for line in told} == {4.0}
+    assert [item["status"] for item in told[0]["items"]] == ["right", "missing", "right"]
+    assert [item["status"] for item in told[1]["items"]] == ["wrong", "unreadable", "missing", "unreadable"]
+    assert "There is no question 'zz'" in told[1]["items"][3]["feedback"]
+    second = f"{table}, line 4: 'ana' has handed in before, at {table}, line 2: only the first is graded"
+    assert told[2]["error"] == second
+    assert told[3]["error"] == f"{table}, line 5: the row has 2 cells, the header 5"
+
+
+def test_results_within_the_folder_are_no_submissions(
+    assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "z.csv").write_text("student,p.f\nana,1\n")
+    for form, out in (("native", "a.jsonl"), ("native", "a.jsonl"), ("html", "b"), ("html", "b")):
+        assert called(capsys, "grade", assignment, str(tmp_path), "--format", form, "--out", str(tmp_path / out)) == (
+            (0, [], "") if form == "native" else (2, [], "")
+        )
+    assert length(tmp_path / "a.jsonl") == 1
+
+
+def test_nothing_that_is_read_is_overwritten(assignment: str, capsys: pytest.CaptureFixture[str]) -> None:
+    before = Path(assignment).read_bytes()
+    status, _, err = called(capsys, "grade", assignment, assignment, "--out", assignment)
+    assert (status, Path(assignment).read_bytes()) == (2, before)
+    assert "--out would overwrite" in err
+
+
+def test_one_submission_is_graded_in_python(tmp_path: Path) -> None:
+    prepared, table = dofkit.load_assignment(ASSIGNMENT), tmp_path / "t.csv"
+    table.write_text("student;p.f\nana;1\n")
+    assert dofkit.grade(prepared, table).score == 2.0
+    table.write_text("student;p.f\nana;1\nbo;1\n")
+    assert "more than one" in str(dofkit.grade(prepared, table).error)
+    assert "no such file" in str(dofkit.grade(prepared, tmp_path / "no.yaml").error)
+    assert dofkit.grade(ASSIGNMENT, {"student": 7}).error == "'answers' is a mapping of problems to mappings of " + (
+        "questions to answers"
+    )
+
+
+def nested(depth: int) -> list[Any]:
+    made: list[Any] = []
+    for _ in range(depth):
+        made = [made]
+    return made
+
+
+ODD = {
+    "a long number": 10**100_000,
+    "a large one": Decimal("1e999999"),
+    "none": Decimal("nan"),
+    "infinity": float("inf"),
+    "lists in lists": nested(100_000),
+    "a mapping": {"a": 1},
+    "nothing in a list": [None],
+    "an object": object(),
+    "bytes": b"1",
+    "half a character": "\ud800",
+}
+
+
+@pytest.mark.parametrize("kind", list(ODD))
+def test_python_objects_that_are_no_answers_are_unreadable(kind: str) -> None:
+    given = dict.fromkeys(("f", "label", "eq"), ODD[kind])
+    result = dofkit.grade(ASSIGNMENT, {"student": "ana", "answers": {"p": given}})
+    assert [item.status for item in result.items[:2]] == ["unreadable", "unreadable"]
+    assert result.items[2].status in ("unreadable", "wrong")
+    assert all(item.column for item in result.items[:2])
+    assert json.loads(result.model_dump_json())["score"] == 0
+
+
+def test_answers_to_what_was_not_asked_are_bounded() -> None:
+    odd = {"p" * 10**6: {"q": 1}, "p": {f"{i}q": 1 for i in range(10**5)}}
+    result = dofkit.grade(ASSIGNMENT, {"student": "ana", "answers": odd})
+    assert len(result.items) == 3 + 100
+    assert len(result.model_dump_json()) < 50_000
+
+
+def test_check_only_tells_how_answers_are_read(
+    assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "s.json"
+    answers = {"p": {"f": "f = 3 - 1 = 2", "label": "no holonomic", "eq": "y = (("}}
+    path.write_text(json.dumps({"student": "ana", "answers": answers}))
+    status, (told,), _ = called(capsys, "grade", assignment, str(path), "--check-only", "--workers", "1")
+    read = {item["question"]: (item["status"], item["read_as"]) for item in told["items"]}
+    assert (status, read["f"], read["eq"]) == (0, ("read", "2"), ("unreadable", ""))
+    assert read["label"] == ("read", "non-holonomic")
+    assert "score" not in told
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("title: t\n", "problems"),
+        ("title: t\nproblems: [{id: p, scene: no.yaml, questions: [{id: q, ask: dof}]}]", "no.yaml"),
+        ("title: t\nproblems: [{id: p, scene: {coordinates: [x]}, questions: [{id: q, ask: dof, points: -1}]}]", "-1"),
+        ('{"title": "t', "closed"),
+    ],
+)
+def test_what_is_no_assignment_is_told_with_its_place(
+    text: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "a.yaml"
+    path.write_text(text)
+    status, told, err = called(capsys, "grade", str(path), str(path))
+    assert (status, told) == (2, [])
+    assert err.startswith(f"{path}:")
+    assert said in err
+    assert "Traceback" not in err
+
+
+@pytest.mark.parametrize(
+    "more", [["--format", "word"], ["--check-only", "--format", "html"], ["--scheduler", "tcp://127.0.0.1:1"]]
+)
+def test_options_that_cannot_be_are_told(more: list[str], assignment: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status, told, err = called(capsys, "grade", assignment, assignment, *more)
+    assert (status, told) == (2, [])
+    assert "error:" in err
+
+
+def test_a_starting_assignment_asks_all_there_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = tmp_path / "skate.yaml"
+    scene.write_text(
+        "name: skate\ncoordinates: [x, y, theta]\nconstraints:\n"
+        "- {name: blade, type: equation, text: xdot sin(theta) = ydot cos(theta)}\n- x^2 <= 4\n"
+    )
+    cli.app(["assignment", "new", str(scene), str(scene)], standalone_mode=False)
+    made = tmp_path / "made.yaml"
+    made.write_text(capsys.readouterr().out)
+    prepared = dofkit.load_assignment(made)
+    asked = [(p.id, q.id) for p, q in prepared.questions()]
+    one = ["dof", "velocity_dof", "k", "coordinates", "redundant"]
+    one += ["label-blade", "equation-blade", "integral-blade", "label-c2", "equation-c2"]
+    assert asked == [(p, q) for p in ("skate", "skate-2") for q in one]
+    right = {"dof": 3, "velocity_dof": 2, "k": 0, "coordinates": "x, y, theta", "redundant": "none"}
+    right |= {"label-blade": "non-holonomic, scleronomic", "integral-blade": "none"}
+    result = dofkit.grade(prepared, {"student": "ana", "answers": {"skate": right}})
+    assert result.score == len(right)
+
+
+# isolation
+
+
+def hostile(*answers: Mapping[str, str]) -> list[Handed]:
+    made = enumerate(answers)
+    return [Handed("", FilePlace("t", i), {"student": f"s{i}", "answers": {"p": given}}) for i, given in made]
+
+
+def statuses(given: Sequence[Handed], workers: int) -> Iterator[tuple[str, list[str], list[str]]]:
+    with Keeper(orders(), workers) as keeper, local_crew(keeper, workers) as local:
+        for _, (line,) in in_order(local, given):
+            items = json.loads(line.text)["items"]
+            yield line.student, [item["status"] for item in items], [item["feedback"] for item in items]
+
+
+def test_an_answer_that_breaks_its_worker_needs_a_review_and_touches_no_other() -> None:
+    fine = {"a": "1", "b": "2"}
+    given = hostile(
+        fine, {"a": "hang", "b": "2"}, {"a": "1", "b": "die"}, {"a": "fail", "b": "eat"}, fine, {"a": "hang"}
+    )
+    told = list(statuses(given, 1))
+    assert [name for name, _, _ in told] == [f"s{i}" for i in range(6)]
+    assert [found for _, found, _ in told] == [
+        ["right", "right"],
+        ["needs_review", "right"],
+        ["right", "needs_review"],
+        ["needs_review", "needs_review"],
+        ["right", "right"],
+        ["needs_review", "missing"],
+    ]
+    review = "This could not be decided and will be looked at: "
+    assert told[3][2] == [
+        f"{review}dofkit failed here (ValueError).",
+        f"{review}working on it took too long or too much memory.",
+    ]
+    assert told[1][2][0] == told[5][2][0]
+
+
+# order, and going on
+
+
+def rows(number: int) -> str:
+    """A table of so many students."""
+    made = (f"s{i},{i % 97},{'rheonomic' if i % 3 else 'holonomic scleronomic'}" for i in range(number))
+    return "student,p.f,p.label\n" + "\n".join(made) + "\n"
+
+
+def test_results_are_the_same_with_any_number_of_workers_and_in_any_order(
+    assignment: str, tmp_path: Path, capfdbinary: pytest.CaptureFixture[bytes]
+) -> None:
+    table, back = tmp_path / "t.csv", tmp_path / "b.csv"
+    head, *lines = rows(300).splitlines(keepends=True)
+    table.write_text(head + "".join(lines))
+    back.write_text(head + "".join(reversed(lines)))
+
+    def graded(path: Path, workers: int) -> list[bytes]:
+        cli.app(["grade", assignment, str(path), "--workers", str(workers)], standalone_mode=False)
+        return capfdbinary.readouterr().out.splitlines()
+
+    once = graded(table, 1)
+    assert len(once) == 300
+    assert once == graded(table, 2) == graded(back, 2)[::-1]
+
+
+#: The command line, which stops before it writes the results of so many submissions, says so, and waits for a signal.
+WAITING = """
+import signal, sys
+from dofkit.homework.runs.journal import Journal
+from dofkit.interface import cli
+real, left = Journal.write, int(sys.argv.pop(1))
+def write(journal, one, lines):
+    global left
+    left -= 1
+    while left == 0:
+        print("here", flush=True)
+        signal.pause()
+    real(journal, one, lines)
+Journal.write = write
+cli.main()
+"""
+
+
+def started(
+    assignment: str, table: Path, out: Path, stderr: int = subprocess.PIPE, until: int = 0
+) -> subprocess.Popen[bytes]:
+    """A run; with ``until`` one that waits there for a signal."""
+    begun = ["-c", WAITING, str(until)] if until else ["-m", "dofkit"]
+    command = [sys.executable, *begun, "grade", assignment, str(table), "--out", str(out)]
+    path = os.pathsep.join(place for place in sys.path if place)
+    return subprocess.Popen(command, env={**os.environ, "PYTHONPATH": path}, stdout=subprocess.PIPE, stderr=stderr)
+
+
+def length(path: Path) -> int:
+    return path.read_bytes().count(b"\n") if path.exists() else 0
+
+
+def test_a_run_interrupted_twice_ends_as_one_that_was_not(assignment: str, tmp_path: Path) -> None:
+    table, out, whole = tmp_path / "t.csv", tmp_path / "out.jsonl", tmp_path / "whole.jsonl"
+    table.write_text(rows(1000))
+    for number, status, reached in ((signal.SIGKILL, -signal.SIGKILL, 300), (signal.SIGINT, cli.INTERRUPTED, 600)):
+        with started(assignment, table, out, until=301) as process:
+            assert process.stdout is not None
+            assert process.stdout.readline() == b"here\n"
+            process.send_signal(number)
+            said = process.communicate()[1]
+        assert (said, process.returncode, length(out)) == (b"", status, reached)
+    with out.open("ab") as file:
+        file.write(b'{"student": "torn')
+    before = out.read_bytes()[:100_000]
+    for path in (out, whole):
+        with started(assignment, table, path) as process:
+            assert (process.communicate(), process.returncode) == ((b"", b""), 0)
+    assert out.read_bytes() == whole.read_bytes()
+    assert out.read_bytes()[:100_000] == before
+    assert length(out) == 1000
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["assignment.json", "out.jsonl", "t.csv", "whole.jsonl"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no pseudo-terminals")
+def test_a_terminal_sees_how_far_it_is(assignment: str, tmp_path: Path) -> None:
+    table = tmp_path / "t.csv"
+    table.write_text(rows(50))
+    ours, theirs = os.openpty()
+    process, told = started(assignment, table, tmp_path / "out.jsonl", theirs), b""
+    os.close(theirs)
+    with suppress(OSError):
+        while part := os.read(ours, 10_000):
+            told += part
+    os.close(ours)
+    assert process.wait() == 0
+    assert b"50 graded" in told
+
+
+def journal(path: Path, mark: str = "m") -> Journal:
+    return Journal(path, mark)
+
+
+def test_only_what_fits_is_taken_over(tmp_path: Path) -> None:
+    path, made = tmp_path / "out.jsonl", Orders(b"", 1.0)
+    given = [Handed(name, FilePlace("t", i), error=name) for i, name in enumerate("abc")]
+
+    def left(mark: str = "m", new: Sequence[Handed] = given) -> str:
+        one = journal(path, mark)
+        found = "".join(h.name for h in one.remaining(iter(new), HandedIn()))
+        one.close()
+        return found
+
+    def write() -> None:
+        path.unlink(missing_ok=True)
+        one = journal(path)
+        list(one.remaining(iter(given), HandedIn()))
+        for h in given:
+            one.write(h, [made.refused(h.name, h.error)])
+        one.close()
+
+    write()
+    assert (left(), left(new=given[:2]), left()) == ("", "", "c")
+    write()
+    assert (left(new=[given[0], given[2]]), left()) == ("c", "bc")
+    write()
+    path.write_bytes(path.read_bytes().replace(b'"b"', b'"x"'))
+    assert left() == "bc"
+    write()
+    assert (left("other"), length(path)) == ("abc", 0)
+    held = journal(path)
+    with pytest.raises(BusyError):
+        journal(path)
+    held.close()
+
+
+@pytest.mark.parametrize("seconds", [0.002, 0.008])
+@pytest.mark.parametrize("name", FILES)
+def test_too_little_time_needs_a_review_and_makes_nothing_wrong(name: str, seconds: float) -> None:
+    made = document(name)
+    here = Grader(dofkit.load_assignment(made["assignment"]), seconds)
+    for place, answer, status, *_ in made["answers"]:
+        problem, question = place.split(".")
+        result = here.grade(of_value({"student": "s", "answers": {problem: {question: answer}}}, "s"))
+        found = next(item.status for item in result.items if (item.problem, item.question) == (problem, question))
+        assert found in (status, "needs_review"), answer

@@ -1,0 +1,298 @@
+"""Each method by itself on small cases worked out by hand: where it is right, where it is wrong, what it cannot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, get_args
+
+import pytest
+from shared.known_scenes import SCENES, dealt, report_of, scene_of
+
+import dofkit
+import dofkit.methods.dispatch
+from dofkit.base.verdicts import VERDICTS
+from dofkit.benchmark.failures import TRAITS, WHY, explained
+from dofkit.methods.dispatch import Knobs, answered
+from dofkit.methods.names import QUESTIONS, MethodName, Question
+from dofkit.methods.table import METHODS
+from dofkit.report import Report
+
+HOME = Path(dofkit.methods.__file__).parent
+#: Modules of the package that are no method.
+SHARED = {"__init__", "ask", "classify", "dispatch", "engine", "in_worker", "names", "stages", "table", "unread"}
+RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if not METHODS[m].engines)
+#: Rivals that are quick enough for every scene.
+QUICK: tuple[MethodName, ...] = tuple(m for m in RIVALS if m != "symbolic")
+#: The scenes that half of the rivals look at, and those of which each question is asked.
+HALF = frozenset(dealt("alone", SCENES, 2)[0])
+DEALT: dict[Question, list[Path]] = dict(zip(QUESTIONS[:3], dealt("ask", SCENES, 3), strict=True))
+ENTRY = ("holonomic", "holonomic_alone", "scleronomic", "bilateral", "exact", "independent", "equations")
+
+
+def scene(*constraints: Any, coordinates: tuple[str, ...] = ("x", "y", "z"), **more: Any) -> dict[str, Any]:
+    return {"coordinates": list(coordinates), "constraints": list(constraints), **more}
+
+
+def points(*places: tuple[str, tuple[int, ...] | None], links: str, dimension: int = 2, **more: Any) -> dict[str, Any]:
+    """Particles, drawn or not, and links between them."""
+    particles = [name if at is None else {"name": name, "at": list(at)} for name, at in places]
+    bars = [{"name": pair, "type": "link", "between": list(pair)} for pair in links.split()]
+    return {"dimension": dimension, "particles": particles, "constraints": bars, **more}
+
+
+#: A square with both diagonals, the last link redundant: 8 coordinates, 5 independent links, 3 left.
+BRACED = points(*((n, None) for n in "ABCD"), links="AB BC CD DA AC BD")
+#: Three points on a line, all joined: one link redundant at the drawing only; held apart it is a shake of B.
+STRAIGHT = points(("A", (0, 0)), ("B", (1, 0)), ("C", (2, 0)), links="AB BC AC")
+#: dy = p dx, dp = q dx: not integrable, and yet d(dy - p dx) = dx dp vanishes modulo both forms (Goursat).
+CHAIN = scene("dy - p dx = 0", "dp - q dx = 0", coordinates=("x", "y", "p", "q"))
+#: x = 0 with xdot = y forces y = 0; nobody wrote it.
+HIDDEN = scene("x = 0", "xdot = y", coordinates=("x", "y"))
+#: One form has the factor 1/x^2, so that y/x is constant; it is not closed.
+FACTOR = scene("x dy - y dx = 0")
+TWICE = scene("x + y = 1", "2 x + 2 y = 2")
+
+#: (question, scene, truth, what each method tells; a method that is not named cannot answer)
+Case = tuple[str, Question, dict[str, Any], Any, dict[MethodName, Any]]
+NONE, SLOW = object(), object()
+CASES: list[Case] = [
+    ("braced square", "dof", BRACED, 3,
+     {"count": 2, "graph": 3, "field": 3, "balls": 3, "exact": 3, "numeric": 3, "symbolic": SLOW}),
+    ("braced square", "redundancy", BRACED, ["BD"],
+     {"count": NONE, "graph": ["BD"], "field": ["BD"], "balls": ["BD"], "exact": ["BD"], "numeric": ["BD"],
+      "symbolic": SLOW}),
+    ("straight triangle", "dof", STRAIGHT, 3,
+     {"count": 3, "graph": 3, "field": 3, "balls": 3, "exact": 4, "numeric": 4, "symbolic": 4}),
+    ("forms in a chain", "integrability", CHAIN, {"c1": False, "c2": False},
+     {"count": {"c1": False, "c2": False}, "field": {"c1": False, "c2": False}, "balls": {"c1": False, "c2": False},
+      "exact": {"c1": True, "c2": False}, "numeric": {"c1": True, "c2": False}, "symbolic": {"c1": True, "c2": False}}),
+    ("a form with a factor", "integrability", FACTOR, {"c1": True},
+     {"count": {"c1": False}, "field": {"c1": True}, "balls": {"c1": True}, "exact": {"c1": True},
+      "numeric": {"c1": True}, "symbolic": {"c1": True}}),
+    ("a form with a factor", "dof", FACTOR, 2,
+     {"count": 3, "field": 2, "balls": 2, "exact": 2, "numeric": 2, "symbolic": 2}),
+    ("a hidden relation", "dof", HIDDEN, 0,
+     {"count": 1, "field": 0, "balls": 0, "exact": 1, "numeric": 1, "symbolic": 1}),
+    ("written twice", "dof", TWICE, 2,
+     {"count": 1, "field": 2, "balls": 2, "exact": 2, "numeric": 2, "symbolic": 2}),
+    ("written twice", "redundancy", TWICE, ["c2"],
+     {"count": [], "field": ["c2"], "balls": ["c2"], "exact": ["c2"], "numeric": ["c2"], "symbolic": ["c2"]}),
+    ("nothing is left over", "redundancy", scene("x = 1", "y = 2"), [],
+     {"count": [], "field": [], "balls": [], "exact": [], "numeric": [], "symbolic": []}),
+    ("two values for one", "dof", scene("x = 1", "x = 2"), -1,
+     {"count": 1, "field": -1, "balls": -1, "exact": -1, "numeric": -1, "symbolic": 2}),
+    ("a square and its root", "dof", scene("(x - y)^2 = 0", "x = y"), 2,
+     {"count": 1, "field": 2, "balls": 2, "numeric": 2, "symbolic": 2}),
+    ("a sum of squares", "dof", scene("x^2 + y^2 = 0"), 1,
+     {"count": 2, "field": 1, "balls": 1, "numeric": 2, "symbolic": 2}),
+    ("links are finite", "integrability", BRACED, dict.fromkeys(("AB", "BC", "CD", "DA", "AC", "BD"), True),
+     {m: dict.fromkeys(("AB", "BC", "CD", "DA", "AC", "BD"), True) for m in METHODS if m != "auto"}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("title", "question", "given", "truth", "told"), CASES, ids=lambda v: v if v is str(v) else "")
+def test_what_each_method_tells(
+    title: str, question: Question, given: dict[str, Any], truth: Any, told: dict[MethodName, Any]
+) -> None:
+    assert answered(given, question, "auto").value == truth
+    for method in METHODS:
+        if method == "auto" or told.get(method) is SLOW:
+            continue
+        found = answered(given, question, method)
+        wanted = told.get(method, NONE)
+        assert found.value == (None if wanted is NONE else wanted), (title, method, found)
+        assert found.cannot == (method not in told)
+        assert found.value is not None or found.reason
+
+
+FLAT = scene("z = 0", "x + z = 1")
+#: (scene, constraint, answer, truth, who says that it is the same); with ? who does not tell; all others say it is not.
+ANSWERS: list[tuple[dict[str, Any], str, str, bool, str]] = [
+    (FLAT, "c2", "x + z = 1", True, "auto count field balls exact numeric symbolic"),
+    (FLAT, "c2", "x=1-z", True, "auto field balls exact numeric symbolic"),
+    (FLAT, "c2", "5 x + 5 z = 5", True, "auto field balls exact numeric"),
+    (FLAT, "c2", "x = 1", True, "auto field balls exact numeric"),
+    (FLAT, "c2", "x = 1 + y", False, ""),
+    (FLAT, "c2", "x + z^2 = 1", True, "auto field balls exact numeric"),
+    (scene("x = y"), "c1", "(x - y)^2 = 0", False, "exact? numeric"),
+    (scene("zdot = y xdot"), "c1", "2 dz - 2 y dx = 0", True, "auto field balls exact numeric"),
+    (scene("zdot = y xdot"), "c1", "dz = x dy", False, ""),
+    (scene("x = 0"), "c1", "x + y/10^12 = 0", False, "numeric"),
+]
+
+
+@pytest.mark.parametrize(("given", "name", "text", "truth", "same"), ANSWERS, ids=lambda v: v if v is str(v) else "")
+def test_which_answers_each_method_takes_for_the_same(
+    given: dict[str, Any], name: str, text: str, truth: bool, same: str
+) -> None:
+    assert truth == ("auto" in same)
+    for method in METHODS:
+        if "equivalence" in METHODS[method].uses:
+            found = answered(given, "equivalence", method, answer={"constraint": name, "text": text})
+            wanted = None if f"{method}?" in same.split() else method in same.split()
+            assert found.value is wanted, (method, found)
+
+
+def test_every_row_has_a_module_and_every_module_a_row() -> None:
+    assert {p.stem for p in HOME.glob("*.py")} - SHARED == set(RIVALS)
+    assert set(METHODS) == set(get_args(MethodName))
+    assert set(QUESTIONS) == set(get_args(Question))
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_method_answers_what_its_row_says(method: MethodName) -> None:
+    for question in QUESTIONS:
+        work = METHODS[method].answering(question)
+        assert (work is not None) == (question in METHODS[method].uses)
+        home = "engine" if METHODS[method].engines else method
+        assert work is None or (work.__name__, work.__module__) == (question, f"dofkit.methods.{home}")
+    assert all(use.sound and use.costs for use in METHODS[method].uses.values())
+
+
+def test_a_prime_of_few_bits_divides_what_is_not_zero() -> None:
+    """x + y = 0 and x + 18 y = 0 are dependent modulo 17, the one prime of 5 bits that is 1 modulo 8."""
+    given = scene("x + y = 0", "x + 18 y = 0", coordinates=("x", "y"))
+    assert [answered(given, "dof", "field", Knobs(prime_bits=b)).value for b in (5, 61)] == [1, 0]
+    assert answered(given, "dof", "field", Knobs(prime_bits=4)).value is None
+
+
+def test_balls_of_few_bits_do_not_tell_a_small_number_from_zero() -> None:
+    """e^(pi sqrt 163) is 262537412640768744 but for 7.5e-13, which 100 bits do not show beside it and 128 do."""
+    given = scene("dz + (exp(pi*sqrt(163)) - 262537412640768744) y dx = 0")
+    told = [answered(given, "integrability", "balls", Knobs(bits=b)).value for b in (53, 128)]
+    assert told == [{"c1": True}, {"c1": False}]
+
+
+def test_a_tolerance_takes_what_is_small_for_zero() -> None:
+    given = scene("x = 0", "x + y/10^7 = 0", coordinates=("x", "y"))
+    assert [answered(given, "dof", "numeric", Knobs(tolerance=t)).value for t in (1e-5, 1e-9)] == [1, 0]
+
+
+def test_a_question_alone_is_answered_as_the_report_answers_it() -> None:
+    found = dofkit.ask(dofkit.load(HIDDEN), "dof")
+    assert (found.value, found.reason) == (0, "")
+    assert dofkit.ask(dofkit.load(TWICE), "redundancy").value == ["c2"]
+    late = dofkit.ask(dofkit.load(TWICE), "redundancy", budget=0)
+    assert (late.value, late.verdict) == (None, "undecided")
+    assert late.reason
+
+
+def report(given: dict[str, Any], method: MethodName) -> Report:
+    return dofkit.classify(dofkit.load(given), method=method)
+
+
+def test_the_report_of_a_method_alone_is_sure_of_what_it_is_sound_for_only() -> None:
+    count = report(BRACED, "count")
+    assert (count.dof, count.count.naive_dof, count.verdict) == (None, 2, "undecided")
+    assert any("gives 2 degrees of freedom" in w and "independent" in w for w in count.warnings)
+    graph = report(BRACED, "graph")
+    assert (graph.dof, graph.redundant, graph.redundant_equations) == (3, ["BD"], 1)
+    drawn = report(STRAIGHT, "graph")
+    assert drawn.dof is None
+    assert drawn.generic is not None
+    assert (drawn.generic.dof, drawn.generic.verdict) == (3, "proved")
+    exact = report(STRAIGHT, "exact")
+    assert (exact.dof, exact.instantaneous_dof, exact.verdict) == (None, 4, "undecided")
+    assert any("4 degrees of freedom" in w and "no motion" in w for w in exact.warnings)
+    numeric = report(STRAIGHT, "numeric")
+    assert (numeric.dof, numeric.instantaneous_dof) == (None, 4)
+    assert any("clear gap" in w for w in numeric.warnings)
+    symbolic = report(FACTOR, "symbolic")
+    assert (symbolic.dof, symbolic.constraints[0].holonomic) == (None, None)
+    assert any("2 degrees of freedom" in w for w in symbolic.warnings)
+
+
+def test_independent_equations_at_the_drawing_prove_the_freedom() -> None:
+    """A triangle 3-4-5 of links: the implicit function theorem."""
+    triangle = points(("A", (0, 0)), ("B", (3, 0)), ("C", (0, 4)), links="AB BC AC")
+    assert [(r.dof, r.verdict) for r in (report(triangle, "exact"), report(triangle, "numeric"))] == [
+        (3, "proved"),
+        (3, "numeric"),
+    ]
+
+
+def test_a_form_that_is_not_closed_is_left_open_by_the_count() -> None:
+    entry = report(FACTOR, "count").constraints[0]
+    assert (entry.exact, entry.holonomic, entry.verdict) == (False, None, "undecided")
+    closed = report(scene("x dy + y dx = 0"), "count").constraints[0]
+    assert (closed.exact, closed.holonomic, closed.holonomic_alone) == (True, True, True)
+
+
+@pytest.mark.parametrize("path", SCENES[::2], ids=lambda path: path.stem)
+def test_no_method_alone_contradicts_what_is_expected(path: Path) -> None:
+    given = scene_of(path)
+    expect = given.expect
+    for method in QUICK[::2] if path in HALF else QUICK[1::2]:
+        told = dofkit.classify(given, method=method)
+        data = told.model_dump(mode="json")
+        for key in ("consistent", "dof", "velocity_dof", "instantaneous_dof", "singular", "redundant_equations"):
+            assert key not in expect or data[key] in (None, expect[key]), (method, key)
+        for entry in data["constraints"]:
+            wanted = expect.get("constraints", {}).get(entry["name"], {})
+            wrong = [k for k in ENTRY if k in wanted and entry[k] not in (None, wanted[k])]
+            assert not wrong, (method, entry["name"])
+        best = VERDICTS.index(METHODS[method].best)
+        assert all(VERDICTS.index(v) >= best for v in (told.verdict, *(e.verdict for e in told.constraints)))
+        assert told.method.startswith(f"{method} alone: ")
+        assert METHODS[method].cannot in told.method
+
+
+@pytest.mark.parametrize("path", SCENES[1::2], ids=lambda path: path.stem)
+def test_a_question_alone_has_the_answer_of_the_report(path: Path) -> None:
+    """One of the questions for each scene, dealt out."""
+    told, given = report_of(path), scene_of(path)
+    question = next(q for q, paths in DEALT.items() if path in paths)
+    found = dofkit.ask(given, question)
+    if question == "dof":
+        assert found.value == (-1 if told.consistent is False else told.dof)
+    elif question == "integrability":
+        assert found.value == {e.name: e.holonomic for e in told.constraints}
+    elif told.redundant_equations is None:
+        assert found.value is None
+    else:
+        assert found.value is None or sorted(found.value) == sorted(told.redundant)
+
+
+#: A triangle with a square on it, its diagonal twice: drawn, redundant and rigid.
+TWICE_DRAWN = points(("A", (0, 0)), ("B", (3, 0)), ("C", (3, 3)), ("D", (0, 3)), links="AB BC CD DA AC BD")
+
+
+def test_what_is_drawn_is_answered_by_its_rows_where_they_prove_it() -> None:
+    """Rigid with one link too many; independent; a flexible frame in special position is left to the other ways."""
+    rigid = dofkit.ask(dofkit.load(TWICE_DRAWN), "redundancy")
+    assert (rigid.value, rigid.verdict) == (["BD"], "probable")
+    assert dofkit.ask(dofkit.load(TWICE_DRAWN), "dof").value == 3
+    assert dofkit.ask(dofkit.load(STRAIGHT), "dof").value == 3
+    hinge = {"type": "revolute", "between": ["ground", "door"], "at": [0, 0, 0], "axis": [0, 0, 1]}
+    door = {"bodies": ["door"], "constraints": [{**hinge, "name": "a"}, {**hinge, "name": "b"}]}
+    assert dofkit.ask(dofkit.load(door), "dof").value == 1
+    assert dofkit.ask(dofkit.load(door), "redundancy").value == ["b"]
+    apart = {"bodies": ["door"], "constraints": [{**hinge, "name": "a"}, {**hinge, "name": "b", "at": [0, 0, 2]}]}
+    assert dofkit.ask(dofkit.load(apart), "dof").value == 1
+
+
+def test_a_rank_at_the_drawing_says_nothing_of_a_link_too_many_that_grows() -> None:
+    """Two bars hold A; the third fits them at t = 0 only, so no motion through time satisfies all three."""
+    bars = [([0, 0], {}), ([3, 1], {}), ([3, 5], {"length": "5 + t"})]
+    scene = {
+        "dimension": 2,
+        "particles": [{"name": "A", "at": [0, 1]}],
+        "constraints": [{"type": "link", "between": ["A", end], **more} for end, more in bars],
+    }
+    assert dofkit.classify(dofkit.load(scene)).consistent is False
+    assert dofkit.ask(dofkit.load(scene), "dof").verdict != "proved"
+
+
+def test_every_failure_is_explained_by_a_sentence() -> None:
+    assert {m for m, _ in WHY} == set(METHODS)
+    assert {t for _, t in WHY} <= TRAITS.keys()
+    for method in METHODS:
+        for question in QUESTIONS:
+            for outcome in ("wrong", "undecided", "cannot", "timed out"):
+                for traits in ((), *((t,) for t in TRAITS)):
+                    told = explained(method, question, traits, outcome, "")
+                    assert told[0].isupper()
+                    assert told.endswith(".")
+    assert explained("count", "dof", ("redundant",), "wrong", "") == WHY["count", "redundant"]
+    assert explained("graph", "dof", ("plain",), "cannot", "no link") == "No link."
+    assert explained("no method", "dof", ("no trait",), "wrong", "")

@@ -1,0 +1,314 @@
+"""Reading: what may be written, what is refused, and where each fault is."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+import dofkit
+from dofkit.base.documents import read_document
+from dofkit.base.documents.document import MOST_SLOW, _from_block, _from_flow, _from_yaml
+from dofkit.base.errors import Fault, SceneError
+from dofkit.scene.reading import MOST_FAULTS, SceneFile, find, load, loads
+from dofkit.scene.scene import Scene
+
+HERE = Path(__file__).parents[1]
+GOOD = sorted([*HERE.parent.glob("catalog/*/*.yaml"), *HERE.glob("scenes/[!b]*/*.yaml")])
+
+
+def faults(data: bytes | str) -> tuple[Fault, ...]:
+    with pytest.raises(SceneError) as caught:
+        loads(data, "bad")
+    return caught.value.faults
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1e-6", Decimal("1e-6")), ("1.0e-5", Decimal("1.0e-5")), (".5", Decimal("0.5")), ("1.", Decimal(1)),
+        ("-.5", Decimal("-0.5")), ("0o17", 15), ("0x1F", 31), ("017", 17), ("+1", 1), ("1_000", "1_000"),
+        ("0.1", Decimal("0.1")), ("on", "on"), ("off", "off"), ("yes", "yes"), ("no", "no"), ("y", "y"), ("n", "n"),
+        ("~", None), ("null", None), ("true", True), ("2001-01-01", "2001-01-01"), ("1:30", "1:30"), ("=", "="),
+        ("'1'", "1"), ('"1"', "1"), ('"a\\tb\\u00e9\\"\\\\"', 'a\tbé"\\'), ('"\\ud83d\\ude00"', "😀"), ("''''", "'"),
+        ("-x", "-x"), ("...x", "...x"), ("a b", "a b"), ("x^2 + y^2 = 1", "x^2 + y^2 = 1"), ("!!str 1", "1"),
+        ("[1, [2, 3], {a: b}]", [1, [2, 3], {"a": "b"}]), ("[]", []), ("{}", {}), ("|\n  a\n  b", "a\nb\n"),
+        ("[a, b,]", ["a", "b"]), ("{a: , b: 1}", {"a": None, "b": 1}), ('{"a":1}', {"a": 1}), ("{a:b}", {"a:b": None}),
+    ],
+)  # fmt: skip
+def test_scalars_follow_the_core_schema_exactly(text: str, value: object) -> None:
+    for written in (f"k: {text}\n", f"k:\n- {text}\n"):
+        document = read_document(written, "x")
+        expected = value if written.startswith("k: ") else [value]
+        assert document.faults == ()
+        assert document.value["k"] == expected
+        assert type(document.value["k"]) is type(expected)
+
+
+def test_numbers_never_pass_through_floats() -> None:
+    scene = loads("dimension: 1\nparticles: [{name: A, at: [0.1]}, {name: B, at: [1e-30]}]")
+    assert [particle.at for particle in scene.particles] == [(Fraction(1, 10),), (Fraction(1, 10**30),)]
+
+
+JSON_TEXTS = [
+    '{"coordinates": ["x"], "constraints": []}',
+    '{\n\t"coordinates":\t["x"],\r\n\t"constraints" : [ "x = 1" ]\n}\n',
+    '{"coordinates": ["x\\u0031"], "title": "a \\/ \\"b\\" \\n c: d # e", "configuration": {"x1": -1.50E+2}}',
+    '{"title": "\\ud83d\\ude00", "tolerance": 0.001, "dimension": 2, "notes": null}',
+]
+
+
+@pytest.mark.parametrize("text", JSON_TEXTS)
+def test_json_reads_as_json(text: str) -> None:
+    assert read_document(text, "x").value == json.loads(text, parse_float=Decimal)
+    assert isinstance(loads(text), Scene)
+
+
+@pytest.mark.parametrize("path", GOOD, ids=lambda path: path.stem)
+def test_the_fast_reader_agrees_with_the_full_one(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    fast, full = read_document(text, "x"), _from_yaml("x", text)
+    assert fast.value == full.value
+    assert fast.faults == full.faults == ()
+    pending: list[tuple[tuple[str | int, ...], object]] = [((), fast.value)]
+    while pending:
+        where, value = pending.pop()
+        assert fast.place(where) == full.place(where), where
+        assert fast.place(where, key=True) == full.place(where, key=True), where
+        parts = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+        pending += [((*where, key), part) for key, part in parts]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "notes: |\n  - {a: b}\n  - {c: d}\ncoordinates: [x]\n",
+        'notes: "a\n  - {a: b}\n  c"\ncoordinates: [x]\n',
+        "notes: a\n  - [a, b]\ncoordinates: [x]\n",
+        "constraints:\n- {type: link}\n# then\n- {type: link}\n\n-   'x = 1'\n- \"x = 2\" # here\ncoordinates: [x]\n",
+        "constraints:\r\n- {type: link}\r\n- {type: link}\r\ncoordinates: [x]\r\n",
+        "a:\n- [1, 2]\n-\n  - {b: 1}\n  - {b: 2}\n- {b: 3}\n",
+    ],
+)
+def test_the_fast_reader_agrees_on_what_is_unusual(text: str) -> None:
+    fast, full = read_document(text, "x"), _from_yaml("x", text)
+    assert (fast.value, fast.faults) == (full.value, full.faults)
+    assert fast.faults == ()
+
+
+PIECES = [
+    *" \n-:,[]{}'\"#|>&*!?~%@\\\t", "- ", ": ", " #", ">-\n", "|\n  ", "\n  ", "\r\n", "---\n", "...",
+    "θ", "''", "a: b",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_whatever_the_fast_readers_take_they_read_as_the_full_one(seed: int) -> None:
+    chance = random.Random(seed)
+    texts = [path.read_text(encoding="utf-8") for path in GOOD]
+    taken = 0
+    for _ in range(400):
+        text = chance.choice(texts)
+        start = chance.randrange(max(1, len(text) - 200))
+        text = text[start : start + 200].partition("\n")[2]
+        for _ in range(chance.randint(0, 2)):
+            at = chance.randrange(len(text) + 1)
+            text = text[:at] + chance.choice(PIECES) + text[at + chance.randint(0, 2) :]
+        fast = (_from_flow("x", text) or _from_block("x", text)) if text.strip() else None
+        if fast is not None:
+            taken += 1
+            full = _from_yaml("x", text)
+            assert (fast.value, fast.faults) == (full.value, full.faults), text
+    assert taken > 10
+
+
+BAD = {
+    "empty": (b"", 1, 1, "empty"),
+    "blank": (b" \n\n", 1, 1, "empty"),
+    "only a comment": (b"# nothing\n", 1, 1, "mapping"),
+    "list": (b"- x\n", 1, 1, "mapping"),
+    "text": (b"just words\n", 1, 1, "mapping"),
+    "null": (b"---\n", 2, 1, "mapping"),
+    "unknown key": (b"coordinates: [x]\nconstrains: []\n", 2, 1, "'constrains'"),
+    "duplicate key": (b"coordinates: [x]\ntitle: a\ncoordinates: [y]\n", 3, 1, "'coordinates'"),
+    "duplicate key in brackets": (b"particles:\n- {name: A, name: B}\n", 2, 13, "'name'"),
+    "duplicate key in JSON": (b'{"coordinates": ["x"],\n "coordinates": ["y"]}', 2, 2, "'coordinates'"),
+    "nul": (b"coordinates: [x]\ntitle: 'a\0b'\n", 2, 10, "U+0000"),
+    "escape character": (b"title: \x1b[31m\n", 1, 8, "U+001B"),
+    "latin-1": (b"coordinates: [x]\ntitle: caf\xe9\n", 2, 11, "UTF-8"),
+    "utf-16": ("coordinates: [x]".encode("utf-16"), 1, 1, "UTF-16"),
+    "tab": (b"configuration:\n\tx: 1\n", 2, 1, "tab"),
+    "unclosed bracket": (b"coordinates: [x, y\ntitle: a\n", 2, 6, "line 1's bracket"),
+    "unclosed quote": (b"title: a\nnotes: 'a\ncoordinates: [x]\n", 2, 8, "never closed"),
+    "extra bracket": (b"coordinates: [x]]\n", 1, 17, "']'"),
+    "extra comma": (b"coordinates: [x,, y]\n", 1, 17, "','"),
+    "colon in text": (b"title: a: b\n", 1, 9, "':'"),
+    "bad indent": (b"coordinates:\n- x\n y: 1\n", 3, 3, "':'"),
+    "list after a value": (b"coordinates: [x]\n- y\n", 2, 1, "fit"),
+    "at sign": (b"title: @me\n", 1, 8, "@"),
+    "percent": (b"title: %me\n", 1, 8, "%"),
+    "star": (b"title: *\n", 1, 9, "*"),
+    "bad escape": (b'title: "a\\qb"\n', 1, 11, "\\q"),
+    "half a character": (b'{"title": "\\ud83d"}', 1, 11, "half a character"),
+    "undefined alias": (b"title: *nobody\n", 1, 8, "nobody"),
+    "alias of itself": (b"title: &a [*a]\n", 1, 12, "inside"),
+    "two documents": (b"coordinates: [x]\n---\ncoordinates: [y]\n", 2, 1, "second"),
+    "python tag": (b"coordinates: [x]\ntitle: !!python/object/apply:os.system ['true']\n", 2, 8, "python"),
+    "custom tag": (b"title: !secret x\n", 1, 8, "!secret"),
+    "a key that is a list": (b"? [a, b]\n: c\n", 1, 3, "key"),
+    "deep": (b"title: " + b"[" * 5000, 1, 57, "deep"),
+    "deep JSON": (b'{"title": ' + b"[" * 5000 + b"]" * 5000 + b"}", 1, 60, "deep"),
+    "bomb": (
+        b"a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n"
+        + b"".join(b"a%d: &a%d [%s]\n" % (i, i, b", ".join([b"*a%d" % (i - 1)] * 10)) for i in range(1, 10)),
+        6, 10, "aliases",
+    ),
+    "huge integer": (b"configuration: {x: " + b"9" * 100_000 + b"}", 1, 20, "100000 characters"),
+    "huge exponent": (b"coordinates: [x]\nconfiguration: {x: 1e999999999}", 2, 20, "too large"),
+    "tiny exponent": (b"coordinates: [x]\nconfiguration: {x: 1e-99999999999999999999}", 2, 20, "too small"),
+    "infinite": (b"coordinates: [x]\nconfiguration: {x: .inf}", 2, 20, "finite"),
+    "not a number": (b'{"coordinates": ["x"], "configuration": {"x": NaN}}', 1, 47, "finite"),
+    "too long for the slow reader": (b"notes:\n" + b"  word\n" * (MOST_SLOW // 7 + 1), 1, 1, "MB"),
+    "dimension": (b"dimension: 4\n", 1, 12, "1, 2 or 3"),
+    "unknown type": (b"bodies: [a]\nconstraints:\n- {name: p, type: revolut, between: []}\n", 3, 19, "revolut"),
+    "unknown key in a constraint": (b"particles: [A]\nconstraints:\n- {type: link, betwen: [A]}\n", 3, 16, "betwen"),
+    "missing key": (b"particles: [A]\nconstraints:\n- {type: link}\n", 3, 3, "'between'"),
+    "one end": (b"particles: [A]\nconstraints:\n- {type: link, between: [A]}\n", 3, 25, "2 entries"),
+    "unknown name": (b"coordinates: [theta]\nconstraints:\n- thta = 1\n", 3, 3, "thta"),
+    "unknown name in quotes": (b'coordinates: [theta]\nconstraints:\n- "1 = thta"\n', 3, 8, "thta"),
+    "unknown name after an escape": (b'coordinates: [theta]\nconstraints:\n- "\\u0031 = thta"\n', 3, 13, "thta"),
+    "unknown name in a field": (
+        b"coordinates: [theta]\nconstraints:\n- {type: equation, text: 'theta = thta'}\n", 3, 35, "thta",
+    ),
+    "unknown name in JSON": (b'{"coordinates": ["theta"],\n"constraints": ["theta = thta"]}', 2, 26, "thta"),
+    "unknown name after CRLF": (b"coordinates: [theta]\r\nconstraints:\r\n- 1 = thta\r\n", 3, 7, "thta"),
+    "unknown name after a BOM": (b"\xef\xbb\xbfcoordinates: [q]\nconstraints: [1 = thta]\n", 2, 19, "thta"),
+    "unknown body": (b"dimension: 2\nbodies: [crank]\nconstraints:\n- {type: fixed, body: crnk}\n", 4, 23, "crnk"),
+    "number as a name": (b"coordinates: [1]\n", 1, 15, "text is needed"),
+    "mapping as a list": (b"coordinates: {x: y}\n", 1, 14, "list is needed"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_every_fault_has_its_place_and_says_what_to_do(case: str) -> None:
+    data, line, column, message = BAD[case]
+    found = faults(data)
+    assert (found[0].line, found[0].column) == (line, column), found[0]
+    assert message in found[0].message
+    for fault in found:
+        assert fault.line is not None
+        assert fault.column is not None
+        assert fault.hint
+        assert "Input should" not in fault.message
+        assert len(fault.message) < 300
+
+
+def test_all_faults_come_at_once_in_the_order_of_the_file() -> None:
+    found = faults(
+        "title: [1]\n"
+        "coordinates: [theta, theta]\n"
+        "constraints:\n"
+        "- {type: link, betwen: [A, B]}\n"
+        "- {type: revolut}\n"
+        "- thta = 1\n"
+        "- {type: equation, text: 'x = 1', txt: 1}\n"
+        "configuraton: {}\n"
+        "coordinates: [x]\n"
+        "notes: !!python/name:os.system ''\n"
+    )
+    assert [fault.line for fault in found] == [1, 2, 4, 5, 6, 7, 8, 9, 10]
+    assert [fault.hint for fault in found if "did you mean" in (fault.hint or "")] == [
+        "did you mean 'between'?",
+        "did you mean 'revolute'?",
+        "did you mean `theta`?",
+        "did you mean 'text'?",
+        "did you mean 'configuration'?",
+    ]
+
+
+def test_faults_without_end_are_counted() -> None:
+    found = faults("coordinates: [q]\nconstraints:\n" + "- {type: equation, txt: q}\n" * 1000)
+    assert len(found) == MOST_FAULTS + 1
+    assert "800 further" in found[-1].message
+
+
+def test_a_fault_found_later_gets_its_place_too() -> None:
+    file = SceneFile.read('coordinates: [x]\nconstraints:\n- "x = 1"\n- "x = 2"\n', "x")
+    located = file.located(SceneError((Fault("no", ("constraints", 1)),)))
+    assert (located.faults[0].line, located.faults[0].column) == (4, 3)
+
+
+def test_anchors_and_merges_are_read() -> None:
+    scene = loads(
+        "particles: [A, B, C]\nconstraints:\n- &l {type: link, between: [A, B]}\n- {<<: *l, between: [B, C]}\n- *l\n"
+    )
+    assert [constraint.shown for constraint in scene.constraints] == ["link A-B", "link B-C", "link A-B"]
+
+
+def test_a_long_list_loads_in_bounded_time() -> None:
+    count = 20_000
+    entries = "".join(f"- {{type: link, between: [P{i}, P{i + 1}]}}\n" for i in range(count))
+    text = "particles: [" + ", ".join(f"P{i}" for i in range(count + 1)) + "]\nconstraints:\n" + entries
+    assert len(loads(text).constraints) == count
+    found = faults(text.replace("P19999]", "Q19999]"))
+    assert [(fault.line, fault.column) for fault in found] == [(2 + count - 1, 34)]
+
+
+def test_names_come_from_the_file_unless_the_scene_has_one(tmp_path: Path) -> None:
+    (tmp_path / "pendulum.yaml").write_text("coordinates: [x]\n")
+    (tmp_path / "other.json").write_text('{"name": "mine", "coordinates": ["x"]}')
+    assert load(tmp_path / "pendulum.yaml").name == "pendulum"
+    assert load(str(tmp_path / "other.json")).name == "mine"
+    assert load(tmp_path / "pendulum.yaml", name="called").name == "called"
+    assert loads("coordinates: [x]").name == "scene"
+
+
+def test_what_cannot_be_found_is_named_with_the_nearest(tmp_path: Path) -> None:
+    (tmp_path / "pendulum.yaml").write_text("coordinates: [x]\n")
+    for source, message, hint in [
+        (tmp_path / "pendulun.yaml", "there is no file", "pendulum.yaml"),
+        (tmp_path / "no" / "p.yaml", "there is no file", "no folder"),
+        (tmp_path, "is a folder", "*.yaml"),
+        ("disc-rolling-on-plain", "no scene of that name", "'disc-rolling-on-plane'"),
+        ("coordinates: [x]\n", "text of a scene", "loads"),
+        ("a\0b", "there is no file", "catalog"),
+        ("x" * 5000, "cannot be read", "path"),
+    ]:
+        with pytest.raises(SceneError) as caught:
+            load(source)
+        assert message in caught.value.faults[0].message
+        assert hint in (caught.value.faults[0].hint or "")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo") or os.geteuid() == 0, reason="root may read everything")
+def test_a_file_that_may_not_be_read(tmp_path: Path) -> None:
+    (tmp_path / "a.yaml").write_text("coordinates: [x]\n")
+    (tmp_path / "a.yaml").chmod(0)
+    with pytest.raises(SceneError, match="permission denied"):
+        load(tmp_path / "a.yaml")
+
+
+def test_mappings_are_scenes_too() -> None:
+    assert load({"coordinates": ["x"], "configuration": {"x": 0.1}}).configuration == {"x": Fraction(1, 10)}
+    with pytest.raises(SceneError) as caught:
+        load({"coordinates": ["theta"], "constraints": ["thta = 1", {"type": "link", "betwen": []}]})
+    assert [fault.where for fault in caught.value.faults] == [("constraints", 1, "betwen"), ("constraints", 0, "text")]
+    assert all(fault.hint for fault in caught.value.faults)
+    endless: dict[str, object] = {}
+    endless["expect"] = endless
+    with pytest.raises(SceneError, match="deeper"):
+        load(endless)
+
+
+def test_the_catalog_is_found_by_name() -> None:
+    names = dofkit.catalog_names()
+    assert len(set(names)) == len(names) > 50
+    assert find(names[0]).data == dofkit.catalog_text(names[0])
+    assert load("disc-rolling-on-plane").name == "disc-rolling-on-plane"
+    with pytest.raises(SceneError, match="did you mean 'disc-rolling-on-plane'"):
+        dofkit.catalog_text("disc-rolling-on-plan")

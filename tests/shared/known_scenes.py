@@ -1,0 +1,57 @@
+"""Every scene of the catalog and of the tests, and its report, worked out once in a process.
+
+Tests that have the parameter ``path`` run where the others of that scene do: see conftest.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+from zlib import crc32
+
+import pytest
+
+import dofkit
+from dofkit.report import Report
+from dofkit.scene.scene import Scene
+
+ROOT = Path(__file__).parents[2]
+CATALOG = sorted((ROOT / "catalog").glob("*/*.yaml"))
+#: Those of the tests, the bad ones left out.
+OURS = [path for path in sorted((ROOT / "tests/scenes").glob("*/*.yaml")) if path.parent.name != "bad"]
+SCENES = [*CATALOG, *OURS]
+
+
+def stem(path: Path) -> str:
+    return path.stem
+
+
+@cache
+def scene_of(path: Path) -> Scene:
+    return dofkit.load(path)
+
+
+@cache
+def report_of(path: Path) -> Report:
+    return dofkit.classify(scene_of(path))
+
+
+def few(what: str, paths: Sequence[Path], of: int, always: Collection[str] = ()) -> list[Any]:
+    """One in so many of the scenes for ``what``, the same in every run, and ``always`` those; the others are swept."""
+    chosen = dealt(what, paths, of)[0]
+    return [pytest.param(path) if path in chosen or path.stem in always else swept(path) for path in paths]
+
+
+def swept(*values: Any) -> Any:
+    """A case for `pytest -m sweep`."""
+    return pytest.param(*values, marks=pytest.mark.sweep)
+
+
+def dealt(what: str, paths: Sequence[Path], hands: int) -> list[list[Path]]:
+    """The scenes dealt out to so many variations of ``what``: each tries its own, the same in every run."""
+    found: list[list[Path]] = [[] for _ in range(hands)]
+    for path in paths:
+        found[crc32(f"{what} {path.stem}".encode()) % hands].append(path)
+    return found

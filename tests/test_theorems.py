@@ -1,0 +1,99 @@
+"""The theorems that decide: each key that the code names is a line of `THEOREMS.md`, and each line names its files.
+
+``python tests/test_theorems.py`` writes the column "where used" again.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import tokenize
+from collections import defaultdict
+from functools import cache
+from pathlib import Path
+
+import dofkit
+from dofkit.configuration.local.criteria import CRITERIA
+
+PACKAGE = Path(dofkit.__file__).parent
+TABLE = PACKAGE / "THEOREMS.md"
+#: A key in a comment or a docstring: a name in brackets that is no subscript.
+KEY = re.compile(r"(?<![\w\]])\[([A-Z][A-Za-z]+\d{0,4})\]")
+ROW = re.compile(r"^\| `(\w+)` \| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]*) ?\|$", re.MULTILINE)
+
+
+def remarks(path: Path) -> str:
+    """The comments and docstrings of a module."""
+    text = path.read_text(encoding="utf-8")
+    tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+    comments = [t.string for t in tokens if t.type == tokenize.COMMENT]
+    nodes = (ast.Module, ast.ClassDef, ast.FunctionDef)
+    docstrings = [ast.get_docstring(node) or "" for node in ast.walk(ast.parse(text)) if isinstance(node, nodes)]
+    return "\n".join([*comments, *docstrings])
+
+
+@cache
+def uses() -> dict[str, list[str]]:
+    """The files that hold each key."""
+    found: defaultdict[str, list[str]] = defaultdict(list)
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for key in sorted(set(KEY.findall(remarks(path)))):
+            found[key].append(path.relative_to(PACKAGE).as_posix())
+    return dict(found)
+
+
+@cache
+def rows() -> dict[str, tuple[str, str, str, str]]:
+    """Author, year, statement and where used, of every key."""
+    found = ROW.findall(TABLE.read_text(encoding="utf-8"))
+    assert len({key for key, *_ in found}) == len(found), "a key stands twice"
+    return {key: (author, year, statement, where) for key, author, year, statement, where in found}
+
+
+def test_every_line_of_the_table_is_read() -> None:
+    lines = [line for line in TABLE.read_text(encoding="utf-8").splitlines() if line.startswith("| `")]
+    assert len(lines) == len(rows())
+
+
+def test_every_key_in_the_code_is_in_the_table() -> None:
+    assert not set(uses()) - set(rows())
+
+
+def test_every_key_in_the_table_is_used() -> None:
+    assert not set(rows()) - set(uses())
+
+
+def test_where_a_theorem_is_used_is_told() -> None:
+    """Each path exists and holds the key, and no file that holds it is left out."""
+    found = uses()
+    assert {key: re.findall(r"`([^`]+)`", where) for key, (*_, where) in rows().items()} == found
+
+
+def test_a_theorem_has_an_author_a_year_and_one_sentence() -> None:
+    for key, (author, year, statement, _) in rows().items():
+        assert author[0].isupper(), key
+        assert re.fullmatch(r"\d{4}(; \d{4})*", year), key
+        assert statement.endswith("."), key
+        assert not re.search(r"[a-z]\. [A-Z]", statement), key
+        number = re.search(r"\d{4}$", key)
+        assert number is None or number[0] in year, key
+
+
+def test_criteria_name_theorems() -> None:
+    assert {criterion.theorem for criterion in CRITERIA} <= set(rows())
+
+
+def written() -> str:
+    """The table with the column "where used" as the code has it."""
+    found = uses()
+
+    def row(match: re.Match[str]) -> str:
+        key, *cells, _ = match.groups()
+        return " | ".join([f"| `{key}`", *cells, ", ".join(f"`{path}`" for path in found.get(key, []))]) + " |"
+
+    return ROW.sub(row, TABLE.read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    TABLE.write_text(written(), encoding="utf-8")

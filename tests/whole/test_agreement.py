@@ -1,0 +1,111 @@
+"""Every way to count freedom agrees with every other, on random frameworks and bodies where both are sound."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+import dofkit
+from dofkit.benchmark.trials.frameworks import Framework
+from dofkit.benchmark.trials.random_systems import RandomBodies, coarse, dependent, graph, loop, tree
+from dofkit.methods.names import MethodName
+from dofkit.methods.table import METHODS
+from dofkit.report import Report
+
+DIMENSIONS = (1, 2, 3)
+#: dofkit's own engines, together and alone.
+BY_ENGINES = tuple(name for name, method in METHODS.items() if method.engines)
+GRAPHS, CLASSIFIED, BODIES = 700, 14, 12
+
+
+def classified(scene: dict[str, object], method: MethodName = "auto") -> Report:
+    return dofkit.classify(dofkit.load(dict(scene)), method=method)
+
+
+def redundant_bars(drawn: Framework) -> list[int]:
+    """By the graph alone; of two bars between one pair the later."""
+    left = [frozenset(link) for link in dofkit.redundant_links(drawn.bars, drawn.dimension)]
+    found = []
+    for i in range(len(drawn.bars) - 1, -1, -1):
+        pair = frozenset(drawn.bars[i])
+        if pair in left:
+            left.remove(pair)
+            found.append(i)
+    return sorted(found)
+
+
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+def test_the_graph_agrees_with_the_matrix_in_general_position(dimension: int) -> None:
+    """The same redundant bars by name, the same freedom by exact rank, by a random prime and by singular values."""
+    rng = random.Random(f"graphs {dimension}")
+    for _ in range(GRAPHS):
+        drawn = graph(rng, dimension, rng.randrange(2, 9), twice=True)
+        redundant = dependent(drawn)
+        assert redundant_bars(drawn) == redundant
+        assert drawn.by_graph() == drawn.by_rank() == drawn.coordinates - len(drawn.bars) + len(redundant)
+        assert drawn.by_prime(2**61 - 1) == drawn.by_svd() == drawn.by_rank()
+
+
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+def test_scenes_agree_with_the_graph_in_general_position(dimension: int) -> None:
+    """Without positions, and with random ones; by both engines and by each alone."""
+    rng = random.Random(f"scenes {dimension}")
+    for _ in range(CLASSIFIED):
+        drawn = graph(rng, dimension, rng.randrange(2, 7))
+        redundant = [f"bar{i}" for i in dependent(drawn)]
+        dof = drawn.by_rank()
+        for scene in (drawn.scene(drawn=False), drawn.scene()):
+            for method in BY_ENGINES:
+                report = classified(scene, method)
+                assert (report.dof, report.velocity_dof) == (dof, dof)
+                assert sorted(report.redundant, key=lambda name: int(name[3:])) == redundant
+                assert report.redundant_equations == len(redundant)
+                assert report.consistent is not False
+        assert (report.instantaneous_dof, report.singular) == (dof, False)
+
+
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+def test_special_positions(dimension: int) -> None:
+    """On a small grid: velocities by the exact rank; freedom between that and the count, by each engine."""
+    rng = random.Random(f"grid {dimension}")
+    undecided = 0
+    for _ in range(CLASSIFIED):
+        drawn = coarse(rng, graph(rng, dimension, rng.randrange(3, 7)))
+        first = drawn.by_rank()
+        reports = [classified(drawn.scene(), method) for method in BY_ENGINES]
+        assert [r.instantaneous_dof for r in reports] == [first] * len(reports)
+        assert drawn.by_svd() == first
+        known = {r.dof for r in reports if r.dof is not None}
+        assert len(known) <= 1
+        undecided += reports[0].dof is None
+        for dof in known:
+            assert max(drawn.by_count(), 0) <= dof <= first
+            assert dof == first or dependent(drawn)
+    assert undecided <= CLASSIFIED // 6
+
+
+def agrees(bodies: RandomBodies) -> None:
+    report = classified(bodies.scene)
+    assert report.instantaneous_dof == bodies.first
+    assert report.count is not None
+    assert report.count.naive_dof == bodies.coordinates - bodies.equations
+    if bodies.dof is not None:
+        assert (report.dof, report.singular) == (bodies.dof, False)
+        assert report.redundant_equations == bodies.equations - (bodies.coordinates - bodies.dof)
+    elif report.dof is not None:
+        assert bodies.coordinates - bodies.equations <= report.dof <= bodies.first
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_trees_of_bodies(dimension: int) -> None:
+    rng = random.Random(f"trees {dimension}")
+    for _ in range(BODIES):
+        agrees(tree(rng, dimension, rng.randrange(1, 8)))
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_loops_of_bodies(dimension: int) -> None:
+    rng = random.Random(f"loops {dimension}")
+    for _ in range(BODIES):
+        agrees(loop(rng, dimension, rng.randrange(1, 7)))

@@ -1,0 +1,90 @@
+"""Text is data: nothing in the package hands a text to anything that would evaluate it."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import dofkit
+
+PACKAGE = Path(dofkit.__file__).parent
+SOURCES = sorted(PACKAGE.rglob("*.py"))
+#: Functions that evaluate text, or may.
+FORBIDDEN = frozenset(
+    {"sympify", "parse_expr", "parse_latex", "parse_mathematica", "eval", "exec", "compile", "lambdify", "S",
+     "_sympify", "nsimplify", "literal_eval", "autowrap", "ufuncify", "import_module", "__import__", "system",
+     "popen", "unsafe_load", "loads_pickle"}
+)  # fmt: skip
+#: What takes a text as its name, and reads nothing in it.
+NAMED = frozenset({"Symbol", "Dummy", "Function", "symbols", "ReferenceFrame", "Point"})
+#: Calls that look alike and are not: by file and the text of the call's function.
+ALLOWED = {
+    ("__init__.py", "import_module"): "the package's own modules, by a fixed table",
+    ("methods/table.py", "import_module"): "a method's own module, by the name of its row in the table",
+    ("base/workers/child.py", "import_module"): "the module of a job's function, which the parent process names",
+}
+
+
+def calls(path: Path) -> Iterator[tuple[str, ast.Call]]:
+    """Every call in a module, with its function as written."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call):
+            yield ast.unparse(node.func), node
+
+
+def is_text(node: ast.expr) -> bool:
+    """Whether an expression is plainly a text."""
+    if isinstance(node, ast.JoinedStr):
+        return True
+    if isinstance(node, ast.Call):
+        return isinstance(node.func, ast.Name) and node.func.id in ("str", "repr")
+    return isinstance(node, ast.Constant) and isinstance(node.value, str)
+
+
+def named(module: ast.Module, modules: frozenset[str]) -> set[str]:
+    """Names that a module binds by importing from ``modules``."""
+    return {
+        alias.asname or alias.name
+        for node in ast.walk(module)
+        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] in modules
+        for alias in node.names
+    }
+
+
+def test_there_is_something_to_look_at() -> None:
+    assert len(SOURCES) > 20
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_nothing_evaluates_text(path: Path) -> None:
+    place = str(path.relative_to(PACKAGE))
+    for function, call in calls(path):
+        owner, _, name = function.rpartition(".")
+        if name not in FORBIDDEN or (place, function) in ALLOWED:
+            continue
+        if (name == "compile" and owner == "re") or (name in ("system", "popen") and owner != "os"):
+            continue
+        pytest.fail(f"{place}:{call.lineno}: {function}(...) may evaluate text")
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_nothing_evaluating_is_imported(path: Path) -> None:
+    imported = named(
+        ast.parse(path.read_text(encoding="utf-8")), frozenset({"sympy", "ast", "code", "pickle", "shelve"})
+    )
+    assert not imported & (FORBIDDEN | {"sympy.parsing"})
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_sympy_is_given_no_text(path: Path) -> None:
+    module = ast.parse(path.read_text(encoding="utf-8"))
+    from_sympy = named(module, frozenset({"sympy"})) - NAMED
+    for function, call in calls(path):
+        owner, _, name = function.rpartition(".")
+        sympifies = function in from_sympy or owner in ("sympy", "sp") or (name == "subs")
+        if sympifies and name not in NAMED:
+            given = [*call.args, *(keyword.value for keyword in call.keywords if keyword.arg is None)]
+            assert not any(map(is_text, given)), f"{path.name}:{call.lineno}: {function} is given a text"
