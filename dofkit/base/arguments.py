@@ -11,10 +11,10 @@ from dofkit.base.errors import ArgumentError
 from dofkit.base.spelling import no_such
 
 
-def described(value: object) -> str:
+def description_of(value: object) -> str:
     """A value on one short line, with its type.
 
-    >>> described(["x"]), described(None)
+    >>> description_of(["x"]), description_of(None)
     ("['x'] (a list)", 'None')
     """
     if value is None:
@@ -30,7 +30,7 @@ def require_one_of(value: object, known: Iterable[str], what: str) -> None:
     """
     names = list(known)
     if not isinstance(value, str):
-        raise ArgumentError(f"a {what} is one of {', '.join(names)}, not {described(value)}")
+        raise ArgumentError(f"a {what} is one of {', '.join(names)}, not {description_of(value)}")
     if value not in names:
         raise ArgumentError(no_such(value, names, what))
 
@@ -42,5 +42,5 @@ def seconds_of(budget: object) -> float:
     (0.0, 1.5)
     """
     if not isinstance(budget, Real) or isinstance(budget, bool) or math.isnan(budget):
-        raise ArgumentError(f"the budget is a number of seconds, not {described(budget)}")
+        raise ArgumentError(f"the budget is a number of seconds, not {description_of(budget)}")
     return max(0.0, float(budget))

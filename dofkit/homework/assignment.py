@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError, WrapValidator
 
-from dofkit.base.arguments import described
+from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
@@ -101,7 +101,7 @@ def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Pa
     if isinstance(source, Mapping):
         return _prepared(source, base or Path(), None)
     if not isinstance(source, str | os.PathLike):
-        raise ArgumentError(f"an assignment is given as a path or a mapping, not {described(source)}")
+        raise ArgumentError(f"an assignment is given as a path or a mapping, not {description_of(source)}")
     shown = os.fspath(source)
     try:
         found = find(shown)

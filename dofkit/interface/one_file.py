@@ -22,7 +22,7 @@ from dofkit.scene.scene import Scene
 
 def report_lines(given: Given) -> Iterator[Json]:
     """What is printed of the report on a file; before that a sketch of it as a ``report``."""
-    return _answer_lines(given, _classified)
+    return _answer_lines(given, _report_stages)
 
 
 def motion_lines(given: Given) -> Iterator[Json]:
@@ -34,9 +34,9 @@ def cut_lines(cut: Cut) -> Json:
     """What is printed where `report_lines` was cut short: of a scene that was read, that nothing was decided."""
     if cut.value is not None and "report" in cut.value:
         report = undecided(Report.model_validate(cut.value["report"]), cut.reason)
-        return _printed(_report_text(report, cut.value["title"], cut.given))
+        return _streams(_report_text(report, cut.value["title"], cut.given))
     fault = Fault(f"it could not be read: {cut.reason}", hint="make the scene smaller, or split it")
-    return _faults_printed(cut.given, cut.given.name, (fault,), None)
+    return _fault_streams(cut.given, cut.given.name, (fault,), None)
 
 
 def _answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]]) -> Iterator[Json]:
@@ -50,29 +50,29 @@ def _answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]]
         try:
             yield from answer(scene, given)
         except SceneError as error:
-            raise read.located(error) from None
+            raise read.with_places(error) from None
     except MemoryError:
         raise
     except Exception as error:
-        yield _faults_printed(given, name, _faults_of_error(error), document)
+        yield _fault_streams(given, name, _faults_of_error(error), document)
 
 
-def _classified(scene: Scene, given: Given) -> Iterator[Json]:
+def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
     reports = stages(scene, given.budget, given.method)
     first = next(reports)
     yield {"report": first.model_dump(mode="json"), "title": scene.title}
-    yield _printed(_report_text(next(reports, first), scene.title, given))
+    yield _streams(_report_text(next(reports, first), scene.title, given))
 
 
 def _equations(scene: Scene, given: Given) -> Iterator[Json]:
     report = lagrange.lagrange(scene, given.linearize, given.budget)
     if given.as_json:
-        yield _printed(_line(report.model_dump(mode="json"), given))
+        yield _streams(_line(report.model_dump(mode="json"), given))
     else:
-        yield _printed(show.as_lines(report, scene.title) + "\n")
+        yield _streams(show.as_lines(report, scene.title) + "\n")
 
 
-def _printed(out: str = "", err: str = "", failed: bool = False) -> Json:
+def _streams(out: str = "", err: str = "", failed: bool = False) -> Json:
     """What goes to standard output and to standard error."""
     return {"out": out, "err": err, "failed": failed}
 
@@ -95,11 +95,11 @@ def _line(value: Any, given: Given) -> str:
     return json.dumps(value, ensure_ascii=given.ascii_only) + "\n"
 
 
-def _faults_printed(given: Given, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
+def _fault_streams(given: Given, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
     """What is printed of a file that could not be read, or not be answered."""
     if given.as_json:
-        return _printed(out=_line({"scene": name, "error": _error_object(faults)}, given), failed=True)
-    return _printed(
+        return _streams(out=_line({"scene": name, "error": _error_object(faults)}, given), failed=True)
+    return _streams(
         err=show.complaint(STDIN if given.file == "-" else given.file, faults, document) + "\n", failed=True
     )
 

@@ -74,16 +74,16 @@ def reports(files: Sequence[str], budget: float | None, method: MethodName, as_j
     seconds = DEFAULT_SECONDS if budget is None else budget
     own = None if can_fork() or as_json else _terminal()
     given = Given("", seconds, method, as_json, ascii_only=_ascii_only(), terminal=own)
-    return _printed(files, given, _report, (ONE_FILE,))
+    return _answers(files, given, _report, (ONE_FILE,))
 
 
 def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[Printed]:
     """What is printed of the equations of motion of each file, in their order."""
     given = Given("", DEFAULT_SECONDS, "auto", as_json, linearize, _ascii_only())
-    return _printed(files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"))
+    return _answers(files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"))
 
 
-def _printed(
+def _answers(
     files: Sequence[str], given: Given, ask: Callable[[Worker, Given], Printed], modules: Sequence[str]
 ) -> Generator[Printed]:
     worker = Worker(modules=modules, fork=can_fork())

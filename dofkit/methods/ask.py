@@ -11,7 +11,7 @@ from typing import Any
 
 from flint import ctx
 
-from dofkit.base.arguments import described, require_one_of, seconds_of
+from dofkit.base.arguments import description_of, require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import Verdict, weakest
@@ -91,9 +91,8 @@ def _require_answer(scene: Scene | System, answer: object) -> None:
         raise ArgumentError("equivalence is asked of a Scene, with whose names the text is read, not of a System")
     keys = ("constraint", "text")
     if not isinstance(answer, Mapping) or not all(isinstance(answer.get(key), str) for key in keys):
-        raise ArgumentError(
-            f"for equivalence `answer` is {{'constraint': NAME, 'text': TEXT}}, both texts, not {described(answer)}"
-        )
+        wanted = "{'constraint': NAME, 'text': TEXT}, both texts"
+        raise ArgumentError(f"for equivalence `answer` is {wanted}, not {description_of(answer)}")
     require_one_of(answer["constraint"], names_by_position("c", [c.name for c in scene.constraints]), "constraint")
 
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
-from dofkit.base.arguments import described
+from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
 from dofkit.base.documents.document import MOST_BYTES
 from dofkit.base.documents.fast_flow import DEEPEST
@@ -55,7 +55,7 @@ def load(source: SceneLike, *, name: str | None = None) -> Scene:
     if isinstance(source, Mapping):
         return _from_mapping(source, name)
     if not isinstance(source, str | os.PathLike):
-        raise ArgumentError(f"a scene is given as {_TAKEN}, not {described(source)}")
+        raise ArgumentError(f"a scene is given as {_TAKEN}, not {description_of(source)}")
     found = find(source)
     return SceneFile.read(found.data, name or found.name).scene()
 
@@ -70,7 +70,9 @@ def loads(data: bytes | str, name: str = "scene") -> Scene:
     'plane'
     """
     if not isinstance(data, bytes | str):
-        raise ArgumentError(f"the text of a scene is a str or bytes, not {described(data)}; dofkit.load takes the rest")
+        raise ArgumentError(
+            f"the text of a scene is a str or bytes, not {description_of(data)}; dofkit.load takes the rest"
+        )
     return SceneFile.read(data, name).scene()
 
 
@@ -108,12 +110,12 @@ class SceneFile:
             raise self._error(faults)
         if value.get("name") is None:
             value = {**value, "name": self.document.name}
-        scene, found = _validated(value, checked or bool(faults))
+        scene, found = _scene_and_faults(value, checked or bool(faults))
         if faults or found or scene is None:
             raise self._error([*faults, *found])
         return scene
 
-    def located(self, error: SceneError) -> SceneError:
+    def with_places(self, error: SceneError) -> SceneError:
         """The same faults with their lines and columns."""
         return self._error(error.faults)
 
@@ -121,13 +123,13 @@ class SceneFile:
         taken = {(fault.line, fault.column) for fault in self.document.faults}
         told = []
         for fault in without_echoes(faults):
-            found = self._located(fault)
+            found = self._with_place(fault)
             if fault.line is not None or (found.line, found.column) not in taken:
                 told.append(found)
         told.sort(key=lambda fault: (fault.line or 0, fault.column or 0))
-        return SceneError(_bounded(told), self.document.name)
+        return SceneError(_first_faults(told), self.document.name)
 
-    def _located(self, fault: Fault) -> Fault:
+    def _with_place(self, fault: Fault) -> Fault:
         if fault.line is not None:
             return fault
         key = fault.message.startswith(UNKNOWN_KEY)
@@ -198,9 +200,9 @@ def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:
     value = dict(source)
     if name is not None and value.get("name") is None:
         value["name"] = name
-    scene, faults = _validated(value, True)
+    scene, faults = _scene_and_faults(value, True)
     if scene is None or faults:
-        raise SceneError(_bounded([with_hint(fault) for fault in without_echoes(faults)]), name)
+        raise SceneError(_first_faults([with_hint(fault) for fault in without_echoes(faults)]), name)
     return scene
 
 
@@ -224,7 +226,7 @@ def _holds(value: object) -> bool:
     return isinstance(value, (Mapping, list, tuple))
 
 
-def _validated(value: Mapping[str, Any], checked: bool) -> tuple[Scene | None, tuple[Fault, ...]]:
+def _scene_and_faults(value: Mapping[str, Any], checked: bool) -> tuple[Scene | None, tuple[Fault, ...]]:
     """The scene and its faults; where its structure is at fault, those of the rest of it as well."""
     try:
         scene = Scene.model_validate(value)
@@ -296,7 +298,7 @@ def _cut(value: Any, path: tuple[str | int, ...]) -> Any:
     return value
 
 
-def _bounded(faults: list[Fault]) -> tuple[Fault, ...]:
+def _first_faults(faults: list[Fault]) -> tuple[Fault, ...]:
     if len(faults) <= MOST_FAULTS:
         return tuple(faults)
     more = len(faults) - MOST_FAULTS

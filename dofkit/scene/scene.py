@@ -108,7 +108,7 @@ class Scene(WrittenModel):
 
     >>> import dofkit
     >>> scene = dofkit.load({"particles": ["A", "B"], "constraints": [{"type": "link", "between": ["A", "B"]}]})
-    >>> scene.dimension, [p.name for p in scene.particles], scene.constraints[0].shown
+    >>> scene.dimension, [p.name for p in scene.particles], scene.constraints[0].in_words
     (3, ['A', 'B'], 'link A-B')
     """
 
@@ -159,9 +159,9 @@ class Scene(WrittenModel):
 
 def check(scene: Scene) -> tuple[Fault, ...]:
     """Every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
-    return surveyed(scene).faults
+    return survey_of(scene).faults
 
 
-def surveyed(scene: Scene) -> Survey:
+def survey_of(scene: Scene) -> Survey:
     """All that is known of a scene, found out when it is first asked for."""
     return scene._kept.of(scene)

@@ -89,7 +89,7 @@ def survey(scene: Surveyed, euler: bool = False) -> Survey:
     """
     vocabulary = vocabulary_of(scene)
     every = frozenset(q.name for q in vocabulary.table.coordinates)
-    drawing = drawing_of(scene, vocabulary, every if euler else _mentioned(scene, vocabulary))
+    drawing = drawing_of(scene, vocabulary, every if euler else _mentioned_names(scene, vocabulary))
     faults = [*vocabulary.faults, *drawing.faults, *name_faults(scene, vocabulary.table)]
     faults += repeat_faults("constraints", "c", [c.name for c in scene.constraints])
     read = tuple(elaborations(scene.constraints, drawing, len(faults)))
@@ -102,10 +102,10 @@ def survey(scene: Surveyed, euler: bool = False) -> Survey:
     faults += _mass_faults(scene, vocabulary)
     faults += _energy_faults(scene, vocabulary, len(faults))
     faults += _expect_faults(scene)
-    return _joined(drawing, read, forces, faults)
+    return _whole(drawing, read, forces, faults)
 
 
-def _joined(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Findings], faults: list[Fault]) -> Survey:
+def _whole(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Findings], faults: list[Fault]) -> Survey:
     """What was read of all entries, put together."""
     findings = [*(e.findings for e in read), *forces]
     size = size_of([*drawing.points, *(p for f in findings for p in f.points)])
@@ -160,7 +160,7 @@ class KeptSurvey:
         return KeptSurvey, ()
 
 
-def _mentioned(scene: Surveyed, vocabulary: Vocabulary) -> frozenset[str]:
+def _mentioned_names(scene: Surveyed, vocabulary: Vocabulary) -> frozenset[str]:
     """The coordinates that some text names, where a spatial body's chart depends on it."""
     if scene.dimension != 3 or not scene.bodies:
         return frozenset()

@@ -17,7 +17,7 @@ from dofkit.base.errors import ArgumentError
 from dofkit.methods.names import QUESTIONS
 from dofkit.methods.table import METHODS
 from dofkit.scene.lowering import lower
-from dofkit.scene.scene import surveyed
+from dofkit.scene.scene import survey_of
 
 MAPPING: dict[str, Any] = {"name": "m", "coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}
 PENDULUM = {
@@ -130,14 +130,14 @@ def test_a_budget_is_seconds(door: Any, budget: Any) -> None:
 
 def test_what_is_known_of_a_scene_is_no_part_of_it() -> None:
     scene, other = dofkit.load(MAPPING), dofkit.Scene.model_validate(MAPPING)
-    known = surveyed(scene)
-    assert surveyed(scene) is known
+    known = survey_of(scene)
+    assert survey_of(scene) is known
     assert scene == other
     assert pickle.dumps(scene) == pickle.dumps(other)
     for copied in (pickle.loads(pickle.dumps(scene)), copy.copy(scene), copy.deepcopy(scene), scene.model_copy()):
         assert copied == scene
-        assert surveyed(copied) is not known
-        assert surveyed(scene) is known
+        assert survey_of(copied) is not known
+        assert survey_of(scene) is known
 
 
 def test_a_changed_copy_is_read_again() -> None:
