@@ -30,7 +30,7 @@ def elaborations(constraints: Sequence[ConstraintBase], drawing: Drawing, faults
     for index, constraint in enumerate(constraints):
         out_of_time()
         world = World(drawing, ("constraints", index), Before(faults, generic, drawn))
-        lowered = _lowered(world, constraint, names[index])
+        lowered = _constraint_of(world, constraint, names[index])
         found = world.findings()
         yield Elaboration(lowered, _connection(world.mentioned, index, lowered), found)
         drawn |= found.drawn
@@ -61,15 +61,15 @@ def repeat_faults(key: str, letter: str, given: Sequence[str | None]) -> Iterato
             yield from ledger.faults
 
 
-def _lowered(world: World, constraint: ConstraintBase, name: str) -> Constraint:
+def _constraint_of(world: World, constraint: ConstraintBase, name: str) -> Constraint:
     kind = constraint.kind()
     if world.dimension not in constraint.dimensions:
         allowed = " or ".join(str(d) for d in constraint.dimensions)
         message = f"'{kind}' is for dimension {allowed}; this scene has dimension {world.dimension}"
         world.fault(message, "type", hint=_INSTEAD[world.dimension])
-        return Constraint(name, kind, constraint.facts, constraint.shown, ())
+        return Constraint(name, kind, constraint.facts, constraint.in_words, ())
     relations = tuple(constraint.relations(world))
-    return Constraint(name, kind, constraint.facts, constraint.shown, relations, tuple(constraint.notes(world)))
+    return Constraint(name, kind, constraint.facts, constraint.in_words, relations, tuple(constraint.notes(world)))
 
 
 def _connection(mentioned: Mentioned, index: int, constraint: Constraint) -> Connection:

@@ -7,7 +7,7 @@ from dofkit.expressions.tree import parameter
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.reference import pose_of, reference_of
-from dofkit.scene.scene import Scene, surveyed
+from dofkit.scene.scene import Scene, survey_of
 from dofkit.scene.survey import Survey
 from dofkit.system import ListedForce, Rotation, System
 
@@ -20,7 +20,7 @@ SPECIAL = (
 
 def lower(scene: Scene) -> System:
     """The coordinates and exact relations of a scene. Raises SceneError with all its faults if it has any."""
-    found = surveyed(scene)
+    found = survey_of(scene)
     if found.faults:
         raise SceneError(found.faults)
     return system_of(scene, found)

@@ -100,7 +100,17 @@ _AnyConstraint = Annotated[
 
 
 class Scene(WrittenModel):
-    """A mechanical system: what it is made of and what holds it."""
+    """A mechanical system: what it is made of and what holds it.
+
+    Its fields are the keys of a scene's file, numbers exact and in the units of whoever wrote it. It is frozen;
+    ``model_copy(update=...)`` makes another. `dofkit.load` says what is wrong with a scene in better words than
+    ``Scene(...)``, which raises pydantic.ValidationError and looks at neither texts nor geometry.
+
+    >>> import dofkit
+    >>> scene = dofkit.load({"particles": ["A", "B"], "constraints": [{"type": "link", "between": ["A", "B"]}]})
+    >>> scene.dimension, [p.name for p in scene.particles], scene.constraints[0].in_words
+    (3, ['A', 'B'], 'link A-B')
+    """
 
     name: str = Field("scene", min_length=1, description="a short name, used in reports; by default the file's stem")
     title: str | None = Field(None, description="one line about it")
@@ -149,9 +159,9 @@ class Scene(WrittenModel):
 
 def check(scene: Scene) -> tuple[Fault, ...]:
     """Every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
-    return surveyed(scene).faults
+    return survey_of(scene).faults
 
 
-def surveyed(scene: Scene) -> Survey:
+def survey_of(scene: Scene) -> Survey:
     """All that is known of a scene, found out when it is first asked for."""
     return scene._kept.of(scene)

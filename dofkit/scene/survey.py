@@ -89,7 +89,7 @@ def survey(scene: Surveyed, euler: bool = False) -> Survey:
     """
     vocabulary = vocabulary_of(scene)
     every = frozenset(q.name for q in vocabulary.table.coordinates)
-    drawing = drawing_of(scene, vocabulary, every if euler else _mentioned(scene, vocabulary))
+    drawing = drawing_of(scene, vocabulary, every if euler else _mentioned_names(scene, vocabulary))
     faults = [*vocabulary.faults, *drawing.faults, *name_faults(scene, vocabulary.table)]
     faults += repeat_faults("constraints", "c", [c.name for c in scene.constraints])
     read = tuple(elaborations(scene.constraints, drawing, len(faults)))
@@ -102,10 +102,10 @@ def survey(scene: Surveyed, euler: bool = False) -> Survey:
     faults += _mass_faults(scene, vocabulary)
     faults += _energy_faults(scene, vocabulary, len(faults))
     faults += _expect_faults(scene)
-    return _joined(drawing, read, forces, faults)
+    return _whole(drawing, read, forces, faults)
 
 
-def _joined(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Findings], faults: list[Fault]) -> Survey:
+def _whole(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Findings], faults: list[Fault]) -> Survey:
     """What was read of all entries, put together."""
     findings = [*(e.findings for e in read), *forces]
     size = size_of([*drawing.points, *(p for f in findings for p in f.points)])
@@ -139,13 +139,15 @@ class KeptSurvey:
 
     def of(self, scene: Surveyed) -> Survey:
         """The survey of a scene."""
-        owner, written, found = self._known or (None, (), None)
         mappings = (dict(scene.parameters), dict(scene.functions), dict(scene.configuration), dict(scene.expect))
-        if found is not None and owner is not None and owner() is scene and written == mappings:
-            return found
+        if self._known is not None:
+            owner, written, known = self._known
+            if owner() is not scene and owner() is not None:
+                return survey(scene)
+            if owner() is scene and written == mappings:
+                return known
         found = survey(scene)
-        if owner is None or owner() in (None, scene):
-            self._known = weakref.ref(scene), mappings, found
+        self._known = weakref.ref(scene), mappings, found
         return found
 
     def __eq__(self, other: object) -> bool:
@@ -158,7 +160,7 @@ class KeptSurvey:
         return KeptSurvey, ()
 
 
-def _mentioned(scene: Surveyed, vocabulary: Vocabulary) -> frozenset[str]:
+def _mentioned_names(scene: Surveyed, vocabulary: Vocabulary) -> frozenset[str]:
     """The coordinates that some text names, where a spatial body's chart depends on it."""
     if scene.dimension != 3 or not scene.bodies:
         return frozenset()

@@ -110,7 +110,7 @@ def test_standard_input_is_a_file() -> None:
 
 
 FAILING = """
-import sys, dofkit.interface.classify_file as telling, dofkit.interface.cli
+import sys, dofkit.interface.one_file as telling, dofkit.interface.cli
 real = telling.stages
 def failing(scene, *others):
     if scene.name == "good":

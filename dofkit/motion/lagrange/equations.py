@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from dofkit.base.arguments import seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
 from dofkit.base.errors import Fault, SceneError
 from dofkit.classification.passes import Examined, studied
@@ -29,6 +30,7 @@ from dofkit.motion.lagrange.small_motions import linearized
 from dofkit.motion.lagrange.term_order import ordered
 from dofkit.motion.lagrange.tidying import by_rates, length
 from dofkit.scene.lowering import system_of
+from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import survey
 
@@ -44,22 +46,25 @@ SORTING, MOST_NODES = 2.0, 1500
 LONG = "More could be eliminated, but the equations would be too long to read: some constraints keep a multiplier."
 
 
-def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None) -> MotionReport:
+def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = None) -> MotionReport:
     """Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a of a scene.
 
-    ``linearize``: also M, C and K at an equilibrium, or a note that says why not. Raises `SceneError` with every fault
-    of the scene, and `NoEquationsError` where the equations cannot be given, saying why: nothing is guessed.
+    ``scene``: a Scene, a path, a catalog name or a mapping; ``budget``: seconds. ``linearize``: also M, C and K at an
+    equilibrium, or a note that says why not. Returns a `MotionReport` of texts: one equation for each coordinate that
+    is kept; units are those of the scene. Raises `SceneError` with every fault of the scene, `NoEquationsError` where
+    the equations cannot be given, saying why (nothing is guessed), and `ArgumentError` for what is no scene.
 
     >>> import dofkit
     >>> pendulum = {"coordinates": ["theta"], "parameters": {"m": "positive", "l": "positive", "g": "positive"}}
     >>> energies = {"kinetic": "m l^2 thetadot^2/2", "potential": "-m g l cos(theta)"}
-    >>> dofkit.lagrange(dofkit.load({**pendulum, "energies": energies})).equations
+    >>> dofkit.lagrange({**pendulum, "energies": energies}).equations
     ['l^2*m*thetaddot + g*l*m*sin(theta) = 0']
     """
+    seconds, given = DEFAULT_SECONDS if budget is None else seconds_of(budget), load(scene)
     try:
-        with limited(DEFAULT_SECONDS if budget is None else budget):
-            derived = derived_of(scene)
-            return _report(derived, *(_small(scene, derived) if linearize else (None, ())))
+        with limited(seconds):
+            derived = derived_of(given)
+            return _report(derived, *(_small(given, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
 

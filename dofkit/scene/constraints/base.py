@@ -50,7 +50,7 @@ class ConstraintBase(WrittenModel):
         yield from ()
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         """One line for a person to read."""
         return self.kind()
 
@@ -60,7 +60,7 @@ def _kind(cls: type[ConstraintBase]) -> str:
     return str(get_args(cls.model_fields["type"].annotation)[0])
 
 
-def labelled(vector: Vec, label: str = "{}", about: Vec = ()) -> Iterator[Relation]:
+def component_relations(vector: Vec, label: str = "{}", about: Vec = ()) -> Iterator[Relation]:
     """One relation a component, named ``x``, ``y``, ``z`` within ``label``."""
     for letter, part in zip("xyz", vector, strict=False):
         yield Relation(part, part=label.format(letter), vector=about)

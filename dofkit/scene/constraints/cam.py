@@ -97,11 +97,11 @@ class Cam(ConstraintBase):
         yield self.curve
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         return f"cam {show_point(self.point)} on {self.body}: {self.curve}"
 
 
-def _turned(angle: Expr) -> Matrix:
+def _rotation(angle: Expr) -> Matrix:
     """R(angle)."""
     c, s = fn("cos", angle), fn("sin", angle)
     return ((c, mul(MINUS_ONE, s)), (s, c))
@@ -111,7 +111,7 @@ def _own(frame: Frame, point: Placed) -> dict[Expr, Expr]:
     """x and y of the point in the body's own coordinates."""
     arm = minus(point.over, frame.position)
     if not frame.fixed:
-        arm = apply(transposed(_turned(coordinate(frame.angles[0]))), arm)
+        arm = apply(transposed(_rotation(coordinate(frame.angles[0]))), arm)
     return dict(zip((X, Y), arm, strict=True))
 
 
@@ -132,7 +132,7 @@ class DrawnContact(NamedTuple):
 
 def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
     """The profile where a point is drawn."""
-    turn = _turned(frame.initial[0]) if frame.initial else None
+    turn = _rotation(frame.initial[0]) if frame.initial else None
     arm = minus(place, frame.start)
     own = arm if turn is None else apply(transposed(turn), arm)
     at = {**dict(zip((X, Y), own, strict=True)), TIME: ZERO}

@@ -21,7 +21,7 @@ from dofkit.scene.world import World
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
 
-def kept_distances(at: Kinematics) -> Iterator[VelocityRow]:
+def distance_rows(at: Kinematics) -> Iterator[VelocityRow]:
     """(b - a).(v_b - v_a) for every two points."""
     for j, k in combinations(range(len(at.points)), 2):
         arm: Sequence[Any] = [q - p for p, q in zip(at.points[j][1], at.points[k][1], strict=True)]
@@ -37,7 +37,7 @@ class Link(ConstraintBase):
     type: Literal["link"] = Field(description="two points at a given distance")
     between: Ends = Field(description="the two points")
     length: Value | None = Field(None, description="their distance; may hold t; by default that of the drawing")
-    facts: ClassVar[TypeFacts] = TypeFacts(kept_distances, joint=True, bars=True, surface=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
@@ -57,7 +57,7 @@ class Link(ConstraintBase):
             yield self.length
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         ends = "-".join(show_point(end) for end in self.between)
         return f"link {ends}" + ("" if self.length is None else f", length {as_written(self.length)}")
 
@@ -124,7 +124,7 @@ class Rigid(ConstraintBase):
 
     type: Literal["rigid"] = Field(description="particles that keep all their distances")
     members: Annotated[tuple[str, ...], Field(min_length=2)] = Field(description="particles")
-    facts: ClassVar[TypeFacts] = TypeFacts(kept_distances, joint=True, bars=True, complete=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, complete=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         seen: set[str] = set()
@@ -151,7 +151,7 @@ class Rigid(ConstraintBase):
         )
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         return "rigid " + ", ".join(self.members)
 
 
@@ -194,7 +194,7 @@ class String(ConstraintBase):
             yield self.length
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         run = "-".join(show_point(point) for point in self.along)
         return f"string {run}" + ("" if self.length is None else f", length {as_written(self.length)}")
 

@@ -52,7 +52,7 @@ class Roll(ConstraintBase):
         yield from _no_slip(frame, radius)
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         return f"roll {self.body}, radius {as_written(self.radius)}"
 
 
@@ -98,6 +98,6 @@ class Gear(Joint):
         yield Relation(difference(other, mul(ratio, one)))
 
     @property
-    def shown(self) -> str:
-        told = f"{super().shown}, ratio {as_written(self.ratio)}"
+    def in_words(self) -> str:
+        told = f"{super().in_words}, ratio {as_written(self.ratio)}"
         return told if self.carrier is None else f"{told}, carried by {self.carrier}"

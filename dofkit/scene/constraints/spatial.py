@@ -16,14 +16,14 @@ from dofkit.scene.constraints.joints import (
     Driven,
     LocatedJoint,
     aligned,
+    angle_law,
     angle_of,
-    held,
+    displacement_law,
     shift,
     slide,
     slide_rate,
     together,
     turn_rate,
-    turned_by,
 )
 from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
@@ -58,7 +58,7 @@ class Cylindrical(Driven):
         place, axis = world.place(self.at, "at"), self.directed(world)
         yield from coaxial(first, second, place, axis)
         for law in self.driven(world):
-            yield held(slide(first, second, place, axis.vector), axis, law)
+            yield displacement_law(slide(first, second, place, axis.vector), axis, law)
 
 
 def _screw_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -88,11 +88,11 @@ class Screw(Driven):
         advance = mul(pitch, angle_of(first, second, axis)) / (2 * PI)
         yield Relation(difference(moved, mul(length(axis.vector), under, advance)), part="thread")
         for law in self.driven(world):
-            yield turned_by(first, second, axis, law)
+            yield angle_law(first, second, axis, law)
 
     @property
-    def shown(self) -> str:
-        return f"{super().shown}, pitch {as_written(self.pitch)}"
+    def in_words(self) -> str:
+        return f"{super().in_words}, pitch {as_written(self.pitch)}"
 
 
 def _universal_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -138,8 +138,8 @@ class Universal(LocatedJoint):
         return one.vector, other.vector
 
     @property
-    def shown(self) -> str:
-        told = super().shown
+    def in_words(self) -> str:
+        told = super().in_words
         return told if self.axes is None else f"{told} along {' and '.join(show_vector(axis) for axis in self.axes)}"
 
 
