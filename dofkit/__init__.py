@@ -1,15 +1,23 @@
 """How a mechanical system can move: degrees of freedom, constraint labels, integrability and redundancy.
 
 >>> import dofkit
->>> dofkit.classify(dofkit.load({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]})).dof
+>>> dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}).dof
 1
+
+In the order in which one meets them:
+
+- `load`, `loads`: a scene from a file, a catalog name, a mapping or a text; `catalog_names`, `catalog_text`: the
+  scenes that come with dofkit; `Scene`: what is read.
+- `classify`: everything that is asked of a scene, as a `Report`; `ask`: one question; `derived_flag`: ranks of forms.
+- `lagrange`: equations of motion; `configurations`: points along a motion.
+- `linkage`, `redundant_links`: graphs of links in general position, without a scene, as a `Linkage`.
+- `load_assignment`, `grade`: homework.
+- `DofkitError`: the base of what is raised; `SceneError` and `TextError` know their places. `__version__`.
 """
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from dofkit.base.errors import DofkitError, SceneError, TextError
@@ -21,54 +29,42 @@ if TYPE_CHECKING:
     from dofkit.methods.ask import ask
     from dofkit.methods.classify import classify, derived_flag
     from dofkit.mobility.graph.answers import Linkage, linkage, redundant_links
-    from dofkit.motion.lagrangian.equations import lagrange
+    from dofkit.motion.lagrange.equations import lagrange
     from dofkit.motion.sampled.configurations import configurations
     from dofkit.report import Report
-    from dofkit.scene.catalog import catalog_names, catalog_text
-    from dofkit.scene.reading import load, loads
-    from dofkit.scene.scene import Scene
+    from dofkit.scene import Scene, catalog_names, catalog_text, load, loads
 
-__all__ = [
-    "DofkitError",
-    "Linkage",
-    "Report",
-    "Scene",
-    "SceneError",
-    "TextError",
-    "__version__",
-    "ask",
-    "catalog_names",
-    "catalog_text",
-    "classify",
-    "configurations",
-    "derived_flag",
-    "grade",
-    "lagrange",
-    "linkage",
-    "load",
-    "load_assignment",
-    "loads",
-    "redundant_links",
-]
+# In the order in which one meets them.
+__all__ = ["load", "loads"]
+__all__ += ["catalog_names", "catalog_text"]
+__all__ += ["Scene", "classify"]
+__all__ += ["Report", "ask", "derived_flag"]
+__all__ += ["lagrange"]
+__all__ += ["configurations"]
+__all__ += ["linkage", "redundant_links"]
+__all__ += ["Linkage"]
+__all__ += ["load_assignment"]
+__all__ += ["grade"]
+__all__ += ["DofkitError", "SceneError", "TextError", "__version__"]
 
-#: Where the other names live: what they need is imported when they are first asked for.
+#: Where names live whose modules are imported when they are first asked for.
 _HOMES = {
-    "Linkage": "dofkit.mobility.graph.answers",
-    "Report": "dofkit.report",
-    "Scene": "dofkit.scene.scene",
-    "ask": "dofkit.methods.ask",
+    "load": "dofkit.scene.reading",
+    "loads": "dofkit.scene.reading",
     "catalog_names": "dofkit.scene.catalog",
     "catalog_text": "dofkit.scene.catalog",
+    "Scene": "dofkit.scene.scene",
     "classify": "dofkit.methods.classify",
-    "configurations": "dofkit.motion.sampled.configurations",
+    "Report": "dofkit.report",
+    "ask": "dofkit.methods.ask",
     "derived_flag": "dofkit.methods.classify",
-    "grade": "dofkit.homework.grading",
-    "lagrange": "dofkit.motion.lagrangian.equations",
+    "lagrange": "dofkit.motion.lagrange.equations",
+    "configurations": "dofkit.motion.sampled.configurations",
     "linkage": "dofkit.mobility.graph.answers",
-    "load": "dofkit.scene.reading",
-    "load_assignment": "dofkit.homework.assignment",
-    "loads": "dofkit.scene.reading",
     "redundant_links": "dofkit.mobility.graph.answers",
+    "Linkage": "dofkit.mobility.graph.answers",
+    "load_assignment": "dofkit.homework.assignment",
+    "grade": "dofkit.homework.grading",
 }
 
 
@@ -80,16 +76,5 @@ def __getattr__(name: str) -> Any:
     return found
 
 
-class _Package(ModuleType):
-    """Keeps a name such as ``classify`` from being shadowed by the module of that name when it is imported."""
-
-    def __setattr__(self, name: str, value: object) -> None:
-        if name not in _HOMES or not isinstance(value, ModuleType):
-            super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package
-
-
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_HOMES})
+    return list(__all__)

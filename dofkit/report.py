@@ -147,6 +147,11 @@ class Report(ToldModel):
     ``generic`` is the count in general position beside that at the drawing (None without a drawing), ``mobility``
     Gruebler's and Kutzbach's beside the truth (None without bodies and joints).
     A number that could not be decided is None, ``verdict`` is then ``undecided`` and ``warnings`` says why.
+
+    >>> import dofkit
+    >>> report = dofkit.classify("four-bar-linkage")
+    >>> report.dof, report.count.naive_dof, report.model_dump(mode="json")["holonomic"]
+    (1, 1, True)
     """
 
     scene: str

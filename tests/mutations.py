@@ -28,6 +28,7 @@ from functools import partial
 from itertools import count
 from pathlib import Path
 from queue import SimpleQueue
+from typing import Any
 
 if sys.platform != "win32":
     import resource
@@ -167,10 +168,10 @@ def _constant(node: ast.Constant) -> Iterator[Edit]:
         yield node.lineno, node.col_offset, node.end_col_offset, new
 
 
-def drawn(many: int, seed: int) -> list[Mutant]:
+def drawn(many: int, seed: int, rooms: Sequence[str] = ROOMS) -> list[Mutant]:
     """So many lines of the rooms, each changed in one place."""
     lines: dict[tuple[str, int], list[Mutant]] = {}
-    for room in ROOMS:
+    for room in rooms:
         place = ROOT / "dofkit" / room
         for path in [place] if place.is_file() else sorted(place.rglob("*.py")):
             for mutant in mutants(path):
@@ -228,16 +229,13 @@ class Copy:
     def _failing(self, arguments: Sequence[str], seconds: int) -> str:
         """The first test that fails, with how; nothing where all pass."""
         command = [sys.executable, "-m", "pytest", "-n0", "-x", "-p", "no:cacheprovider", "--tb=no", *arguments]
-        done = subprocess.run(
-            command,
-            cwd=self.folder,
-            env={**os.environ, "PYTHONPATH": str(self.folder)},
-            capture_output=True,
-            text=True,
-            check=False,
-            preexec_fn=partial(_bound, seconds),
-        )
-        failed = re.findall(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.MULTILINE)
+        settings: dict[str, Any] = {"cwd": self.folder, "env": {**os.environ, "PYTHONPATH": str(self.folder)}}
+        settings |= {"capture_output": True, "text": True, "timeout": 4 * seconds}
+        try:
+            done = subprocess.run(command, check=False, preexec_fn=partial(_bound, seconds), **settings)
+        except subprocess.TimeoutExpired:
+            return "waits for ever"
+        failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", done.stdout, re.MULTILINE)
         if done.returncode in (0, 5):
             return ""
         return failed[0] if failed else f"ended with status {done.returncode} (no end, no memory, or no import)"

@@ -148,7 +148,7 @@ _OTHER_WORDS = {
         "interface/show/terminal.py", "methods/graph.py", "methods/shared/at_drawing.py",
     },
     "string": {"homework/schemas.py", "scene/fields.py", "homework/key/facts.py"},
-    "fixed": {"scene/frames.py", "scene/world.py"},
+    "fixed": {"scene/frames.py", "scene/drawing.py"},
     "on": {"scene/world.py"},
 }  # fmt: skip
 

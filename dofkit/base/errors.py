@@ -7,13 +7,32 @@ from typing import ClassVar
 
 
 class DofkitError(Exception):
-    """The base of every error that dofkit raises on purpose."""
+    """The base of every error that dofkit raises on purpose.
+
+    >>> import dofkit
+    >>> try:
+    ...     dofkit.classify("no-such-scene")
+    ... except dofkit.DofkitError as error:
+    ...     print(type(error).__name__)
+    SceneError
+    """
+
+
+class ArgumentError(DofkitError, TypeError, ValueError):
+    """A function was given what it does not take: the message says what that was, and what is taken.
+
+    It is a TypeError and a ValueError too, for those who expect one.
+    """
 
 
 class TextError(DofkitError):
     """A mathematical text that cannot be read.
 
     ``column`` counts from 1 within the text; ``hint`` says what to write instead.
+
+    >>> error = TextError("a term is missing", 3, "write one after the sign")
+    >>> str(error), error.column
+    ('a term is missing', 3)
     """
 
     def __init__(self, message: str, column: int | None = None, hint: str | None = None) -> None:
@@ -46,7 +65,16 @@ class Fault:
 
 
 class SceneError(DofkitError):
-    """An input that is not a scene: all its faults at once, in the order of the file."""
+    """An input that is not a scene: all its ``faults`` at once, in the order of the file; ``source`` names it.
+
+    >>> import dofkit
+    >>> try:
+    ...     dofkit.loads("coordinates: [x]\\nconstraints: [y = 1]")
+    ... except dofkit.SceneError as error:
+    ...     fault = error.faults[0]
+    >>> fault.message, fault.line, fault.column, fault.where
+    ('`y` is not declared', 2, 15, ('constraints', 0, 'text'))
+    """
 
     def __init__(self, faults: tuple[Fault, ...], source: str | None = None) -> None:
         self.faults = faults

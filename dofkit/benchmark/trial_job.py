@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from dofkit.base.workers import Json
-from dofkit.base.workers.child import named
+from dofkit.base.workers.child import function_named
 from dofkit.base.workers.limits import LateError, interrupting
 from dofkit.methods.shared.reply import Knobs, MethodReply
 
@@ -53,7 +53,7 @@ def timed_reply(asked: TrialQuestion) -> Json:
 
     What is late is interrupted, so that the process stays warm; only what cannot be is killed with it.
     """
-    function = named(asked.answering)
+    function = function_named(asked.answering)
     _warm_up(function, asked)
     try:
         with interrupting(asked.limit):
@@ -95,6 +95,6 @@ def _warm_up(function: Any, asked: TrialQuestion) -> None:
 def ablation_rows(quick: bool) -> Iterator[Json]:
     """What each reduction of the model saves: all rows so far, each time there is one more."""
     rows: list[Json] = []
-    for row in named("dofkit.benchmark.ablation:ablation")(quick):
+    for row in function_named("dofkit.benchmark.ablation:ablation")(quick):
         rows.append(row.model_dump())
         yield rows

@@ -10,12 +10,14 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError, WrapValidator
 
+from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
-from dofkit.base.errors import DofkitError, Fault, SceneError
+from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
 from dofkit.scene.fields import WrittenModel, faults_of
-from dofkit.scene.reading import find, load, with_hint, without_echoes
+from dofkit.scene.hints import with_hint, without_echoes
+from dofkit.scene.reading import find, load
 from dofkit.scene.scene import Scene
 from dofkit.scene.tagged_union import TaggedUnion
 
@@ -88,10 +90,18 @@ def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Pa
     """The assignment of a YAML or JSON file, or of a mapping, with its scenes.
 
     Paths of scenes are meant from the assignment's folder (``base`` for a mapping). Raises AssignmentError with every
-    fault at once: of its form, of its scenes, and of questions that its scenes cannot be asked.
+    fault at once: of its form, of its scenes, and of questions that its scenes cannot be asked; ArgumentError for a
+    ``source`` that is neither a path nor a mapping.
+
+    >>> import dofkit
+    >>> asked = {"id": "bars", "scene": "four-bar-linkage", "questions": [{"id": "f", "ask": "dof", "points": 2}]}
+    >>> dofkit.load_assignment({"title": "One", "problems": [asked]}).assignment.problems[0].id
+    'bars'
     """
     if isinstance(source, Mapping):
         return _prepared(source, base or Path(), None)
+    if not isinstance(source, str | os.PathLike):
+        raise ArgumentError(f"an assignment is given as a path or a mapping, not {description_of(source)}")
     shown = os.fspath(source)
     try:
         found = find(shown)

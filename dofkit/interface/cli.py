@@ -6,17 +6,20 @@ import json
 import math
 import os
 import sys
-from collections.abc import Iterable
-from contextlib import closing
+from collections.abc import Generator, Iterator
+from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
-from dofkit.base.errors import DofkitError, Fault, SceneError
+from dofkit.base.errors import DofkitError, Fault
 from dofkit.base.version import __version__
-from dofkit.methods.names import MethodName
-from dofkit.methods.table import METHODS
+from dofkit.interface import options
+
+if TYPE_CHECKING:
+    from dofkit.interface.supervised import Printed
+    from dofkit.methods.names import MethodName
 
 app = typer.Typer(
     name="dofkit",
@@ -40,29 +43,6 @@ app.add_typer(export_app, name="export")
 #: The exit status where something could not be read, and after Ctrl-C.
 UNREADABLE, INTERRUPTED = 2, 130
 
-Files = Annotated[list[str], typer.Argument(metavar="FILE...", help="Scenes: paths, catalog names, - for stdin.")]
-AsJson = Annotated[bool, typer.Option("--json", help="One JSON object a line, in the order given.")]
-Budget = Annotated[
-    float | None,
-    typer.Option(
-        "--budget", metavar="SECONDS", min=0, help="Seconds for each scene; what is not finished is undecided."
-    ),
-]
-
-
-def _known_method(name: str) -> str:
-    if name not in METHODS:
-        raise typer.BadParameter(f"'{name}' is none of {', '.join(METHODS)}")
-    return name
-
-
-Method = Annotated[
-    str,
-    typer.Option(
-        "--method", metavar="NAME", callback=_known_method, help=f"One way to answer alone: {', '.join(METHODS)}."
-    ),
-]
-
 
 def _version(asked: bool) -> None:
     if asked:
@@ -80,123 +60,67 @@ def dofkit(
 
 
 @app.command()
-def classify(files: Files, as_json: AsJson = False, budget: Budget = None, method: Method = "auto") -> None:
+def classify(
+    files: options.Files,
+    as_json: options.AsJson = False,
+    budget: options.Budget = None,
+    method: options.Method = "auto",
+) -> None:
     """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
-    from dofkit.interface.supervised import told
+    from dofkit.interface.supervised import reports
 
     if budget is not None and math.isnan(budget):
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
-    failed = False
-    with closing(told(files, budget, cast(MethodName, method), as_json)) as stream:
-        for out, err, unread in stream:
-            typer.echo(out, nl=False)
-            typer.echo(err, nl=False, err=True)
-            failed = failed or unread
-    if failed:
-        raise typer.Exit(UNREADABLE)
+    _print(reports(files, budget, cast("MethodName", method), as_json))
 
 
 @app.command()
-def lagrange(
-    files: Files,
-    as_json: AsJson = False,
-    linearize: Annotated[
-        bool, typer.Option("--linearize", help="Also M, C and K of small motions about an equilibrium.")
-    ] = False,
-) -> None:
+def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: options.Linearize = False) -> None:
     """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
     from dofkit.interface.supervised import motions
 
-    failed = False
-    with closing(motions(files, linearize, as_json)) as stream:
-        for out, err, unread in stream:
-            typer.echo(out, nl=False)
-            typer.echo(err, nl=False, err=True)
-            failed = failed or unread
-    if failed:
-        raise typer.Exit(UNREADABLE)
+    _print(motions(files, linearize, as_json))
 
 
 @app.command()
 def grade(
-    assignment: Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="What was handed out: YAML or JSON.")],
-    submissions: Annotated[
-        list[str],
-        typer.Argument(metavar="SUBMISSION...", help="YAML, JSON, JSON lines, CSV, folders of these, - for stdin."),
-    ],
-    form: Annotated[
-        str, typer.Option("--format", metavar="NAME", help="native, or what a gradebook reads.")
-    ] = "native",
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="PATH", help="Where to write; an interrupted run goes on where it stopped."),
-    ] = None,
-    workers: Annotated[
-        int | None, typer.Option("--workers", metavar="N", min=1, help="Processes; by default one for each core.")
-    ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A Dask cluster that does the work.")
-    ] = None,
-    check_only: Annotated[
-        bool, typer.Option("--check-only", help="Tell how every answer is read, and grade none.")
-    ] = False,
+    assignment: options.Assignment,
+    submissions: options.Submissions,
+    form: options.ResultFormat = "native",
+    out: options.ResultPath = None,
+    workers: options.Workers = None,
+    scheduler: options.Scheduler = None,
+    check_only: options.CheckOnly = False,
 ) -> None:
     """Grade submissions: a result for each, in the order given."""
     from dofkit.homework.runs.run import GradingOptions, run
 
-    try:
+    with _failures_of(assignment):
         clean = run(assignment, submissions, GradingOptions(form, out, workers, scheduler, check_only))
-    except (DofkitError, OSError) as error:
-        if isinstance(error, BrokenPipeError):
-            raise
-        _fail(assignment, error)
-        raise typer.Exit(UNREADABLE) from None
     if not clean:
         raise typer.Exit(UNREADABLE)
 
 
 @app.command()
 def chart(
-    question: Annotated[
-        list[str] | None, typer.Option("--question", metavar="Q", help="dof, integrability, redundancy, equivalence.")
-    ] = None,
-    families: Annotated[
-        list[str] | None, typer.Option("--families", metavar="NAME,...", help="Of the trials; by default all.")
-    ] = None,
-    methods: Annotated[list[str] | None, typer.Option("--methods", metavar="NAME,...", help="By default all.")] = None,
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Where data and figures go.")] = Path(
-        "dofkit-chart"
-    ),
-    source: Annotated[
-        Path | None, typer.Option("--from", metavar="DIR", help="Draw again from the data of a run.")
-    ] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="A few small trials of each family: under a minute.")] = False,
-    most: Annotated[
-        int | None, typer.Option("--most", metavar="N", min=0, help="Trials of each family and question; 0: all.")
-    ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A Dask cluster that does the work.")
-    ] = None,
-    workers: Annotated[
-        int | None, typer.Option("--workers", metavar="N", min=1, help="Processes; by default one for each core.")
-    ] = None,
-    timeout: Annotated[
-        float | None,
-        typer.Option("--timeout", metavar="SECONDS", min=0.01, help="Processor time for each trial and method."),
-    ] = None,
+    question: options.Questions = None,
+    families: options.Families = None,
+    methods: options.Methods = None,
+    out: options.ChartFolder = Path("dofkit-chart"),
+    source: options.ChartSource = None,
+    quick: options.Quick = False,
+    most: options.Most = None,
+    scheduler: options.Scheduler = None,
+    workers: options.Workers = None,
+    timeout: options.Timeout = None,
 ) -> None:
     """Chart speed against accuracy: every method on scenes whose answers are known."""
     from dofkit.benchmark.command import ChartOptions, run
     from dofkit.benchmark.selecting import Selection
 
     selection = Selection(question or (), families or (), methods or (), quick, most)
-    try:
+    with _failures_of("chart"):
         whole = run(ChartOptions(selection, out, source, scheduler, workers, timeout))
-    except (DofkitError, OSError) as error:
-        if isinstance(error, BrokenPipeError):
-            raise
-        _fail("chart", error)
-        raise typer.Exit(UNREADABLE) from None
     if not whole:
         raise typer.Exit(INTERRUPTED)
 
@@ -208,16 +132,13 @@ def assignment_new(
     """Print a starting assignment: all the questions that the scenes can be asked."""
     from dofkit.homework.starting import starting
 
-    try:
+    with _failures_of(None):
         typer.echo(starting(scenes), nl=False)
-    except SceneError as error:
-        _complain(error.source or "assignment", error.faults)
-        raise typer.Exit(UNREADABLE) from None
 
 
 @export_app.command("gradescope")
 def export_gradescope(
-    assignment: Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="What was handed out: YAML or JSON.")],
+    assignment: options.Assignment,
     out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The zip to upload.")] = Path("autograder.zip"),
     python: Annotated[
         list[str] | None,
@@ -230,33 +151,27 @@ def export_gradescope(
     """Write the autograder of an assignment for Gradescope, as one zip to upload."""
     from dofkit.homework import export
 
-    try:
+    with _failures_of(assignment):
         notes = export.export_gradescope(assignment, out, python or (export.PYTHON,), wheels=wheels)
-    except DofkitError as error:
-        _fail(assignment, error)
-        raise typer.Exit(UNREADABLE) from None
     for note in notes:
         typer.echo(f"{out}: {note}", err=True)
 
 
 @export_app.command("otter")
 def export_otter(
-    assignment: Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="What was handed out: YAML or JSON.")],
+    assignment: options.Assignment,
     out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where the test files go.")] = Path("tests"),
 ) -> None:
     """Write otter-grader's test files for an assignment, and assignment.json beside their folder."""
     from dofkit.homework import otter
 
-    try:
+    with _failures_of(assignment):
         for path in otter.write_tests(assignment, out):
             typer.echo(path)
-    except (DofkitError, OSError) as error:
-        _fail(assignment, error)
-        raise typer.Exit(UNREADABLE) from None
 
 
 @catalog_app.callback()
-def catalog(context: typer.Context, as_json: AsJson = False) -> None:
+def catalog(context: typer.Context, as_json: options.AsJson = False) -> None:
     """List the names of the catalog's scenes, one a line; with their titles on a terminal."""
     if context.invoked_subcommand is not None:
         return
@@ -279,11 +194,8 @@ def catalog_show(name: Annotated[str, typer.Argument(help="A scene's name.")]) -
     """Print the YAML of a catalog scene."""
     from dofkit.scene.catalog import catalog_text
 
-    try:
+    with _failures_of(name):
         typer.echo(catalog_text(name), nl=False)
-    except SceneError as error:
-        _complain(name, error.faults)
-        raise typer.Exit(UNREADABLE) from None
 
 
 @app.command()
@@ -307,17 +219,32 @@ def schema(
     typer.echo(json.dumps(known[of](), indent=2))
 
 
-def _complain(file: str, faults: Iterable[Fault]) -> None:
-    from dofkit.interface.show.faults import complaint
+def _print(printed: Generator[Printed]) -> None:
+    """Print what there is of each file; the exit status tells whether one could not be read."""
+    failed = False
+    with closing(printed) as stream:
+        for out, err, unread in stream:
+            typer.echo(out, nl=False)
+            typer.echo(err, nl=False, err=True)
+            failed = failed or unread
+    if failed:
+        raise typer.Exit(UNREADABLE)
 
-    sys.stdout.flush()
-    typer.echo(complaint(file, tuple(faults), None), err=True)
 
+@contextmanager
+def _failures_of(file: str | None) -> Iterator[None]:
+    """Where nothing is done, tell why, of ``file`` (None: of what the error is about), and end the command."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except (DofkitError, OSError) as error:
+        from dofkit.interface.show.faults import complaint
 
-def _fail(file: str, error: DofkitError | OSError) -> None:
-    """Tell why nothing was done."""
-    faults = getattr(error, "faults", None) or (Fault(str(error)),)
-    _complain(file, faults)
+        faults = tuple(getattr(error, "faults", None) or (Fault(str(error)),))
+        sys.stdout.flush()
+        typer.echo(complaint(file or getattr(error, "source", None) or "assignment", faults, None), err=True)
+        raise typer.Exit(UNREADABLE) from None
 
 
 def _line(value: Any) -> None:

@@ -10,7 +10,7 @@ import json
 import os
 import stat
 import sys
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -23,6 +23,8 @@ from dofkit.methods.names import MethodName
 STDIN = "stdin"
 #: Seconds for what is printed where a scene's own worker was killed.
 TELLING_SECONDS = 10.0
+#: What the worker does is in this module, which it imports itself.
+ONE_FILE = "dofkit.interface.one_file"
 
 
 @dataclass(frozen=True)
@@ -30,13 +32,15 @@ class Given:
     """A file as it was named, and how to tell of it.
 
     ``data``: its bytes where they were read already; ``budget``: seconds for the scene, ``method``: how to answer;
-    ``as_json`` and then ``ascii_only``, or as text for a terminal of a width and a set of colours (None: for ours).
+    ``linearize``: small motions too; ``as_json`` and then ``ascii_only``, or as text for a terminal of a width and a
+    set of colours (None: for ours).
     """
 
     file: str
     budget: float
     method: MethodName
     as_json: bool
+    linearize: bool = False
     ascii_only: bool = False
     terminal: tuple[int, str | None] | None = None
     data: bytes | None = None
@@ -65,42 +69,45 @@ class Printed(NamedTuple):
     failed: bool
 
 
-def told(files: Sequence[str], budget: float | None, method: MethodName, as_json: bool) -> Generator[Printed]:
-    """What is printed of each file, in their order."""
-    fork = can_fork()
-    worker = Worker(modules=("dofkit.interface.classify_file",), fork=fork)
-    ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
+def reports(files: Sequence[str], budget: float | None, method: MethodName, as_json: bool) -> Generator[Printed]:
+    """What is printed of the report on each file, in their order."""
     seconds = DEFAULT_SECONDS if budget is None else budget
-    given = Given("", seconds, method, as_json, ascii_only, None if fork or as_json else _terminal())
-    try:
-        for file in files:
-            yield _one(worker, replace(given, file=file, data=_data(file)))
-    finally:
-        worker.kill()
+    own = None if can_fork() or as_json else _terminal()
+    given = Given("", seconds, method, as_json, ascii_only=_ascii_only(), terminal=own)
+    return _answers(files, given, _report, (ONE_FILE,))
 
 
 def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[Printed]:
     """What is printed of the equations of motion of each file, in their order."""
-    worker = Worker(modules=("dofkit.interface.lagrange_file",), fork=can_fork())
-    ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
+    given = Given("", DEFAULT_SECONDS, "auto", as_json, linearize, _ascii_only())
+    return _answers(files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"))
+
+
+def _answers(
+    files: Sequence[str], given: Given, ask: Callable[[Worker, Given], Printed], modules: Sequence[str]
+) -> Generator[Printed]:
+    worker = Worker(modules=modules, fork=can_fork())
     try:
         for file in files:
-            given = Given(file, DEFAULT_SECONDS, "auto", as_json, ascii_only, data=_data(file))
-            outcome = worker.run(Job("dofkit.interface.lagrange_file:told", (given, linearize), limit(given.budget)))
-            yield Printed(**outcome.value) if outcome.finished else _plain(given, outcome.reason)
+            yield ask(worker, replace(given, file=file, data=_data(file)))
     finally:
         worker.kill()
 
 
-def _one(worker: Worker, given: Given) -> Printed:
+def _report(worker: Worker, given: Given) -> Printed:
     reading = limit(max(given.budget, DEFAULT_SECONDS))
-    outcome = worker.run(Job("dofkit.interface.classify_file:told", given, limit(given.budget), reading))
+    outcome = worker.run(Job("dofkit.interface.one_file:report_lines", given, limit(given.budget), reading))
     if not outcome.finished:
         cut = Cut(given, outcome.value, outcome.reason)
-        outcome = worker.run(Job("dofkit.interface.classify_file:cut_short", cut, TELLING_SECONDS))
+        outcome = worker.run(Job("dofkit.interface.one_file:cut_lines", cut, TELLING_SECONDS))
         if not outcome.finished:
             return _plain(given, cut.reason)
     return Printed(**outcome.value)
+
+
+def _motion(worker: Worker, given: Given) -> Printed:
+    outcome = worker.run(Job("dofkit.interface.one_file:motion_lines", given, limit(given.budget)))
+    return Printed(**outcome.value) if outcome.finished else _plain(given, outcome.reason)
 
 
 def _plain(given: Given, reason: str) -> Printed:
@@ -124,6 +131,10 @@ def _data(file: str) -> bytes | None:
             return source.read(MOST_BYTES + 1)
     except (OSError, ValueError):
         return None
+
+
+def _ascii_only() -> bool:
+    return (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
 
 
 def _terminal() -> tuple[int, str | None]:

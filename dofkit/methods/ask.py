@@ -11,7 +11,9 @@ from typing import Any
 
 from flint import ctx
 
+from dofkit.base.arguments import description_of, require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
+from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.classification.dependence.equivalence import Sameness, compare
@@ -23,17 +25,19 @@ from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precision
 from dofkit.expressions import tree as ex
-from dofkit.methods.names import Question
-from dofkit.mobility.frameworks import left_out
+from dofkit.methods.names import QUESTIONS, Question
+from dofkit.mobility.frameworks import unprescribed_links
 from dofkit.mobility.graph.answers import linkage
 from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.relations.reduced import Reduced
 from dofkit.scene.added_equations import read_equations, with_equations
+from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.lowering import lower
+from dofkit.scene.names import vocabulary_of
+from dofkit.scene.reading import SceneLike, scene_or_system
 from dofkit.scene.scene import Scene
-from dofkit.scene.survey import survey
 from dofkit.system import System
 
 CONTRADICTORY = -1
@@ -56,19 +60,40 @@ class Reply:
 
 
 def ask(
-    scene: Scene | System, question: Question, answer: Mapping[str, str] | None = None, budget: float | None = None
+    scene: SceneLike | System, question: Question, answer: Mapping[str, str] | None = None, budget: float | None = None
 ) -> Reply:
-    """Answer one question about a scene.
+    """Answer one question about a scene: ``dof``, ``integrability``, ``redundancy`` or ``equivalence``.
 
-    ``answer``, for ``equivalence`` (of a Scene): ``{"constraint": NAME, "text": TEXT}``; does the text say the same as
-    that constraint, in the presence of the others? ``budget``: seconds, after which no new part of the work is begun.
-    Raises `SceneError` and `TextError` where something cannot be read.
+    ``scene``: a Scene, a path, a catalog name, a mapping or a System. ``answer``, for ``equivalence`` (of no System):
+    ``{"constraint": NAME, "text": TEXT}``; does the text say the same as that constraint, in the presence of the
+    others? ``budget``: seconds, after which no new part of the work is begun.
+    Returns a `Reply` with the value, its verdict, and the reason where there is none. Raises `SceneError` and
+    `TextError` where something cannot be read, and `ArgumentError` for what is no scene, question, answer or number.
 
     >>> import dofkit
-    >>> ask(dofkit.load({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}), "dof").value
+    >>> scene = {"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}
+    >>> dofkit.ask(scene, "dof").value
     1
+    >>> dofkit.ask(scene, "equivalence", {"constraint": "c1", "text": "2 y dx + 2 x dy = 0"}).value
+    True
     """
-    return answered_by(scene, question, answer, budget)
+    require_one_of(question, QUESTIONS, "question")
+    seconds = None if budget is None else seconds_of(budget)
+    given = scene_or_system(scene)
+    if question == "equivalence":
+        _require_answer(given, answer)
+    return answered_by(given, question, answer, seconds)
+
+
+def _require_answer(scene: Scene | System, answer: object) -> None:
+    """Raise ArgumentError for what no text can be compared in, and for what is no answer."""
+    if isinstance(scene, System):
+        raise ArgumentError("equivalence is asked of a Scene, with whose names the text is read, not of a System")
+    keys = ("constraint", "text")
+    if not isinstance(answer, Mapping) or not all(isinstance(answer.get(key), str) for key in keys):
+        wanted = "{'constraint': NAME, 'text': TEXT}, both texts"
+        raise ArgumentError(f"for equivalence `answer` is {wanted}, not {description_of(answer)}")
+    require_one_of(answer["constraint"], names_by_position("c", [c.name for c in scene.constraints]), "constraint")
 
 
 def answered_by(
@@ -105,7 +130,7 @@ def _is_finite(r: Reduced) -> bool:
 
 def _by_graph(system: System, question: Question) -> Reply | None:
     """Links whose lengths were all left out are in general position: the graph answers. None for any other system."""
-    pairs = left_out(system)
+    pairs = unprescribed_links(system)
     if pairs is None:
         return None
     told = linkage([pair for _, pair in pairs], system.dimension)
@@ -175,7 +200,7 @@ def _redundancy(known: Study) -> Reply:
 
 
 def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:
-    read = read_equations(answer["text"], survey(scene).world.names, constants=False)
+    read = read_equations(answer["text"], vocabulary_of(scene).names, constants=False)
     system = lower(with_equations(scene, read, ANSWER))
     answered_by, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
     found = compare(system, answered_by, own, read.constants, engines).sameness

@@ -5,7 +5,6 @@ Both halves of the conversation: what the parent asks and makes of it, and what 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
@@ -55,13 +54,6 @@ def classified(payload: tuple[Scene | System, float, MethodName]) -> Iterator[Js
             yield {"report": report.model_dump(mode="json")}
     except SceneError as error:
         yield {"faults": [asdict(fault) for fault in error.faults], "source": error.source}
-
-
-def checked(budget: float) -> float:
-    """A budget in seconds, not below 0. Raises ValueError where it is no number."""
-    if math.isnan(budget):
-        raise ValueError("the budget is a number of seconds")
-    return max(0.0, float(budget))
 
 
 def _fault(told: dict[str, Any]) -> Fault:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dofkit.classification.undecided import open_entry, open_report, why_nothing
 from dofkit.report import Count, ForceEntry, Report
+from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.scene import Scene
-from dofkit.scene.survey import names_by_position
 from dofkit.system import BODY_ROLES, Constraint
 
 
@@ -25,7 +25,9 @@ def blank(scene: Scene, why: str) -> Report:
         errs="the equations were not counted",
     )
     names = names_by_position("c", [c.name for c in scene.constraints])
-    given = [Constraint(name, c.kind(), c.facts, c.shown, ()) for name, c in zip(names, scene.constraints, strict=True)]
+    given = [
+        Constraint(name, c.kind(), c.facts, c.in_words, ()) for name, c in zip(names, scene.constraints, strict=True)
+    ]
     named = zip(names_by_position("f", [f.name for f in scene.forces]), scene.forces, strict=True)
     forces = [ForceEntry(name=name, reason=f.reason) for name, f in named]
     return open_report(scene.name, told, [open_entry(c, why) for c in given], forces, [why_nothing(why)])

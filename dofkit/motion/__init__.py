@@ -1,4 +1,7 @@
-"""A classified system in time: Lagrange's equations, and configurations along a motion."""
+"""A classified system in time: Lagrange's equations, and configurations along a motion.
+
+The room of Lagrange's equations bears the name of its function, so ``lagrange`` is handed on by that room, not here.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from dofkit.motion.lagrangian.equations import lagrange
     from dofkit.motion.sampled.configurations import configurations
 
-__all__ = ["configurations", "lagrange"]
+__all__ = ["configurations"]
 
 #: What is handed on, and where it lives: imported when it is first asked for.
 _HOMES = {
     "configurations": "dofkit.motion.sampled.configurations",
-    "lagrange": "dofkit.motion.lagrangian.equations",
 }
 
 

@@ -1,1 +1,35 @@
 """What a person writes, read with every fault in its place, and made into a `System`."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from dofkit.scene.catalog import catalog_names, catalog_text
+    from dofkit.scene.lowering import lower
+    from dofkit.scene.reading import load, loads
+    from dofkit.scene.scene import Scene
+
+__all__ = ["Scene", "catalog_names", "catalog_text", "load", "loads", "lower"]
+
+#: What is handed on, imported when it is first asked for.
+_HOMES = {
+    "Scene": "dofkit.scene.scene",
+    "catalog_names": "dofkit.scene.catalog",
+    "catalog_text": "dofkit.scene.catalog",
+    "load": "dofkit.scene.reading",
+    "loads": "dofkit.scene.reading",
+    "lower": "dofkit.scene.lowering",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    found = globals()[name] = getattr(import_module(_HOMES[name]), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -15,12 +15,24 @@ _TITLE = re.compile(r"^title:[ \t]*(?:\"(?P<double>[^\"\\\n]*)\"|'(?P<single>[^'
 
 
 def catalog_names() -> list[str]:
-    """The names of the catalog's scenes, folder by folder."""
+    """The names of the catalog's scenes, folder by folder.
+
+    Raises SceneError where the catalog is not installed.
+
+    >>> import dofkit
+    >>> "four-bar-linkage" in dofkit.catalog_names()
+    True
+    """
     return list(_files())
 
 
 def catalog_text(name: str) -> str:
-    """The YAML of a catalog scene. Raises SceneError with the nearest name where there is none."""
+    """The YAML of a catalog scene. Raises SceneError with the nearest name where there is none.
+
+    >>> import dofkit
+    >>> dofkit.loads(dofkit.catalog_text("four-bar-linkage")).dimension
+    2
+    """
     file = _files().get(name)
     if file is None:
         raise SceneError((Fault(f"there is no scene '{name}' in the catalog", hint=nearest_hint(name)),), name)

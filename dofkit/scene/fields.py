@@ -93,7 +93,7 @@ def exact(value: object) -> Fraction:
         found = _literal(value)
         if found is not None:
             return found
-    raise fault_error(f"a number is needed, not {_shown(value)}")
+    raise fault_error(f"a number is needed, not {_in_words(value)}")
 
 
 def _from_decimal(value: Decimal) -> Fraction:
@@ -119,7 +119,7 @@ def _value(value: object) -> Fraction | str:
         found = _literal(text)
         return value if found is None else found
     if isinstance(value, (list, tuple, dict)):
-        raise fault_error(f"a number or a text is needed, not {_shown(value)}")
+        raise fault_error(f"a number or a text is needed, not {_in_words(value)}")
     return exact(value)
 
 
@@ -129,7 +129,7 @@ def _text(value: object) -> str:
             raise fault_error("a text is needed, not an empty one")
         return value
     if isinstance(value, (list, tuple, dict)) or value is None:
-        raise fault_error(f"a text is needed, not {_shown(value)}")
+        raise fault_error(f"a text is needed, not {_in_words(value)}")
     return str(exact(value))
 
 
@@ -195,7 +195,7 @@ def named(value: object) -> object:
 Listed = BeforeValidator(listed)
 
 
-def _shown(value: object) -> str:
+def _in_words(value: object) -> str:
     if value is None:
         return "nothing"
     if isinstance(value, bool):
@@ -229,18 +229,18 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
     if kind == "extra_forbidden":
         return f"unknown key '{place[-1]}' in {owner}", suggestion(place[-1], known, "keys")
     if kind == "invalid_key":
-        return f"a key is a text, not {_shown(place[-1])}", "put it in quotes"
+        return f"a key is a text, not {_in_words(place[-1])}", "put it in quotes"
     if kind == "missing":
         if isinstance(place[-1], int):
             return f"{place[-1] + 1} entries are needed here", "there are fewer"
         return f"{owner} needs '{place[-1]}'", None
     if kind == "model_type" and not place:
-        return f"{owner} is {_AS.get(owner, 'a mapping')}, not {_shown(detail['input'])}", None
+        return f"{owner} is {_AS.get(owner, 'a mapping')}, not {_in_words(detail['input'])}", None
     if kind in _NEEDS:
-        return f"{_NEEDS[kind]} is needed, not {_shown(detail['input'])}", None
+        return f"{_NEEDS[kind]} is needed, not {_in_words(detail['input'])}", None
     if kind == "literal_error":
         known = re.findall(r"'([^']*)'", str(context["expected"]))
-        return f"{_shown(detail['input'])} is not one of {context['expected']}", suggestion(
+        return f"{_in_words(detail['input'])} is not one of {context['expected']}", suggestion(
             detail["input"], known, "choices"
         )
     if kind in ("too_short", "too_long"):

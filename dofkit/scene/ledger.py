@@ -8,7 +8,8 @@ from fractions import Fraction
 from dofkit.base.errors import Fault, TextError
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import Expr, num, parameter
-from dofkit.scene.fields import suggestion
+from dofkit.expressions.vectors import Vec
+from dofkit.scene.fields import Vector, suggestion
 from dofkit.system import Sense
 
 #: The nearest name is looked for while there are fewer faults than this.
@@ -37,12 +38,16 @@ _CALLED = {
 
 
 class Ledger:
-    """Faults and warnings, recorded at paths below ``here``."""
+    """The faults and warnings of one entry of a scene, which stands at the path ``here``.
 
-    def __init__(self) -> None:
-        self.here: tuple[str | int, ...] = ()
+    ``before``: how many faults were found in what was read earlier.
+    """
+
+    def __init__(self, here: tuple[str | int, ...] = (), before: int = 0) -> None:
+        self.here = here
         self.faults: list[Fault] = []
         self.warnings: list[str] = []
+        self._hints = MOST_HINTS - before
 
     def fault(self, message: str, *where: str | int, hint: str | None = None, column: int | None = None) -> None:
         """Record a fault at ``where`` within the entry that is being read."""
@@ -50,47 +55,51 @@ class Ledger:
 
     def unknown(self, what: str, name: str, known: Iterable[str], *where: str | int, plural: str = "") -> None:
         """Record that ``name`` is not declared, with the nearest name that is (for the first faults: it takes time)."""
-        hint = suggestion(name, tuple(known), plural or f"{what}s") if len(self.faults) < MOST_HINTS else None
+        hint = suggestion(name, tuple(known), plural or f"{what}s") if len(self.faults) < self._hints else None
         self.fault(f"there is no {what} '{name}'", *where, hint=hint)
 
 
-class Texts(Ledger):
-    """Reads texts with the scene's names; a text is parsed once however often it occurs."""
+class ParsedTexts:
+    """Expressions of texts that are read with some names, each parsed once however often it occurs."""
 
-    names: Names
+    def __init__(self, names: Names) -> None:
+        self.names = names
+        self._parsed: dict[str, Expr | TextError] = {}
 
-    def __init__(self) -> None:
-        super().__init__()
-        self._read: dict[str, Expr | TextError] = {}
-
-    def forget(self) -> None:
-        """Forget what was read: the names have changed."""
-        self._read.clear()
-
-    def parse(self, text: str) -> Expr | TextError:
+    def expression(self, text: str) -> Expr | TextError:
         """The expression of a text, or why it is none."""
-        found = self._read.get(text)
+        found = self._parsed.get(text)
         if found is None:
             try:
                 found = parse_expression(text, self.names)
             except TextError as error:
                 found = error
-            self._read[text] = found
+            self._parsed[text] = found
         return found
 
-    def symbols_of(self, text: str, names: Names | None) -> frozenset[Expr]:
-        """What a text mentions; nothing if it cannot be read, which is told elsewhere."""
-        try:
-            found = parse_relations(text, names or self.names)
-        except TextError:
-            return frozenset()
-        return frozenset().union(*(side.symbols for c in found for side in (c.left, c.right)))
+
+def symbols_of(text: str, names: Names) -> frozenset[Expr]:
+    """What a text mentions; nothing if it cannot be read, which is told elsewhere."""
+    try:
+        found = parse_relations(text, names)
+    except TextError:
+        return frozenset()
+    return frozenset().union(*(side.symbols for c in found for side in (c.left, c.right)))
+
+
+class Texts(Ledger):
+    """The texts of one entry, read with the scene's names."""
+
+    def __init__(self, reader: ParsedTexts, here: tuple[str | int, ...] = (), before: int = 0) -> None:
+        super().__init__(here, before)
+        self._reader = reader
+        self.names = reader.names
 
     def expression(self, value: Fraction | str, *where: str | int, allow: frozenset[str] = FINITE) -> Expr:
         """A number or text as an expression that mentions only what ``allow`` names."""
         if isinstance(value, Fraction):
             return num(value)
-        found = self.parse(value)
+        found = self._reader.expression(value)
         if isinstance(found, TextError):
             self.fault(found.message, *where, hint=found.hint, column=found.column)
             return parameter("_fault")
@@ -100,6 +109,14 @@ class Texts(Ledger):
     def fixed(self, value: Fraction | str, *where: str | int) -> Expr:
         """A number or text that holds numbers and parameters only."""
         return self.expression(value, *where, allow=FIXED)
+
+    def vector(self, values: Vector, dimension: int, *where: str | int) -> Vec | None:
+        """The components as expressions; None after a fault in their number."""
+        if len(values) != dimension:
+            message = f"{len(values)} component{'s' * (len(values) != 1)} given where the dimension is {dimension}"
+            self.fault(message, *where, hint=f"write {dimension}, or change the scene's `dimension`")
+            return None
+        return tuple(self.fixed(value, *where, i) for i, value in enumerate(values))
 
     def only(self, e: Expr, allow: frozenset[str], *where: str | int) -> None:
         """Record a fault if ``e`` mentions anything that ``allow`` does not name."""

@@ -4,59 +4,63 @@ from __future__ import annotations
 
 from dofkit.base.errors import SceneError
 from dofkit.expressions.tree import parameter
+from dofkit.scene.drawing import Drawing
+from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.reference import pose_of, reference_of
-from dofkit.scene.scene import Scene
-from dofkit.scene.survey import Survey, names_by_position, taken
-from dofkit.scene.world import World
+from dofkit.scene.scene import Scene, survey_of
+from dofkit.scene.survey import Survey
 from dofkit.system import ListedForce, Rotation, System
+
+#: Said where the drawing is not used.
+SPECIAL = (
+    "The drawing has numbers where lengths are parameters: it fits only special values of them, "
+    "so it is not used as a reference configuration."
+)
 
 
 def lower(scene: Scene) -> System:
     """The coordinates and exact relations of a scene. Raises SceneError with all its faults if it has any."""
-    found = taken(scene)
-    if found.world.faults:
-        raise SceneError(tuple(found.world.faults))
+    found = survey_of(scene)
+    if found.faults:
+        raise SceneError(found.faults)
     return system_of(scene, found)
 
 
 def system_of(scene: Scene, found: Survey) -> System:
     """The mathematics of a scene that was surveyed without faults."""
-    world = found.world
-    pose = pose_of(world)
-    reference = reference_of(world, pose)
-    if world.special:
-        world.warnings.append(
-            "The drawing has numbers where lengths are parameters: it fits only special values of them, "
-            "so it is not used as a reference configuration."
-        )
+    drawing, vocabulary = found.drawing, found.drawing.vocabulary
+    pose = pose_of(drawing)
+    reference = None
+    if not (found.generic or found.special):
+        reference = reference_of(drawing, found.drawn, pose)
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,
         dimension=scene.dimension,
-        coordinates=world.table.coordinates,
+        coordinates=vocabulary.table.coordinates,
         constraints=found.constraints,
-        parameters={name: sign for name, sign in world.signs.items() if world.parameters[name] == parameter(name)},
-        generic=tuple(world.generic),
+        parameters={n: sign for n, sign in vocabulary.signs.items() if vocabulary.parameters[n] == parameter(n)},
+        generic=found.generic,
         functions={name: len(arguments) for name, arguments in scene.functions.items()},
-        rotations=_rotations(world),
+        rotations=_rotations(drawing),
         reference=reference,
         pose=pose if reference is None else reference,
-        particles=tuple(world.table.particles),
-        bodies=tuple(world.table.bodies),
+        particles=tuple(vocabulary.table.particles),
+        bodies=tuple(vocabulary.table.bodies),
         forces=tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
-        links=tuple(world.links),
-        distances=world.distances if reference is None else {},
+        links=found.links,
+        distances=found.distances if reference is None else {},
         connections=found.connections,
-        starts={name: frame.start for name, frame in world.frames.items()},
+        starts={name: frame.start for name, frame in drawing.frames.items()},
         tolerance=scene.tolerance or None,
         size=found.size,
-        warnings=tuple(world.warnings),
+        warnings=(*found.warnings, SPECIAL) if found.special else found.warnings,
     )
 
 
-def _rotations(world: World) -> tuple[Rotation, ...]:
+def _rotations(drawing: Drawing) -> tuple[Rotation, ...]:
     found = []
-    for frame in world.frames.values():
+    for frame in drawing.frames.values():
         if frame.chart == "gibbs" or frame.chart == "euler":
             (phi, theta, psi), (a, b, c) = frame.angles, frame.initial
             found.append(Rotation(frame.name, (phi, theta, psi), frame.chart, (a, b, c)))

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple, Protocol
 
+from dofkit.base.errors import Fault
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import Names, spelled, valid_name
-from dofkit.expressions.tree import Expr, parameter
-from dofkit.scene.ledger import Ledger, Texts
+from dofkit.expressions.tree import Expr, num, parameter
+from dofkit.scene.ledger import Ledger, ParsedTexts, Texts
 from dofkit.scene.parts import Body, Particle
 from dofkit.system import BODY_ROLES, GROUND, PARTICLE_ROLES, Coordinate, Sign
 
@@ -70,37 +72,63 @@ def coordinate_table(scene: Declared) -> NameTable:
     return NameTable(tuple(coordinates), particles, bodies)
 
 
-def read_parameters(scene: Declared, texts: Texts) -> tuple[dict[str, Expr], dict[str, Sign]]:
-    """What every parameter stands for, and the signs of those that stay symbols.
+@dataclass(frozen=True)
+class Vocabulary:
+    """The names of a scene: who owns which coordinates, what parameters stand for, and how texts are read with them.
+
+    ``signs``: what is known of the parameters that stay symbols. ``faults``: those of the parameters' values.
+    """
+
+    table: NameTable
+    parameters: Mapping[str, Expr]
+    signs: Mapping[str, Sign]
+    texts: ParsedTexts
+    faults: tuple[Fault, ...]
+
+    @property
+    def names(self) -> Names:
+        """What texts may mention."""
+        return self.texts.names
+
+
+def vocabulary_of(scene: Declared) -> Vocabulary:
+    """The names of a scene, read from what it declares."""
+    table = coordinate_table(scene)
+    parameters, signs, faults = _parameters(scene)
+    return Vocabulary(table, parameters, signs, ParsedTexts(_declared_names(scene, table, parameters)), faults)
+
+
+def _parameters(scene: Declared) -> tuple[dict[str, Expr], dict[str, Sign], tuple[Fault, ...]]:
+    """What every parameter stands for, the signs of those that stay symbols, and the faults of their values.
 
     A value may mention the parameters declared before it.
     """
     stands: dict[str, Expr] = {}
     signs: dict[str, Sign] = {}
-    texts.here = ("parameters",)
+    faults: list[Fault] = []
     for name, value in scene.parameters.items():
         sign = next((sign for sign in SIGNS if sign == value), None)
-        if sign is None:
-            stands[name] = _parameter_value(texts, stands, name, value)
+        if isinstance(value, Fraction):
+            stands[name] = num(value)
+        elif sign is None:
+            texts = Texts(ParsedTexts(Names(parameters=dict(stands))), ("parameters",), len(faults))
+            stands[name] = _parameter_value(texts, name, value)
+            faults += texts.faults
         else:
             stands[name], signs[name] = parameter(name), sign
-    texts.here = ()
-    return stands, signs
+    return stands, signs, tuple(faults)
 
 
-def _parameter_value(texts: Texts, before: Mapping[str, Expr], name: str, value: Fraction | str) -> Expr:
-    if isinstance(value, str) and value.isalpha() and value not in before:
+def _parameter_value(texts: Texts, name: str, value: str) -> Expr:
+    if value.isalpha() and value not in texts.names.parameters:
         near = nearest(value, SIGNS)
         if near is not None:
             texts.fault(f"there is no kind of parameter '{value}'", name, hint=f"did you mean '{near}'?")
             return parameter(name)
-    texts.names = Names(parameters=dict(before))
-    texts.forget()
     return texts.fixed(value, name)
 
 
-def declared_names(scene: Declared, table: NameTable, parameters: Mapping[str, Expr]) -> Names:
-    """The names that texts may mention."""
+def _declared_names(scene: Declared, table: NameTable, parameters: Mapping[str, Expr]) -> Names:
     return Names(
         coordinates=frozenset(q.name for q in table.coordinates),
         parameters=dict(parameters),
@@ -125,9 +153,9 @@ def within_member(names: Names, letters: tuple[str, ...]) -> Names:
 Entry = tuple[str, str, tuple[str | int, ...]]
 
 
-def check_names(scene: Declared, table: NameTable, ledger: Ledger) -> None:
-    """Record names that are reserved, cannot be read in a text, are repeated or clash."""
-    ledger.here = ()
+def name_faults(scene: Declared, table: NameTable) -> tuple[Fault, ...]:
+    """A fault for every name that is reserved, cannot be read in a text, is repeated or clashes."""
+    ledger = Ledger()
     _check_owners(scene, ledger)
     entries = [*_owned(scene, table), *_further(scene)]
     seen: dict[str, str] = {}
@@ -151,6 +179,7 @@ def check_names(scene: Declared, table: NameTable, ledger: Ledger) -> None:
             why = None if argument == "t" else valid_name(argument)
             if why is not None:
                 ledger.fault(why, "functions", name, i, hint="the arguments are names, such as [s] or [x, t]")
+    return tuple(ledger.faults)
 
 
 def _check_owners(scene: Declared, ledger: Ledger) -> None:

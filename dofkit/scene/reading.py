@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,48 +10,75 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
+from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
 from dofkit.base.documents.document import MOST_BYTES
 from dofkit.base.documents.fast_flow import DEEPEST
-from dofkit.base.errors import Fault, SceneError
+from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.base.spelling import nearest_title
 from dofkit.scene.catalog import catalog_names, catalog_text, nearest_hint
 from dofkit.scene.constraints.equations import as_equation
+from dofkit.scene.hints import UNKNOWN_KEY, with_hint, without_echoes
 from dofkit.scene.scene import Scene, check, faults_of
+from dofkit.system import System
 
-__all__ = ["FoundFile", "SceneFile", "find", "load", "loads"]
+__all__ = ["FoundFile", "SceneFile", "SceneLike", "find", "load", "loads", "scene_or_system"]
 
 #: More faults than this are counted, not listed.
 MOST_FAULTS = 200
-_UNKNOWN_KEY = "unknown key"
 _UNKNOWN_TYPE = "there is no constraint type"
 #: Parts of a scene without which its other parts can still be checked.
 _DROPPED_WHOLE = frozenset({"name", "title", "source", "notes", "expect", "energies", "configuration"})
 _DROPPED_BY_ENTRY = ("constraints", "forces")
+_TAKEN = "a Scene, a path, a catalog name or a mapping"
 
 
-def load(source: str | os.PathLike[str] | Mapping[str, Any], *, name: str | None = None) -> Scene:
-    """The scene of a YAML or JSON file, of the catalog, or of a mapping.
+#: What stands for a scene wherever one is asked for: a path or a catalog name as text among them.
+SceneLike = Scene | str | os.PathLike[str] | Mapping[str, Any]
 
-    ``name`` stands where the scene itself gives none: by default the file's stem. Raises SceneError
-    with every fault at once.
 
-    >>> load({"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}).dimension
+def load(source: SceneLike, *, name: str | None = None) -> Scene:
+    """The scene of a YAML or JSON file, of the catalog, or of a mapping; a Scene is returned as it is.
+
+    ``source``: a path (a text or an ``os.PathLike``), a catalog name, or a mapping with a scene's keys. ``name``
+    stands where the scene itself gives none: by default the file's stem. Raises SceneError with every fault at once,
+    each with its line and column, and ArgumentError for a ``source`` of any other kind.
+
+    >>> import dofkit
+    >>> dofkit.load({"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}).dimension
     3
+    >>> dofkit.load("four-bar-linkage").constraints[0].kind()
+    'revolute'
     """
+    if isinstance(source, Scene):
+        return source
     if isinstance(source, Mapping):
         return _from_mapping(source, name)
+    if not isinstance(source, str | os.PathLike):
+        raise ArgumentError(f"a scene is given as {_TAKEN}, not {description_of(source)}")
     found = find(source)
     return SceneFile.read(found.data, name or found.name).scene()
 
 
 def loads(data: bytes | str, name: str = "scene") -> Scene:
-    """The scene of a YAML or JSON text, which is called ``name`` unless it says otherwise.
+    """The scene of a YAML or JSON text (or its bytes in UTF-8), which is called ``name`` unless it says otherwise.
 
-    >>> loads("coordinates: [x, y]", "plane").name
+    Raises SceneError with every fault at once, each with its line and column, and ArgumentError for what is no text.
+
+    >>> import dofkit
+    >>> dofkit.loads("coordinates: [x, y]", "plane").name
     'plane'
     """
+    if not isinstance(data, bytes | str):
+        raise ArgumentError(
+            f"the text of a scene is a str or bytes, not {description_of(data)}; dofkit.load takes the rest"
+        )
     return SceneFile.read(data, name).scene()
+
+
+def scene_or_system(given: SceneLike | System) -> Scene | System:
+    """What a door is given: a System as it is, and the Scene that anything else stands for. Raises as `load` does."""
+    return given if isinstance(given, System) else load(given)
 
 
 class FoundFile(NamedTuple):
@@ -84,12 +110,12 @@ class SceneFile:
             raise self._error(faults)
         if value.get("name") is None:
             value = {**value, "name": self.document.name}
-        scene, found = _validated(value, checked or bool(faults))
+        scene, found = _scene_and_faults(value, checked or bool(faults))
         if faults or found or scene is None:
             raise self._error([*faults, *found])
         return scene
 
-    def located(self, error: SceneError) -> SceneError:
+    def with_places(self, error: SceneError) -> SceneError:
         """The same faults with their lines and columns."""
         return self._error(error.faults)
 
@@ -97,16 +123,16 @@ class SceneFile:
         taken = {(fault.line, fault.column) for fault in self.document.faults}
         told = []
         for fault in without_echoes(faults):
-            found = self._located(fault)
+            found = self._with_place(fault)
             if fault.line is not None or (found.line, found.column) not in taken:
                 told.append(found)
         told.sort(key=lambda fault: (fault.line or 0, fault.column or 0))
-        return SceneError(_bounded(told), self.document.name)
+        return SceneError(_first_faults(told), self.document.name)
 
-    def _located(self, fault: Fault) -> Fault:
+    def _with_place(self, fault: Fault) -> Fault:
         if fault.line is not None:
             return fault
-        key = fault.message.startswith(_UNKNOWN_KEY)
+        key = fault.message.startswith(UNKNOWN_KEY)
         where = (*fault.where, "type") if fault.message.startswith(_UNKNOWN_TYPE) else fault.where
         line, column = self.document.place(where, key=key, column=fault.column)
         return replace(with_hint(fault), line=line, column=column)
@@ -114,7 +140,7 @@ class SceneFile:
 
 def find(source: str | os.PathLike[str]) -> FoundFile:
     """The bytes of the file at a path, or of the catalog scene of that name."""
-    shown = os.fspath(source)
+    shown = os.fsdecode(source)
     path = Path(shown)
     try:
         if path.exists() and not path.is_dir():
@@ -174,9 +200,9 @@ def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:
     value = dict(source)
     if name is not None and value.get("name") is None:
         value["name"] = name
-    scene, faults = _validated(value, True)
+    scene, faults = _scene_and_faults(value, True)
     if scene is None or faults:
-        raise SceneError(_bounded([with_hint(fault) for fault in without_echoes(faults)]), name)
+        raise SceneError(_first_faults([with_hint(fault) for fault in without_echoes(faults)]), name)
     return scene
 
 
@@ -200,7 +226,7 @@ def _holds(value: object) -> bool:
     return isinstance(value, (Mapping, list, tuple))
 
 
-def _validated(value: Mapping[str, Any], checked: bool) -> tuple[Scene | None, tuple[Fault, ...]]:
+def _scene_and_faults(value: Mapping[str, Any], checked: bool) -> tuple[Scene | None, tuple[Fault, ...]]:
     """The scene and its faults; where its structure is at fault, those of the rest of it as well."""
     try:
         scene = Scene.model_validate(value)
@@ -235,7 +261,7 @@ class SoundPart(NamedTuple):
                 dropped[str(first)].add(second)
             elif first in _DROPPED_WHOLE:
                 rest.pop(first, None)
-            elif fault.message.startswith(_UNKNOWN_KEY):
+            elif fault.message.startswith(UNKNOWN_KEY):
                 rest = _cut(rest, fault.where)
             else:
                 return None
@@ -272,55 +298,9 @@ def _cut(value: Any, path: tuple[str | int, ...]) -> Any:
     return value
 
 
-def _bounded(faults: list[Fault]) -> tuple[Fault, ...]:
+def _first_faults(faults: list[Fault]) -> tuple[Fault, ...]:
     if len(faults) <= MOST_FAULTS:
         return tuple(faults)
     more = len(faults) - MOST_FAULTS
     last = replace(faults[MOST_FAULTS], message=f"and {more} further faults from here on", hint="mend these first")
     return (*faults[:MOST_FAULTS], last)
-
-
-_HINTS = (
-    (r"needs '(\w+)'", "add '{0}: ...'"),
-    (r"^a list is needed", "write it in square brackets, [a, b]"),
-    (r"^a mapping is needed", "write it as 'key: value', or in braces"),
-    (r"^a text is needed", "put it in double quotes"),
-    (r"is 1, 2 or 3", "write 1, 2 or 3"),
-    (r"number", "write a number such as 2, 0.5 or 1e-3"),
-    (r"^at (?:least|most) \d+ entries", "add or take away entries"),
-)
-
-
-def without_echoes(faults: Iterable[Fault]) -> list[Fault]:
-    """The faults less those that a misspelt key explains: the key that it should have been is not missing."""
-    faults = list(faults)
-    meant = {
-        (fault.where[:-1], match[1])
-        for fault in faults
-        if fault.message.startswith(_UNKNOWN_KEY)
-        and (match := re.fullmatch(r"did you mean '(.*)'\?", fault.hint or ""))
-    }
-    return [
-        fault
-        for fault in faults
-        if not (fault.where and "needs" in fault.message and (fault.where[:-1], fault.where[-1]) in meant)
-    ]
-
-
-def with_hint(fault: Fault) -> Fault:
-    """A fault that says which field it is about, and what to do."""
-    message, keys = (
-        re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message),
-        [key for key in fault.where if isinstance(key, str)],
-    )
-    if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
-        message = f"`{keys[-1]}`: {message}"
-    return replace(fault, message=message, hint=fault.hint or _hint(fault.message))
-
-
-def _hint(message: str) -> str:
-    for pattern, hint in _HINTS:
-        match = re.search(pattern, message)
-        if match:
-            return hint.format(*match.groups())
-    return "'dofkit schema' lists what can stand here"

@@ -1,15 +1,15 @@
-"""The drawing of a scene: its size, its reference configuration, and the pose in which its joints close."""
+"""What a drawing fixes: its size, the reference configuration, and the pose in which its joints close."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from itertools import combinations, product
 from math import dist
 
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ZERO, Expr, coordinate
 from dofkit.expressions.vectors import Vec
-from dofkit.scene.world import World
+from dofkit.scene.drawing import Drawing
 from dofkit.system import GROUND
 
 #: Up to this many points every pair is measured.
@@ -49,11 +49,11 @@ def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
     return list({max(points, key=lambda point: sum(a * b for a, b in zip(way, point, strict=True))) for way in ways})
 
 
-def drawn_bodies(world: World) -> set[str]:
-    """The bodies that the drawing places: by their own geometry, or welded to the ground or to one that is."""
-    drawn = world.drawn - {GROUND}
+def drawn_bodies(placed: Iterable[str], welds: Iterable[tuple[str, str]]) -> frozenset[str]:
+    """The bodies that the drawing places: those ``placed``, and those welded to the ground or to one that is placed."""
+    drawn = set(placed) - {GROUND}
     welded: dict[str, list[str]] = {}
-    for first, second in world.welds:
+    for first, second in welds:
         if GROUND in (first, second):
             drawn |= {first, second} - {GROUND}
         else:
@@ -65,33 +65,29 @@ def drawn_bodies(world: World) -> set[str]:
             if other not in drawn:
                 drawn.add(other)
                 stack.append(other)
-    return drawn
+    return frozenset(drawn)
 
 
-def pose_of(world: World) -> dict[Expr, Expr]:
+def pose_of(drawing: Drawing) -> dict[Expr, Expr]:
     """Values at which the joints close: bodies at their reference, particles and coordinates where given."""
     found: dict[Expr, Expr] = {}
-    for name, names in world.table.particles.items():
-        stands = world.standing[name]
-        if stands is not None:
-            found.update(zip(map(coordinate, names), stands, strict=True))
-    for frame in world.frames.values():
+    for particle in drawing.particles.values():
+        if particle.reference is not None:
+            found.update(zip(particle.over, particle.reference, strict=True))
+    for frame in drawing.frames.values():
         found.update(zip(frame.position, frame.start, strict=True))
         turned = frame.initial if frame.chart != "gibbs" else (ZERO,) * len(frame.angles)
         found.update(zip(map(coordinate, frame.angles), turned, strict=True))
-    for name, value in world.configuration.items():
+    for name, value in drawing.configuration.items():
         found.setdefault(coordinate(name), value)
     return found
 
 
-def reference_of(world: World, pose: Mapping[Expr, Expr]) -> dict[Expr, Expr] | None:
-    """The pose, where it is a drawing of everything: nothing generic, nothing left to guess."""
-    if world.generic or world.special:
+def reference_of(drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr]) -> dict[Expr, Expr] | None:
+    """The pose, where it is one of everything: every body is ``drawn``, and nothing is left to guess."""
+    if any(name not in drawn for name in drawing.frames):
         return None
-    drawn = drawn_bodies(world)
-    if any(name not in drawn for name in world.frames):
-        return None
-    symbols = [coordinate(q.name) for q in world.table.coordinates]
+    symbols = [coordinate(q.name) for q in drawing.vocabulary.table.coordinates]
     if any(symbol not in pose for symbol in symbols):
         return None
     return {symbol: pose[symbol] for symbol in symbols}

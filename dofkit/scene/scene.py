@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, WrapValidator
+from pydantic import BeforeValidator, Field, PrivateAttr, WrapValidator
 
 from dofkit.base.errors import Fault
 from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
@@ -25,7 +25,7 @@ from dofkit.scene.fields import (
     faults_of,
 )
 from dofkit.scene.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, Force, Particle
-from dofkit.scene.survey import checked
+from dofkit.scene.survey import KeptSurvey, Survey
 from dofkit.scene.tagged_union import TaggedUnion
 
 __all__ = ["Body", "BodyPoint", "Energies", "Force", "Particle", "Scene", "check", "faults_of"]
@@ -100,7 +100,17 @@ _AnyConstraint = Annotated[
 
 
 class Scene(WrittenModel):
-    """A mechanical system: what it is made of and what holds it."""
+    """A mechanical system: what it is made of and what holds it.
+
+    Its fields are the keys of a scene's file, numbers exact and in the units of whoever wrote it. It is frozen;
+    ``model_copy(update=...)`` makes another. `dofkit.load` says what is wrong with a scene in better words than
+    ``Scene(...)``, which raises pydantic.ValidationError and looks at neither texts nor geometry.
+
+    >>> import dofkit
+    >>> scene = dofkit.load({"particles": ["A", "B"], "constraints": [{"type": "link", "between": ["A", "B"]}]})
+    >>> scene.dimension, [p.name for p in scene.particles], scene.constraints[0].in_words
+    (3, ['A', 'B'], 'link A-B')
+    """
 
     name: str = Field("scene", min_length=1, description="a short name, used in reports; by default the file's stem")
     title: str | None = Field(None, description="one line about it")
@@ -140,6 +150,8 @@ class Scene(WrittenModel):
         default_factory=dict, description="what the report must say, by report key"
     )
 
+    _kept: KeptSurvey = PrivateAttr(default_factory=KeptSurvey)
+
     @classmethod
     def called(cls) -> str:
         return "a scene"
@@ -147,4 +159,9 @@ class Scene(WrittenModel):
 
 def check(scene: Scene) -> tuple[Fault, ...]:
     """Every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
-    return checked(scene)
+    return survey_of(scene).faults
+
+
+def survey_of(scene: Scene) -> Survey:
+    """All that is known of a scene, found out when it is first asked for."""
+    return scene._kept.of(scene)

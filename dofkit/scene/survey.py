@@ -1,27 +1,33 @@
-"""One pass over a scene: every name, text and constraint read, every fault found on the way."""
+"""From what is written to what is known: names, then frames, then constraints, each step a value for the next.
+
+Faults are collected on the way, in the order of the scene's keys; those that need the size of the whole drawing last.
+"""
 
 from __future__ import annotations
 
 import gc
 import weakref
-from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any, NamedTuple, Protocol
+from dataclasses import dataclass
+from itertools import chain
+from typing import Any, Protocol
 
-from dofkit.base.deadline import check as out_of_time
 from dofkit.base.errors import Fault
+from dofkit.expressions.text import Names
 from dofkit.expressions.tree import Expr
 from dofkit.report import Report
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.constraints.equations import LETTERS
+from dofkit.scene.drawing import Drawing, drawing_of
+from dofkit.scene.elaboration import Elaboration, elaborations, repeat_faults
 from dofkit.scene.fields import suggestion
-from dofkit.scene.ledger import MOVING
-from dofkit.scene.names import Declared, Owners, check_names, within_member
+from dofkit.scene.ledger import MOVING, Texts, symbols_of
+from dofkit.scene.names import Declared, Owners, Vocabulary, name_faults, vocabulary_of, within_member
 from dofkit.scene.parts import Energies, Force, texts_of
-from dofkit.scene.reference import size_of
-from dofkit.scene.world import Joined, World
-from dofkit.system import GROUND, Connection, Constraint
+from dofkit.scene.reference import drawn_bodies, size_of
+from dofkit.scene.world import Before, Findings, World, within
+from dofkit.system import GROUND, Connection, Constraint, Distance
 
 
 class Surveyed(Declared, Protocol):
@@ -37,13 +43,30 @@ class Surveyed(Declared, Protocol):
     def expect(self) -> Mapping[str, Any]: ...
 
 
-class Survey(NamedTuple):
-    """The scene's world with its faults, its constraints lowered, what they connect, and the size of its drawing."""
+@dataclass(frozen=True)
+class Survey:
+    """All that is known of a scene: its drawing, its constraints lowered, what they connect, and its faults.
 
-    world: World
+    ``generic``, ``links``, ``distances`` (these two by constraint index), ``special`` and ``warnings`` are as in
+    `Findings`, of all entries; ``drawn``: the bodies that the drawing places; ``size``: that of the drawing.
+    """
+
+    drawing: Drawing
     constraints: tuple[Constraint, ...]
     connections: tuple[Connection, ...]
+    generic: tuple[str, ...]
+    drawn: frozenset[str]
+    links: tuple[tuple[int, str, str], ...]
+    distances: Mapping[int, tuple[Distance, ...]]
+    special: bool
     size: float
+    warnings: tuple[str, ...]
+    faults: tuple[Fault, ...]
+
+    @property
+    def names(self) -> Names:
+        """What texts may mention."""
+        return self.drawing.vocabulary.names
 
 
 @contextmanager
@@ -60,123 +83,97 @@ def _unhurried() -> Iterator[None]:
 
 @_unhurried()
 def survey(scene: Surveyed, euler: bool = False) -> Survey:
-    """Read everything; the faults are in ``world.faults``, in the order of the scene's keys.
+    """Read everything; nothing is raised for what is at fault.
 
     ``euler``: every spatial body is turned by its Euler angles, also where no text mentions them.
     """
-    world = World(scene)
-    check_names(scene, world.table, world)
-    every = frozenset(q.name for q in world.table.coordinates)
-    world.make_frames(every if euler else _mentioned(scene, world))
-    names = names_by_position("c", [c.name for c in scene.constraints])
-    _check_repeats(world, "constraints", [c.name for c in scene.constraints], names)
-    constraints, connections = [], []
-    for i, c in enumerate(scene.constraints):
-        world.asked = Joined()
-        constraints.append(_lowered(world, i, c, names[i]))
-        connections.append(_connection(world.asked, i, constraints[-1]))
-    _check_forces(scene, world)
-    _check_energies(scene, world)
-    world.here = ("expect",)
-    known = list(Report.model_fields)
-    for key in scene.expect:
-        if key not in Report.model_fields:
-            world.fault(f"'{key}' is no part of a report", key, hint=suggestion(key, known, "keys"))
-    size = size_of(world.points)
-    for place, look in world.later:
-        world.here = place
-        look(size)
-    world.here = ()
-    return Survey(world, tuple(constraints), tuple(connections), size)
+    vocabulary = vocabulary_of(scene)
+    every = frozenset(q.name for q in vocabulary.table.coordinates)
+    drawing = drawing_of(scene, vocabulary, every if euler else _mentioned_names(scene, vocabulary))
+    faults = [*vocabulary.faults, *drawing.faults, *name_faults(scene, vocabulary.table)]
+    faults += repeat_faults("constraints", "c", [c.name for c in scene.constraints])
+    read = tuple(elaborations(scene.constraints, drawing, len(faults)))
+    faults += chain.from_iterable(e.findings.faults for e in read)
+    faults += repeat_faults("forces", "f", [f.name for f in scene.forces])
+    forces = []
+    for index, force in enumerate(scene.forces):
+        forces.append(_force_findings(force, World(drawing, ("forces", index), Before(len(faults)))))
+        faults += forces[-1].faults
+    faults += _mass_faults(scene, vocabulary)
+    faults += _energy_faults(scene, vocabulary, len(faults))
+    faults += _expect_faults(scene)
+    return _whole(drawing, read, forces, faults)
 
 
-#: Sound surveys made by `checked`, each until `taken` or until its scene is gone.
-_KEPT: dict[int, tuple[weakref.ref[Any], Survey]] = {}
-
-
-def checked(scene: Surveyed) -> tuple[Fault, ...]:
-    """The faults of a scene; where there are none the survey is kept for the lowering that follows."""
-    found = survey(scene)
-    if not found.world.faults:
-        key = id(scene)
-        _KEPT[key] = weakref.ref(scene, lambda _: _KEPT.pop(key, None)), found
-    return tuple(found.world.faults)
-
-
-def taken(scene: Surveyed) -> Survey:
-    """The survey that `checked` kept for this very scene, or a new one."""
-    reference, found = _KEPT.pop(id(scene), (None, None))
-    return found if reference is not None and found is not None and reference() is scene else survey(scene)
-
-
-def names_by_position(letter: str, given: Sequence[str | None]) -> tuple[str, ...]:
-    """``c1``, ``c2``, ... by position for those without a name."""
-    return tuple(f"{letter}{i + 1}" if name is None else name for i, name in enumerate(given))
-
-
-def _check_repeats(world: World, key: str, given: Sequence[str | None], names: Sequence[str]) -> None:
-    repeated = {name for name, times in Counter(names).items() if times > 1}
-    first: dict[str, int] = {}
-    for i, name in enumerate(names):
-        if name in repeated and first.setdefault(name, i) != i:
-            world.here = (key, i)
-            other = first[name]
-            if given[i] is None or given[other] is None:
-                default = i if given[i] is None else other
-                message = f"the name '{name}' is given twice: it is the default name of entry {default + 1}"
-            else:
-                message = f"the name '{name}' is given twice"
-            world.fault(message, *(() if given[i] is None else ("name",)), hint="rename one of them")
-
-
-def _lowered(world: World, index: int, constraint: ConstraintBase, name: str) -> Constraint:
-    out_of_time()
-    world.here = ("constraints", index)
-    kind = constraint.kind()
-    if world.dimension not in constraint.dimensions:
-        allowed = " or ".join(str(d) for d in constraint.dimensions)
-        message = f"'{kind}' is for dimension {allowed}; this scene has dimension {world.dimension}"
-        world.fault(message, "type", hint=_INSTEAD[world.dimension])
-        return Constraint(name, kind, constraint.facts, constraint.shown, ())
-    relations = tuple(constraint.relations(world))
-    return Constraint(name, kind, constraint.facts, constraint.shown, relations, tuple(constraint.notes(world)))
-
-
-def _connection(asked: Joined, index: int, constraint: Constraint) -> Connection:
-    """What a constraint that has been lowered connects."""
-    return Connection(
-        index,
-        constraint.facts,
-        tuple(dict.fromkeys(asked.members)),
-        tuple(asked.points),
-        tuple(asked.places),
-        tuple(asked.directions),
-        asked.number,
-        any(relation.part == "drive" for relation in constraint.relations),
+def _whole(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Findings], faults: list[Fault]) -> Survey:
+    """What was read of all entries, put together."""
+    findings = [*(e.findings for e in read), *forces]
+    size = size_of([*drawing.points, *(p for f in findings for p in f.points)])
+    placed = drawing.drawn.union(*(f.drawn for f in findings if f.drawn))
+    drawn = drawn_bodies(placed, (ends for f in findings for ends in f.welds))
+    misfits = (m for f in findings for m in f.misfits if m.body is None or m.body in drawn)
+    return Survey(
+        drawing=drawing,
+        constraints=tuple(e.constraint for e in read),
+        connections=tuple(e.connection for e in read),
+        generic=tuple(name for f in findings for name in f.generic),
+        drawn=drawn,
+        links=tuple((i, first, second) for i, e in enumerate(read) for first, second in e.findings.links),
+        distances={i: e.findings.distances for i, e in enumerate(read) if e.findings.distances},
+        special=any(f.special or not drawn.isdisjoint(f.special_of) for f in findings),
+        size=size,
+        warnings=tuple(warning for f in findings for warning in f.warnings),
+        faults=(*faults, *(m.fault for m in misfits if not within(m.distance, drawing.tolerance, size))),
     )
 
 
-_INSTEAD = {
-    1: "on a line use coincident, fixed, link or an equation",
-    2: "in the plane use revolute, prismatic, weld or slot",
-    3: "in space use cylindrical, screw or an equation",
-}
+class KeptSurvey:
+    """The survey of one very scene, made when it is first asked for.
+
+    It is no part of what is written: equal to every other, and empty in a copy and in another process. A copy of a
+    model shares it with the original, for whom alone it is kept, and only while its mappings hold what they held.
+    """
+
+    def __init__(self) -> None:
+        self._known: tuple[weakref.ref[Any], tuple[dict[str, Any], ...], Survey] | None = None
+
+    def of(self, scene: Surveyed) -> Survey:
+        """The survey of a scene."""
+        mappings = (dict(scene.parameters), dict(scene.functions), dict(scene.configuration), dict(scene.expect))
+        if self._known is not None:
+            owner, written, known = self._known
+            if owner() is not scene and owner() is not None:
+                return survey(scene)
+            if owner() is scene and written == mappings:
+                return known
+        found = survey(scene)
+        self._known = weakref.ref(scene), mappings, found
+        return found
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, KeptSurvey)
+
+    def __hash__(self) -> int:
+        return hash(KeptSurvey)
+
+    def __reduce__(self) -> tuple[type[KeptSurvey], tuple[()]]:
+        return KeptSurvey, ()
 
 
-def _mentioned(scene: Surveyed, world: World) -> frozenset[str]:
+def _mentioned_names(scene: Surveyed, vocabulary: Vocabulary) -> frozenset[str]:
     """The coordinates that some text names, where a spatial body's chart depends on it."""
-    if world.dimension != 3 or not scene.bodies:
+    if scene.dimension != 3 or not scene.bodies:
         return frozenset()
     found: set[str] = set()
-    member = within_member(world.names, LETTERS)
+    member = within_member(vocabulary.names, LETTERS)
     for constraint in scene.constraints:
-        names = member if constraint.facts.lettered else None
+        names = member if constraint.facts.lettered else vocabulary.names
         for text in constraint.texts():
-            found.update(_moving_names(world.symbols_of(text, names)))
+            found.update(_moving_names(symbols_of(text, names)))
     given: list[Any] = [*scene.forces, *([scene.energies] if scene.energies else [])]
     for part in given:
         for text in texts_of(part.model_dump(exclude={"name", "type", "between", "point", "body"})):
-            found.update(_moving_names(world.symbols_of(text, None)))
+            found.update(_moving_names(symbols_of(text, vocabulary.names)))
     if scene.energies:
         found.update(scene.energies.forces)
     return frozenset(found)
@@ -188,44 +185,54 @@ def _moving_names(symbols: frozenset[Expr]) -> Iterator[str]:
             yield symbol.args[1]
 
 
-def _check_forces(scene: Surveyed, world: World) -> None:
-    given = [force.name for force in scene.forces]
-    _check_repeats(world, "forces", given, names_by_position("f", given))
-    for i, force in enumerate(scene.forces):
-        world.here = ("forces", i)
-        for j, end in enumerate(force.between or ()):
-            if not (isinstance(end, str) and (end in world.frames or end == GROUND)):
-                world.point(end, "between", j)
-        if force.point is not None:
-            world.point(force.point, "point")
-        if force.body is not None:
-            world.frame(force.body, "body")
-        for key in ("stiffness", "rest_length", "damping", "value", "direction", "acceleration"):
-            _check_value(world, getattr(force, key), key)
+def _force_findings(force: Force, world: World) -> Findings:
+    for j, end in enumerate(force.between or ()):
+        if not (isinstance(end, str) and (end in world.frames or end == GROUND)):
+            world.point(end, "between", j)
+    if force.point is not None:
+        world.point(force.point, "point")
+    if force.body is not None:
+        world.frame(force.body, "body")
+    for key in ("stiffness", "rest_length", "damping", "value", "direction", "acceleration"):
+        _check_value(world, getattr(force, key), key)
+    return world.findings()
 
 
-def _check_value(world: World, value: Any, *where: str | int) -> None:
+def _check_value(texts: Texts, value: Any, *where: str | int) -> None:
     if isinstance(value, str):
-        world.expression(value, *where, allow=MOVING)
+        texts.expression(value, *where, allow=MOVING)
     elif isinstance(value, tuple):
         for i, part in enumerate(value):
-            _check_value(world, part, *where, i)
+            _check_value(texts, part, *where, i)
 
 
-def _check_energies(scene: Surveyed, world: World) -> None:
+def _mass_faults(scene: Surveyed, vocabulary: Vocabulary) -> Iterator[Fault]:
     both: tuple[tuple[str, Owners], ...] = (("particles", scene.particles), ("bodies", scene.bodies))
     for key, owners in both:
         for i, owner in enumerate(owners):
-            world.here = (key, i)
-            _check_value(world, owner.mass, "mass")
-            _check_value(world, getattr(owner, "inertia", None), "inertia")
+            texts = Texts(vocabulary.texts, (key, i))
+            _check_value(texts, owner.mass, "mass")
+            _check_value(texts, getattr(owner, "inertia", None), "inertia")
+            yield from texts.faults
+
+
+def _energy_faults(scene: Surveyed, vocabulary: Vocabulary, before: int) -> list[Fault]:
     if scene.energies is None:
-        return
-    world.here = ("energies",)
+        return []
+    texts = Texts(vocabulary.texts, ("energies",), before)
     for key in ("kinetic", "potential", "dissipation"):
-        _check_value(world, getattr(scene.energies, key), key)
-    known = [q.name for q in world.table.coordinates]
+        _check_value(texts, getattr(scene.energies, key), key)
+    known = [q.name for q in vocabulary.table.coordinates]
     for name, text in scene.energies.forces.items():
         if name not in known:
-            world.unknown("coordinate", name, known, "forces", name)
-        world.expression(text, "forces", name, allow=MOVING)
+            texts.unknown("coordinate", name, known, "forces", name)
+        texts.expression(text, "forces", name, allow=MOVING)
+    return texts.faults
+
+
+def _expect_faults(scene: Surveyed) -> Iterator[Fault]:
+    known = list(Report.model_fields)
+    for key in scene.expect:
+        if key not in Report.model_fields:
+            hint = suggestion(key, known, "keys")
+            yield Fault(f"'{key}' is no part of a report", ("expect", key), hint=hint)

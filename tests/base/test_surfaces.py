@@ -5,10 +5,11 @@ from __future__ import annotations
 import subprocess
 import sys
 from importlib import import_module
+from typing import Literal, get_origin
 
 import pytest
 
-ROOMS = ("expressions", "exact", "relations")
+ROOMS = ("base", "expressions", "exact", "scene", "relations", "interface")
 
 
 @pytest.mark.parametrize("room", ROOMS)
@@ -16,7 +17,8 @@ def test_every_name_of_a_surface_is_there(room: str) -> None:
     package = import_module(f"dofkit.{room}")
     assert dir(package) == sorted(package.__all__)
     for name in package.__all__:
-        assert getattr(package, name).__doc__
+        found = getattr(package, name)
+        assert found.__doc__ or get_origin(found) is Literal
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         vars(package)["__getattr__"]("nothing")
 

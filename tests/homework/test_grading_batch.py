@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 from shared.grading_jobs import orders
 from shared.homework_cases import FILES, document
+from shared.late import LONG
 
 import dofkit
 from dofkit.homework.answers.sources import Handed, hand_ins
@@ -395,6 +396,7 @@ def write(journal, one, lines):
         signal.pause()
     real(journal, one, lines)
 Journal.write = write
+signal.signal(signal.SIGINT, signal.default_int_handler)
 cli.main()
 """
 
@@ -421,14 +423,14 @@ def test_a_run_interrupted_twice_ends_as_one_that_was_not(assignment: str, tmp_p
             assert process.stdout is not None
             assert process.stdout.readline() == b"here\n"
             process.send_signal(number)
-            said = process.communicate()[1]
+            said = process.communicate(timeout=LONG)[1]
         assert (said, process.returncode, length(out)) == (b"", status, reached)
     with out.open("ab") as file:
         file.write(b'{"student": "torn')
     before = out.read_bytes()[:100_000]
     for path in (out, whole):
         with started(assignment, table, path) as process:
-            assert (process.communicate(), process.returncode) == ((b"", b""), 0)
+            assert (process.communicate(timeout=LONG), process.returncode) == ((b"", b""), 0)
     assert out.read_bytes() == whole.read_bytes()
     assert out.read_bytes()[:100_000] == before
     assert length(out) == 1000

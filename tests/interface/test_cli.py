@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.late import LONG
 
 import dofkit
 from dofkit.interface import cli
@@ -109,7 +110,7 @@ def test_standard_input_is_a_file() -> None:
 
 
 FAILING = """
-import sys, dofkit.interface.classify_file as telling, dofkit.interface.cli
+import sys, dofkit.interface.one_file as telling, dofkit.interface.cli
 real = telling.stages
 def failing(scene, *others):
     if scene.name == "good":
@@ -210,13 +211,14 @@ def test_a_closed_pipe_is_no_failure(files: Path) -> None:
 @pytest.mark.skipif(os.name == "nt", reason="signals")
 def test_an_interrupt_is_no_traceback() -> None:
     """It comes while the standard input is read: more is written than a pipe holds, and still more is waited for."""
+    code = "import signal\nfrom dofkit.interface import cli\nsignal.signal(2, signal.default_int_handler)\ncli.main()"
     with subprocess.Popen(
-        [sys.executable, "-m", "dofkit", "classify", "-"], stdin=subprocess.PIPE, stdout=-1, stderr=-1
+        [sys.executable, "-c", code, "classify", "-"], stdin=subprocess.PIPE, stdout=-1, stderr=-1
     ) as process:
         assert process.stdin is not None
         process.stdin.write(b"#" * (1 << 20))
         process.stdin.flush()
         process.send_signal(signal.SIGINT)
-        _, err = process.communicate()
+        _, err = process.communicate(timeout=LONG)
     assert process.returncode != 0
     assert b"Traceback" not in err

@@ -13,7 +13,7 @@ from dofkit.base.errors import SceneError
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import ZERO, Expr, parameter, velocity
-from dofkit.motion.lagrangian.model import NoEquationsError
+from dofkit.motion.lagrange.model import NoEquationsError
 
 # The lectures' systems: accelerations by Newton's law, or known solutions.
 

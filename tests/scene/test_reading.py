@@ -239,7 +239,7 @@ def test_faults_without_end_are_counted() -> None:
 
 def test_a_fault_found_later_gets_its_place_too() -> None:
     file = SceneFile.read('coordinates: [x]\nconstraints:\n- "x = 1"\n- "x = 2"\n', "x")
-    located = file.located(SceneError((Fault("no", ("constraints", 1)),)))
+    located = file.with_places(SceneError((Fault("no", ("constraints", 1)),)))
     assert (located.faults[0].line, located.faults[0].column) == (4, 3)
 
 
@@ -247,7 +247,7 @@ def test_anchors_and_merges_are_read() -> None:
     scene = loads(
         "particles: [A, B, C]\nconstraints:\n- &l {type: link, between: [A, B]}\n- {<<: *l, between: [B, C]}\n- *l\n"
     )
-    assert [constraint.shown for constraint in scene.constraints] == ["link A-B", "link B-C", "link A-B"]
+    assert [constraint.in_words for constraint in scene.constraints] == ["link A-B", "link B-C", "link A-B"]
 
 
 def test_a_long_list_loads_in_bounded_time() -> None:

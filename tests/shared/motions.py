@@ -15,9 +15,9 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import ZERO, Expr, coordinate, parameter, sym, velocity
-from dofkit.motion.lagrangian.equations import MotionReport
+from dofkit.motion.lagrange.equations import MotionReport
+from dofkit.scene.names import vocabulary_of
 from dofkit.scene.scene import Scene
-from dofkit.scene.survey import survey
 
 POINTS = 3
 POSITIVE = ("m", "M", "m1", "m2", "l", "l1", "l2", "g", "k", "R", "J", "I1", "I3", "a", "b", "c", "w", "h")
@@ -26,7 +26,7 @@ PARAMETERS = dict.fromkeys(POSITIVE, "positive")
 
 def names_of(scene: Scene, report: MotionReport) -> Names:
     """What the report's texts may mention."""
-    known = survey(scene).world.names
+    known = vocabulary_of(scene).names
     own = {name: parameter(name) for name in report.multipliers}
     return Names(known.coordinates, {**known.parameters, **own}, known.functions, known.arguments, True, True, True)
 

@@ -59,7 +59,7 @@ def _answer(message: bytes, up: int, memory: int) -> None:
     try:
         name, payload, (first, seconds) = pickle.loads(message)
         allow(first)
-        said = named(name)(payload)
+        said = function_named(name)(payload)
         for value in said if isinstance(said, Iterator) else (said,):
             _say(up, "told", value)
             allow(seconds)
@@ -73,7 +73,7 @@ def _answer(message: bytes, up: int, memory: int) -> None:
     _say(up, *ended)
 
 
-def named(name: str) -> Any:
+def function_named(name: str) -> Any:
     """The function that is called ``module:function``."""
     module, _, path = name.partition(":")
     found: Any = import_module(module)

@@ -51,7 +51,7 @@ class Worker:
             self._forget()
         with self._lock:
             message = pickle.dumps((job.name, job.payload, job.limits))
-            link = self._started()
+            link = self._open_link()
             if isinstance(link, JobOutcome):
                 return link
             keep = False
@@ -76,7 +76,7 @@ class Worker:
         """In a fork of the process that started it: that one's worker is left to it."""
         self._owner, self._lock, self._link, self._begun = os.getpid(), threading.Lock(), None, None
 
-    def _started(self) -> _Link | JobOutcome:
+    def _open_link(self) -> _Link | JobOutcome:
         if self._link is not None and self._link.process.poll() is not None:
             self.kill()
         if self._link is None:
@@ -86,7 +86,7 @@ class Worker:
             except OSError as error:
                 return JobOutcome(None, "absent", f"no worker process could be started ({error})")
             self._link, link.finalizer = link, weakref.finalize(self, link.end)
-            why = link.awaited()
+            why = link.failure_to_start()
             if why:
                 self.kill()
                 return JobOutcome(None, "absent", f"the worker process {why} while it started")
@@ -105,14 +105,14 @@ class Worker:
                     return link.outcome(value), False
                 kind, said = heard
                 if kind != "told":
-                    return self._ended(value, kind, said)
+                    return self._final_outcome(value, kind, said)
                 value, limit = said, following
         except Empty:
             return JobOutcome(value, "overrun", f"the worker process was killed after {limit:.3g} s"), False
         except OSError:
             return link.outcome(value), False
 
-    def _ended(self, value: Json, kind: str, said: Json) -> tuple[JobOutcome, bool]:
+    def _final_outcome(self, value: Json, kind: str, said: Json) -> tuple[JobOutcome, bool]:
         if kind == "done":
             return JobOutcome(value, "done"), not said
         if kind == "memory":
@@ -142,7 +142,7 @@ class _Link:
         kind, said = json.loads(message)
         return str(kind), said
 
-    def awaited(self) -> str | None:
+    def failure_to_start(self) -> str | None:
         """Wait until it is ready; why it is not."""
         try:
             return None if self.heard(STARTING) else self.how()

@@ -12,8 +12,8 @@ from dofkit.expressions.text import Names
 from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
 from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
+from dofkit.scene.names import coordinate_table, vocabulary_of
 from dofkit.scene.scene import Scene
-from dofkit.scene.survey import survey
 
 #: A question about a set of names of a scene, whose report is known.
 Chosen = Callable[[Scene, Sequence[str], Report], bool | None]
@@ -54,12 +54,12 @@ class Key:
     @cached_property
     def names(self) -> Names:
         """What an answer's texts may mention."""
-        return survey(self.scene).world.names
+        return vocabulary_of(self.scene).names
 
     @cached_property
     def coordinates(self) -> list[str]:
         """The scene's configuration coordinates, in order."""
-        return [c.name for c in survey(self.scene).world.table.coordinates]
+        return [c.name for c in coordinate_table(self.scene).coordinates]
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:

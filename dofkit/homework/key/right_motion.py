@@ -17,11 +17,11 @@ from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.motion.lagrangian.derivation import derive
-from dofkit.motion.lagrangian.elimination import ELIMINATIONS
-from dofkit.motion.lagrangian.equations import derived_of, read
-from dofkit.motion.lagrangian.model import in_velocities
-from dofkit.motion.lagrangian.rates import by_time
+from dofkit.motion.lagrange.derivation import derive
+from dofkit.motion.lagrange.elimination import ELIMINATIONS
+from dofkit.motion.lagrange.equations import derived_of, read
+from dofkit.motion.lagrange.model import in_velocities
+from dofkit.motion.lagrange.rates import by_time
 from dofkit.relations.normal.normal_form import Finite, Pfaffian
 from dofkit.scene.scene import Scene
 

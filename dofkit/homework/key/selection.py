@@ -15,8 +15,8 @@ from dofkit.report import Report
 from dofkit.scene.added_equations import read_equations, with_equations
 from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.lowering import lower
+from dofkit.scene.names import vocabulary_of
 from dofkit.scene.scene import Scene
-from dofkit.scene.survey import survey
 
 
 def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
@@ -31,7 +31,7 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
     named = [c.model_copy(update={"name": e.name}) for c, e in zip(scene.constraints, report.constraints, strict=True)]
     whole = _with(scene, [*named, *held])
     if basis:
-        whole = with_equations(whole, read_equations(basis, survey(scene).world.names, constants=True), "integral")
+        whole = with_equations(whole, read_equations(basis, vocabulary_of(scene).names, constants=True), "integral")
     system = lower(whole)
     reduced, setting = prepared(system)
     own = {e.name for e in report.constraints}

@@ -27,13 +27,13 @@ def _block(file: str, fault: Fault, document: Document | None) -> str:
     place = safe(file) + (f":{fault.line}:{fault.column}" if fault.line is not None else "")
     lines = [f"{place}: error: {safe(fault.message)}"]
     if document is not None and fault.line is not None:
-        lines += _shown_line(document.line(fault.line), fault.line, fault.column or 1)
+        lines += _marked_line(document.line(fault.line), fault.line, fault.column or 1)
     if fault.hint:
         lines.append(f"    hint: {safe(fault.hint)}")
     return "\n".join(lines)
 
 
-def _shown_line(text: str, number: int, column: int) -> list[str]:
+def _marked_line(text: str, number: int, column: int) -> list[str]:
     start = max(0, column - 1 - _BEFORE) if len(text) > _WIDEST else 0
     piece = safe(text[start : start + _WIDEST])
     margin = f"{number:>5} | "

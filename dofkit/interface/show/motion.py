@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dofkit.interface.show.faults import safe
-from dofkit.motion.lagrangian.report import Linearized, MotionReport
+from dofkit.motion.lagrange.report import Linearized, MotionReport
 
 
 def as_lines(report: MotionReport, title: str | None = None) -> str:
@@ -30,7 +30,7 @@ def _lines(report: MotionReport, title: str | None) -> Iterator[str]:
     yield from _section("Cyclic coordinates", report.cyclic)
     yield from _section("Conserved", [f"{c.name} = {c.quantity}: {c.reason}" for c in report.conserved])
     if report.linearized is not None:
-        yield from _linearized(report.linearized)
+        yield from _small_motion_lines(report.linearized)
     yield from _section("Notes", [*report.notes, f"q*p is an {report.action}."])
 
 
@@ -40,7 +40,7 @@ def _section(title: str, lines: list[str]) -> Iterator[str]:
         yield from (f"  {line}" for line in lines)
 
 
-def _linearized(found: Linearized) -> Iterator[str]:
+def _small_motion_lines(found: Linearized) -> Iterator[str]:
     place = ", ".join(f"{n} = {v}" for n, v in found.equilibrium.items())
     yield f"Linearized at {place}: M qddot + C qdot + K q = 0, q = ({', '.join(found.coordinates)})"
     for name, matrix in (("M", found.mass), ("C", found.damping), ("K", found.stiffness)):

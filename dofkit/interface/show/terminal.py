@@ -73,7 +73,7 @@ def _consistency(report: Report) -> Iterator[Text]:
 
 
 def _rows(report: Report) -> Iterator[tuple[str, Text]]:
-    yield "the count", _counted(report)
+    yield "the count", _count_text(report)
     if report.count.errs:
         yield "where it errs", Text(safe(report.count.errs), "yellow")
     for label, number, means in _numbers(report):
@@ -103,7 +103,7 @@ def _beside(report: Report) -> Iterator[tuple[str, Text]]:
         yield "generic", Text.assemble((_number(generic.dof), "bold"), means)
 
 
-def _counted(report: Report) -> Text:
+def _count_text(report: Report) -> Text:
     count = report.count
     given = [(count.particles, "particle"), (count.bodies, "body"), (count.coordinates, "coordinate")]
     said = [_many(number, what) for number, what in given if number]

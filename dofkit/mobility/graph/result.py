@@ -33,7 +33,13 @@ class Hinge(NamedTuple):
 class Linkage:
     """How joints in general position can move that keep the distances of ``links``.
 
-    What takes time is found when it is asked for: circuits, groups, clusters and hinges.
+    What takes time is found when it is asked for: circuits, groups, clusters and hinges. Numbers count independent
+    velocities; links and joints are those that were given, in their order. Made by `dofkit.linkage`.
+
+    >>> import dofkit
+    >>> square = dofkit.linkage([("A", "B"), ("B", "C"), ("C", "D"), ("D", "A")], dimension=2)
+    >>> square.rank, square.freedom, square.redundant
+    (4, 4, [])
     """
 
     dimension: int

@@ -10,6 +10,7 @@ from flint import ctx
 
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.base.errors import DofkitError
+from dofkit.base.spelling import guess, no_such
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.points.balls import PRECISION
@@ -23,7 +24,7 @@ from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.scene.lowering import lower
-from dofkit.scene.scene import Scene
+from dofkit.scene.reading import SceneLike, scene_or_system
 from dofkit.system import Coordinate, System
 
 #: Random configurations from which one is looked for where there is no reference.
@@ -36,7 +37,7 @@ class NoMotionError(DofkitError):
 
 
 def configurations(
-    scene: Scene | System,
+    scene: SceneLike | System,
     steps: int = 100,
     step: float = 0.05,
     *,
@@ -45,6 +46,9 @@ def configurations(
     both: bool = True,
 ) -> list[dict[str, float]]:
     """Configurations along a finite motion of ``scene``, in order: every coordinate's value, and that of ``t``.
+
+    ``scene``: a Scene, a path, a catalog name, a mapping or a System. Returns at most ``2 steps + 1`` mappings from
+    names to numbers, lengths in the scene's units and angles in radians.
 
     They begin at the reference configuration, or at a generic one where there is none, and go ``steps`` steps forward
     and (``both``) as many backward; fewer where the motion ends. A step is the length of the way, sqrt(sum dq^2) with
@@ -59,17 +63,18 @@ def configurations(
     gradient times the size; a one-form holds on every chord at its midpoint, so along the motion to the third order of
     a step's sixteenth. A way ends before an inequality
     is broken that held at the beginning. Raises `NoMotionError` where nothing moves, the scene is
-    inconsistent, or its motions are undecided.
+    inconsistent, or its motions are undecided, and `SceneError` and `ArgumentError` as `load` does.
 
     >>> import dofkit
     >>> circle = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 25"], "configuration": {"x": 3, "y": -4}}
-    >>> found = dofkit.configurations(dofkit.load(circle), steps=2, step=0.5)
+    >>> found = dofkit.configurations(circle, steps=2, step=0.5)
     >>> [round(c["x"] ** 2 + c["y"] ** 2, 9) for c in found]
     [25.0, 25.0, 25.0, 25.0, 25.0]
     """
     if steps < 0 or not step > 0:
         raise NoMotionError("steps is at least 0, and the length of a step is more than 0")
-    system = scene if isinstance(scene, System) else lower(scene)
+    given = scene_or_system(scene)
+    system = given if isinstance(given, System) else lower(given)
     try:
         with limited(DEFAULT_SECONDS), ctx.workprec(PRECISION):
             return _Sampled(system, dict(values or {}), along).configurations(steps, step, both)
@@ -87,7 +92,7 @@ class _Sampled:
         touched = [*(n for b in outcome.blocks for n in b.coordinates), *outcome.untouched]
         coordinates = [*system.coordinates, *(Coordinate(n) for n in dict.fromkeys(touched) if n not in names)]
         if along is not None and along not in names:
-            raise NoMotionError(f"'{along}' is no coordinate of the scene")
+            raise NoMotionError(no_such(along, names, "coordinate"))
         self.system, self.setting, self.along, self.names = system, setting, along, list(names)
         self.given = _known_symbols(system, given)
         self.relations = _relations(system, outcome, setting, coordinates, _limits(reduced, outcome))
@@ -179,7 +184,8 @@ def _known_symbols(system: System, given: Mapping[str, float]) -> dict[Expr, flo
     known = places | set(system.parameters)
     wrong = sorted(set(given) - known)
     if wrong:
-        raise NoMotionError(f"'{wrong[0]}' is neither a coordinate nor a parameter without a value")
+        message = f"'{wrong[0]}' is neither a coordinate nor a parameter without a value"
+        raise NoMotionError(message + guess(wrong[0], known))
     return {(ex.coordinate if n in places else ex.parameter)(n): float(v) for n, v in given.items()}
 
 

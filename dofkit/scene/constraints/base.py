@@ -50,7 +50,7 @@ class ConstraintBase(WrittenModel):
         yield from ()
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         """One line for a person to read."""
         return self.kind()
 
@@ -60,7 +60,7 @@ def _kind(cls: type[ConstraintBase]) -> str:
     return str(get_args(cls.model_fields["type"].annotation)[0])
 
 
-def labelled(vector: Vec, label: str = "{}", about: Vec = ()) -> Iterator[Relation]:
+def component_relations(vector: Vec, label: str = "{}", about: Vec = ()) -> Iterator[Relation]:
     """One relation a component, named ``x``, ``y``, ``z`` within ``label``."""
     for letter, part in zip("xyz", vector, strict=False):
         yield Relation(part, part=label.format(letter), vector=about)
@@ -74,13 +74,9 @@ def meet(world: World, first: Placed, second: Placed, *where: str | int) -> None
     if not world.any_differs(gap):
         return
     told = f"{figures(first.reference)} and {figures(second.reference)}"
-
-    def look(size: float) -> None:
-        if not world.within(root(square(gap)), size):
-            message = f"the drawing puts {first.label} and {second.label} apart, at {told}"
-            world.fault(message, *where, hint="give them the same place, or set `tolerance` if it is measured")
-
-    world.check_later(look)
+    message = f"the drawing puts {first.label} and {second.label} apart, at {told}"
+    hint = "give them the same place, or set `tolerance` if it is measured"
+    world.misfit(root(square(gap)), message, *where, hint=hint)
 
 
 def figures(position: Vec | None) -> str:

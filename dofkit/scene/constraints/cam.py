@@ -17,10 +17,9 @@ from dofkit.scene.constraints.base import ConstraintBase, figures, root
 from dofkit.scene.constraints.places import across_a_line
 from dofkit.scene.fields import Text
 from dofkit.scene.frames import Frame, Placed
-from dofkit.scene.ledger import FINITE
+from dofkit.scene.ledger import FINITE, symbols_of
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point
-from dofkit.scene.reference import drawn_bodies
 from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
@@ -57,16 +56,16 @@ class Cam(ConstraintBase):
         if profile is None:
             return
         drawn = None if point.reference is None else _drawn(profile, frame, point.reference)
-        world.asked.directions.append(None if drawn is None else drawn.tangent(bool(world.tolerance)))
+        world.mentioned.directions.append(None if drawn is None else drawn.tangent(bool(world.tolerance)))
         if drawn is not None:
-            world.check_later(lambda size: self._check(world, frame, point, drawn, size))
+            self._check(world, frame, point, drawn)
         yield Relation(substitute(profile, _own(frame, point)), part="contact")
 
     def _profile(self, world: World) -> Expr | None:
         """g; None after a fault."""
         before = len(world.faults)
         names = within_member(world.names, OWN)
-        used = {s.args[1] for s in world.symbols_of(self.curve, names) if s.args[0] == "coordinate"}
+        used = {s.args[1] for s in symbols_of(self.curve, names) if s.args[0] == "coordinate"}
         if used - {*OWN}:
             hint = "only x and y of the body, parameters and time may be used"
             world.fault(f"the coordinate {min(used - {*OWN})} cannot stand here", "curve", hint=hint)
@@ -80,29 +79,29 @@ class Cam(ConstraintBase):
             return None
         return found[0][0]
 
-    def _check(self, world: World, frame: Frame, point: Placed, drawn: DrawnContact, size: float) -> None:
+    def _check(self, world: World, frame: Frame, point: Placed, drawn: DrawnContact) -> None:
         """A point that is off the profile where both are drawn is a fault that shows by how much."""
-        if not (frame.fixed or frame.name in drawn_bodies(world)):
-            return
+        body = None if frame.fixed else frame.name
         place = point.label if point.frame else f"{point.label} at {figures(point.reference)}"
         hint = "move the point or the body, or set `tolerance` if they are measured"
         if drawn.gap is None:
-            world.fault(f"the drawing puts {place}, where `{self.curve}` has no value", "point", hint=hint)
-        elif world.differs(drawn.gap):
+            told = f"the drawing puts {place}, where `{self.curve}` has no value"
+            world.misfit(None, told, "point", hint=hint, body=body)
+        elif world.differs(drawn.gap, body):
             gap, steepness = approximate(drawn.gap), root(square(drawn.slope))
-            if gap is None or not world.within(gap / steepness if steepness else None, size):
-                told = f"the drawing puts {place}, off the profile of {frame.name}: there `{self.curve}` fails"
-                world.fault(told if gap is None else f"{told} by {abs(gap):.6g}", "point", hint=hint)
+            told = f"the drawing puts {place}, off the profile of {frame.name}: there `{self.curve}` fails"
+            told = told if gap is None else f"{told} by {abs(gap):.6g}"
+            world.misfit(None if gap is None or not steepness else gap / steepness, told, "point", hint=hint, body=body)
 
     def texts(self) -> Iterator[str]:
         yield self.curve
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         return f"cam {show_point(self.point)} on {self.body}: {self.curve}"
 
 
-def _turned(angle: Expr) -> Matrix:
+def _rotation(angle: Expr) -> Matrix:
     """R(angle)."""
     c, s = fn("cos", angle), fn("sin", angle)
     return ((c, mul(MINUS_ONE, s)), (s, c))
@@ -112,7 +111,7 @@ def _own(frame: Frame, point: Placed) -> dict[Expr, Expr]:
     """x and y of the point in the body's own coordinates."""
     arm = minus(point.over, frame.position)
     if not frame.fixed:
-        arm = apply(transposed(_turned(coordinate(frame.angles[0]))), arm)
+        arm = apply(transposed(_rotation(coordinate(frame.angles[0]))), arm)
     return dict(zip((X, Y), arm, strict=True))
 
 
@@ -133,7 +132,7 @@ class DrawnContact(NamedTuple):
 
 def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
     """The profile where a point is drawn."""
-    turn = _turned(frame.initial[0]) if frame.initial else None
+    turn = _rotation(frame.initial[0]) if frame.initial else None
     arm = minus(place, frame.start)
     own = arm if turn is None else apply(transposed(turn), arm)
     at = {**dict(zip((X, Y), own, strict=True)), TIME: ZERO}

@@ -21,7 +21,7 @@ from dofkit.scene.world import World
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
 
-def kept_distances(at: Kinematics) -> Iterator[VelocityRow]:
+def distance_rows(at: Kinematics) -> Iterator[VelocityRow]:
     """(b - a).(v_b - v_a) for every two points."""
     for j, k in combinations(range(len(at.points)), 2):
         arm: Sequence[Any] = [q - p for p, q in zip(at.points[j][1], at.points[k][1], strict=True)]
@@ -37,7 +37,7 @@ class Link(ConstraintBase):
     type: Literal["link"] = Field(description="two points at a given distance")
     between: Ends = Field(description="the two points")
     length: Value | None = Field(None, description="their distance; may hold t; by default that of the drawing")
-    facts: ClassVar[TypeFacts] = TypeFacts(kept_distances, joint=True, bars=True, surface=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
@@ -49,8 +49,7 @@ class Link(ConstraintBase):
         if given is not None:
             _check_length(world, first, second, given, "length")
         if first.frame is None and second.frame is None and (given is None or not _moves(given)):
-            index = world.here[-1]
-            world.links.append((int(index), first.label, second.label))
+            world.links.append((first.label, second.label))
         yield Relation(distance(world, first, second, given))
 
     def texts(self) -> Iterator[str]:
@@ -58,7 +57,7 @@ class Link(ConstraintBase):
             yield self.length
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         ends = "-".join(show_point(end) for end in self.between)
         return f"link {ends}" + ("" if self.length is None else f", length {as_written(self.length)}")
 
@@ -106,14 +105,18 @@ def _check_length(world: World, first: Placed, second: Placed, given: Expr, *whe
     if not world.differs(difference(power(start, TWO), drawn)):
         return
     measured = root(drawn)
+    message = f"the length {_figure(shown)} contradicts the drawing, where {first.label} and {second.label} are "
+    hint = "leave `length` out to take the drawing's, or set `tolerance` if it is measured"
+    world.misfit(_less(shown, measured), f"{message}{_figure(measured)} apart", *where, hint=hint)
 
-    def look(size: float) -> None:
-        if shown is None or measured is None or not world.within(shown - measured, size):
-            message = f"the length {shown:.12g} contradicts the drawing, where {first.label} and {second.label} are "
-            hint = "leave `length` out to take the drawing's, or set `tolerance` if it is measured"
-            world.fault(f"{message}{measured:.12g} apart", *where, hint=hint)
 
-    world.check_later(look)
+def _less(a: float | None, b: float | None) -> float | None:
+    """a - b, where both are numbers."""
+    return None if a is None or b is None else a - b
+
+
+def _figure(number: float | None) -> str:
+    return "?" if number is None else f"{number:.12g}"
 
 
 class Rigid(ConstraintBase):
@@ -121,7 +124,7 @@ class Rigid(ConstraintBase):
 
     type: Literal["rigid"] = Field(description="particles that keep all their distances")
     members: Annotated[tuple[str, ...], Field(min_length=2)] = Field(description="particles")
-    facts: ClassVar[TypeFacts] = TypeFacts(kept_distances, joint=True, bars=True, complete=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, complete=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         seen: set[str] = set()
@@ -133,7 +136,7 @@ class Rigid(ConstraintBase):
             seen.add(member)
             placed.append(world.particle(member, "members", i))
         for first, second in combinations(placed, 2):
-            world.links.append((int(world.here[-1]), first.label, second.label))
+            world.links.append((first.label, second.label))
             yield Relation(distance(world, first, second, None), part=f"length {first.label}-{second.label}")
 
     def notes(self, world: World) -> Iterator[str]:
@@ -148,7 +151,7 @@ class Rigid(ConstraintBase):
         )
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         return "rigid " + ", ".join(self.members)
 
 
@@ -191,7 +194,7 @@ class String(ConstraintBase):
             yield self.length
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         run = "-".join(show_point(point) for point in self.along)
         return f"string {run}" + ("" if self.length is None else f", length {as_written(self.length)}")
 
@@ -205,10 +208,5 @@ def _check_string(world: World, given: Expr, drawn: Expr) -> None:
     if not world.differs(gap):
         return
     a, b = approximate(substitute(given, {TIME: ZERO})), approximate(drawn)
-
-    def look(size: float) -> None:
-        if a is None or b is None or not world.within(a - b, size):
-            message = f"the length {a:.12g} contradicts the drawing, where the string is {b:.12g} long"
-            world.fault(message, "length", hint="leave `length` out to take the drawing's")
-
-    world.check_later(look)
+    message = f"the length {_figure(a)} contradicts the drawing, where the string is {_figure(b)} long"
+    world.misfit(_less(a, b), message, "length", hint="leave `length` out to take the drawing's")

@@ -48,7 +48,7 @@ class Equation(ConstraintBase):
         yield self.text
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         return self.text
 
 
@@ -120,7 +120,7 @@ class On(ConstraintBase):
             yield "One equation in space leaves a surface: a curve is where two surfaces meet, and needs two equations."
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         members = ", ".join(show_point(member) for member in self.members)
         return f"{members} on {'; '.join(self.texts())}"
 

@@ -16,7 +16,7 @@ from pydantic import Field
 from dofkit.exact.matrices import rows
 from dofkit.expressions.tree import HALF, MINUS_ONE, Expr, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
-from dofkit.scene.constraints.base import ConstraintBase, labelled
+from dofkit.scene.constraints.base import ConstraintBase, component_relations
 from dofkit.scene.constraints.places import along
 from dofkit.scene.fields import Text, Vector
 from dofkit.scene.frames import Frame, between, relative
@@ -57,7 +57,7 @@ class Joint(ConstraintBase):
             yield drive
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         told = f"{self.kind()} {self.between[0]}-{self.between[1]}"
         for key, word in (("at", "at"), ("axis", "along")):
             vector: Vector | None = getattr(self, key, None)
@@ -112,7 +112,7 @@ def slide_rate(at: Kinematics) -> VelocityRow:
 
 def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:
     """X2 - X1 = 0 for the material points at ``place``: d relations."""
-    yield from labelled(between(first.point(place), second.point(place))[0], "point {}", place)
+    yield from component_relations(between(first.point(place), second.point(place))[0], "point {}", place)
 
 
 def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
@@ -132,7 +132,7 @@ def parallel(first: Frame, second: Frame) -> Iterator[Relation]:
     if first.dimension == 2:
         yield Relation(difference(second.angle, first.angle), part="angle")
     elif first.gibbs is not None and second.gibbs is not None:
-        yield from labelled(minus(second.gibbs, first.gibbs), "orientation {}")
+        yield from component_relations(minus(second.gibbs, first.gibbs), "orientation {}")
     else:
         for i, j, about in ((0, 1, "z"), (1, 2, "x"), (2, 0, "y")):
             e = dot(first.carry(unit(i, 3)), second.carry(unit(j, 3)))
@@ -165,7 +165,7 @@ def slide(first: Frame, second: Frame, place: Vec, direction: Vec) -> tuple[Expr
     return along(first, point, place, direction), mul(first.under, point.under)
 
 
-def held(moved: tuple[Expr, Expr], axis: Direction, law: Expr) -> Relation:
+def displacement_law(moved: tuple[Expr, Expr], axis: Direction, law: Expr) -> Relation:
     """Displacement along the axis less the law: n.X - |n| f = 0, cleared."""
     return Relation(difference(moved[0], mul(length(axis.vector), moved[1], law)), part="drive")
 
@@ -175,7 +175,7 @@ def crossing(axis: Direction) -> tuple[Vec, Vec]:
     return axis.across[0], cross(axis.vector, axis.across[0])
 
 
-def turned_by(first: Frame, second: Frame, axis: Direction, law: Expr) -> Relation:
+def angle_law(first: Frame, second: Frame, axis: Direction, law: Expr) -> Relation:
     """The second body's angle against the first about the axis, right-handed, is ``law``.
 
     In the plane theta2 - theta1 - f = 0. In space v.n cos(f/2) - s |n| sin(f/2) = 0, or with
@@ -212,4 +212,4 @@ def apart(first: Frame, second: Frame) -> Iterator[Relation]:
     moved = minus(second.position, first.position)
     if not is_zero(start):
         moved = minus(scaled(frame.under, moved), frame.carry(start))
-    yield from labelled(moved, "origin {}")
+    yield from component_relations(moved, "origin {}")

@@ -11,7 +11,7 @@ from dofkit.exact.matrices.rows import across, less
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ZERO, Expr, coordinate, mul
 from dofkit.expressions.vectors import Vec, difference, dot, minus, scaled
-from dofkit.scene.constraints.base import ConstraintBase, figures, labelled, meet
+from dofkit.scene.constraints.base import ConstraintBase, component_relations, figures, meet
 from dofkit.scene.fields import Vector
 from dofkit.scene.frames import Frame, Placed, between
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point, show_vector
@@ -56,18 +56,18 @@ class Fixed(ConstraintBase):
         stands = placed.reference
         if stands is None:
             stands = tuple(world.fresh() for _ in range(world.dimension))
-        yield from labelled(minus(placed.over, scaled(placed.under, stands)))
+        yield from component_relations(minus(placed.over, scaled(placed.under, stands)))
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         return f"fixed {self.body}" if self.point is None else f"fixed point {show_point(self.point)}"
 
 
 def _hold(frame: Frame) -> Iterator[Relation]:
     """Position at its reference value, and the rotation the identity."""
-    yield from labelled(minus(frame.position, frame.start))
+    yield from component_relations(minus(frame.position, frame.start))
     if frame.chart == "gibbs":
-        yield from labelled(tuple(coordinate(name) for name in frame.angles), "orientation {}")
+        yield from component_relations(tuple(coordinate(name) for name in frame.angles), "orientation {}")
         return
     for name, start in zip(frame.angles, frame.initial, strict=True):
         yield Relation(difference(coordinate(name), start), part="angle" if frame.chart == "plane" else f"angle {name}")
@@ -93,10 +93,10 @@ class Coincident(ConstraintBase):
             return
         meet(world, first, second, "between")
         world.apart(first, second, ZERO)
-        yield from labelled(between(first, second)[0])
+        yield from component_relations(between(first, second)[0])
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         return "coincident " + ", ".join(show_point(end) for end in self.between)
 
 
@@ -136,7 +136,7 @@ class Slot(ConstraintBase):
             yield Relation(along(frame, point, place, u), part="across", vector=u)
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         told = f"slot {show_point(self.point)} on {self.body}"
         if self.at is not None:
             told += f" through {show_vector(self.at)}"
@@ -157,13 +157,9 @@ def _check_on_line(world: World, point: Placed, place: Vec, axis: Direction) -> 
     offsets = [dot(u, minus(stands, place)) for u in axis.across]
     if not world.any_differs(offsets):
         return
-
-    def look(size: float) -> None:
-        if not world.within(_apart(minus(stands, place), axis.vector), size):
-            message = f"the drawing puts {point.label} at {figures(stands)}, off the line through {figures(place)}"
-            world.fault(message, "point", hint="move the point or the line, or set `tolerance` if it is measured")
-
-    world.check_later(look)
+    message = f"the drawing puts {point.label} at {figures(stands)}, off the line through {figures(place)}"
+    hint = "move the point or the line, or set `tolerance` if it is measured"
+    world.misfit(_apart(minus(stands, place), axis.vector), message, "point", hint=hint)
 
 
 def _apart(arm: Vec, axis: Vec) -> float | None:

@@ -13,14 +13,14 @@ from dofkit.scene.constraints.joints import (
     Driven,
     Joint,
     aligned,
+    angle_law,
     apart,
-    held,
+    displacement_law,
     parallel,
     shift,
     slide_rate,
     together,
     turn_rate,
-    turned_by,
 )
 from dofkit.scene.frames import Frame
 from dofkit.scene.world import World
@@ -56,7 +56,7 @@ class Revolute(Driven):
         axis = self.directed(world)
         yield from aligned(first, second, axis)
         for law in self.driven(world):
-            yield turned_by(first, second, axis, law)
+            yield angle_law(first, second, axis, law)
 
 
 def _prismatic_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -84,7 +84,7 @@ class Prismatic(Driven):
         for u in axis.across:
             yield Relation(shift(first, second, u)[0], part="across", vector=u)
         for law in self.driven(world):
-            yield held(shift(first, second, axis.vector), axis, law)
+            yield displacement_law(shift(first, second, axis.vector), axis, law)
 
 
 def _weld_rows(at: Kinematics) -> Iterator[VelocityRow]:

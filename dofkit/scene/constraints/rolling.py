@@ -42,7 +42,7 @@ class Roll(ConstraintBase):
             if self.body == GROUND:
                 world.fault("the ground does not roll", "body", hint="name a body")
             return
-        if frame.name in world.drawn and world.differs(difference(frame.start[-1], radius)):
+        if world.is_drawn(frame) and world.differs(difference(frame.start[-1], radius)):
             height = world.table.bodies[frame.name][world.dimension - 1]
             world.warnings.append(
                 f"{frame.name} rolls at {height} = {as_written(self.radius)} but is drawn at {height} = "
@@ -52,7 +52,7 @@ class Roll(ConstraintBase):
         yield from _no_slip(frame, radius)
 
     @property
-    def shown(self) -> str:
+    def in_words(self) -> str:
         return f"roll {self.body}, radius {as_written(self.radius)}"
 
 
@@ -86,7 +86,7 @@ class Gear(Joint):
     facts: ClassVar[TypeFacts] = TypeFacts(_gear_rows, joint=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
-        ratio = world.asked.number = world.fixed(self.ratio, "ratio")
+        ratio = world.mentioned.number = world.fixed(self.ratio, "ratio")
         if ratio.is_zero:
             world.fault("a gear ratio cannot be 0", "ratio")
         one, other = first.angle, second.angle
@@ -98,6 +98,6 @@ class Gear(Joint):
         yield Relation(difference(other, mul(ratio, one)))
 
     @property
-    def shown(self) -> str:
-        told = f"{super().shown}, ratio {as_written(self.ratio)}"
+    def in_words(self) -> str:
+        told = f"{super().in_words}, ratio {as_written(self.ratio)}"
         return told if self.carrier is None else f"{told}, carried by {self.carrier}"

@@ -16,19 +16,19 @@ from dofkit.scene.constraints.joints import (
     Driven,
     LocatedJoint,
     aligned,
+    angle_law,
     angle_of,
-    held,
+    displacement_law,
     shift,
     slide,
     slide_rate,
     together,
     turn_rate,
-    turned_by,
 )
 from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
 from dofkit.scene.parts import show_vector
-from dofkit.scene.world import Direction, World
+from dofkit.scene.world import Direction, World, within
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
 
@@ -58,7 +58,7 @@ class Cylindrical(Driven):
         place, axis = world.place(self.at, "at"), self.directed(world)
         yield from coaxial(first, second, place, axis)
         for law in self.driven(world):
-            yield held(slide(first, second, place, axis.vector), axis, law)
+            yield displacement_law(slide(first, second, place, axis.vector), axis, law)
 
 
 def _screw_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -82,17 +82,17 @@ class Screw(Driven):
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         place, axis = world.place(self.at, "at"), self.directed(world)
-        pitch = world.asked.number = world.fixed(self.pitch, "pitch")
+        pitch = world.mentioned.number = world.fixed(self.pitch, "pitch")
         yield from coaxial(first, second, place, axis)
         moved, under = slide(first, second, place, axis.vector)
         advance = mul(pitch, angle_of(first, second, axis)) / (2 * PI)
         yield Relation(difference(moved, mul(length(axis.vector), under, advance)), part="thread")
         for law in self.driven(world):
-            yield turned_by(first, second, axis, law)
+            yield angle_law(first, second, axis, law)
 
     @property
-    def shown(self) -> str:
-        return f"{super().shown}, pitch {as_written(self.pitch)}"
+    def in_words(self) -> str:
+        return f"{super().in_words}, pitch {as_written(self.pitch)}"
 
 
 def _universal_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -132,14 +132,14 @@ class Universal(LocatedJoint):
         cosine = dot(one.vector, other.vector)
         if world.differs(cosine):
             size = approximate(fn("abs", cosine / (length(one.vector) * length(other.vector))))
-            if not (size is not None and world.within(size, 1.0)):
+            if not (size is not None and within(size, world.tolerance, 1.0)):
                 shown = f"{show_vector(self.axes[0])} and {show_vector(self.axes[1])}"
                 world.fault(f"the axes {shown} are not perpendicular", "axes", hint="their dot product must be 0")
         return one.vector, other.vector
 
     @property
-    def shown(self) -> str:
-        told = super().shown
+    def in_words(self) -> str:
+        told = super().in_words
         return told if self.axes is None else f"{told} along {' and '.join(show_vector(axis) for axis in self.axes)}"
 
 

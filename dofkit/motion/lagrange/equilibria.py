@@ -12,9 +12,9 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import HALF, MINUS_ONE, PI, ZERO, Expr
-from dofkit.motion.lagrangian.derivation import Derived
-from dofkit.motion.lagrangian.elimination import Care, EliminatedRelation, Elimination, Eliminator, by_potential
-from dofkit.motion.lagrangian.tidying import Tidier
+from dofkit.motion.lagrange.derivation import Derived
+from dofkit.motion.lagrange.elimination import Care, EliminatedRelation, Elimination, Eliminator, by_potential
+from dofkit.motion.lagrange.tidying import Tidier
 
 Place = Mapping[Expr, Expr]
 

@@ -13,7 +13,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import HALF, Expr
-from dofkit.motion.lagrangian.term_order import ordered
+from dofkit.motion.lagrange.term_order import ordered
 
 
 def without_roots(

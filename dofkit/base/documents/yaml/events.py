@@ -18,7 +18,7 @@ from ruamel.yaml.events import (
 
 from dofkit.base.documents.fast_flow import DEEPEST, Path, Places, twice
 from dofkit.base.documents.scalars import BadScalarError, joined, plain
-from dofkit.base.documents.syntax import told
+from dofkit.base.documents.yaml.syntax import fault_of
 from dofkit.base.errors import Fault
 
 #: Aliases may add this many values in all.
@@ -65,7 +65,7 @@ class Composer:
             for event in yaml.parse(text):
                 self._take(event)
         except YAMLError as error:
-            self.faults.append(told(error))
+            self.faults.append(fault_of(error))
         except UnreadableError:
             pass
         return self.value

@@ -54,7 +54,7 @@ _TOLD = (
 _NAMES = {"<stream end>": "the end of the file", "?": "the next key", ":": "':'", "<scalar>": "a text"}
 
 
-def told(error: YAMLError) -> tuple[int, Fault]:
+def fault_of(error: YAMLError) -> tuple[int, Fault]:
     """The offset and the fault of a syntax error."""
     if isinstance(error, ReaderError):
         return error.position, Fault("a character that YAML does not allow", hint="take it away")

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrangian.model import LagrangeModel
+from dofkit.motion.lagrange.model import LagrangeModel
 
 
 def latex_of(model: LagrangeModel, lagrangian: Expr, equations: Iterable[Expr]) -> str:

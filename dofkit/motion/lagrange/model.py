@@ -16,7 +16,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.text import Names, UnknownNameError, parse_relations
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.motion.lagrangian.elimination import (
+from dofkit.motion.lagrange.elimination import (
     ELIMINATIONS,
     Care,
     EliminatedRelation,
@@ -27,9 +27,9 @@ from dofkit.motion.lagrangian.elimination import (
     inserted,
     vanishes,
 )
-from dofkit.motion.lagrangian.energies import Energy
-from dofkit.motion.lagrangian.rates import motions
-from dofkit.motion.lagrangian.roots import without_roots
+from dofkit.motion.lagrange.energies import Energy
+from dofkit.motion.lagrange.rates import motions
+from dofkit.motion.lagrange.roots import without_roots
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting

@@ -18,7 +18,7 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ONE, TWO, ZERO, Expr
-from dofkit.motion.lagrangian.term_order import ordered
+from dofkit.motion.lagrange.term_order import ordered
 from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
 
 

@@ -13,11 +13,11 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrangian.derivation import Derived
-from dofkit.motion.lagrangian.equilibria import MOST, Equilibrium, equilibria, still
-from dofkit.motion.lagrangian.model import NoEquationsError
-from dofkit.motion.lagrangian.report import Linearized
-from dofkit.motion.lagrangian.tidying import Tidier
+from dofkit.motion.lagrange.derivation import Derived
+from dofkit.motion.lagrange.equilibria import MOST, Equilibrium, equilibria, still
+from dofkit.motion.lagrange.model import NoEquationsError
+from dofkit.motion.lagrange.report import Linearized
+from dofkit.motion.lagrange.tidying import Tidier
 
 #: Frequencies are given where the characteristic polynomial has factors of so small degree in s^2, for so many rows.
 MOST_BY_FORMULA, MOST_ROWS = 2, 6

@@ -6,13 +6,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from dofkit.motion.lagrangian.equations import lagrange
+    from dofkit.motion.lagrange.equations import lagrange
 
 __all__ = ["lagrange"]
 
 #: What is handed on, and where it lives: imported when it is first asked for.
 _HOMES = {
-    "lagrange": "dofkit.motion.lagrangian.equations",
+    "lagrange": "dofkit.motion.lagrange.equations",
 }
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from dofkit.base.arguments import seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
 from dofkit.base.errors import Fault, SceneError
 from dofkit.classification.passes import Examined, studied
@@ -16,19 +17,20 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, to_text
 from dofkit.expressions.text.limits import MAX_CHARACTERS
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrangian.angles import compound
-from dofkit.motion.lagrangian.conserved import conserved, cyclic
-from dofkit.motion.lagrangian.derivation import Derived, derive
-from dofkit.motion.lagrangian.elimination import ELIMINATIONS, Care
-from dofkit.motion.lagrangian.energies import Energy, EnergyReader
-from dofkit.motion.lagrangian.model import LagrangeModel, NoEquationsError, modelled
-from dofkit.motion.lagrangian.quantities import missing
-from dofkit.motion.lagrangian.regularity import SINGULAR, degenerate
-from dofkit.motion.lagrangian.report import Conserved, Linearized, MotionReport
-from dofkit.motion.lagrangian.small_motions import linearized
-from dofkit.motion.lagrangian.term_order import ordered
-from dofkit.motion.lagrangian.tidying import by_rates, length
+from dofkit.motion.lagrange.angles import compound
+from dofkit.motion.lagrange.conserved import conserved, cyclic
+from dofkit.motion.lagrange.derivation import Derived, derive
+from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
+from dofkit.motion.lagrange.energies import Energy, energy_of
+from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
+from dofkit.motion.lagrange.quantities import missing
+from dofkit.motion.lagrange.regularity import SINGULAR, degenerate
+from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
+from dofkit.motion.lagrange.small_motions import linearized
+from dofkit.motion.lagrange.term_order import ordered
+from dofkit.motion.lagrange.tidying import by_rates, length
 from dofkit.scene.lowering import system_of
+from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import survey
 
@@ -44,22 +46,25 @@ SORTING, MOST_NODES = 2.0, 1500
 LONG = "More could be eliminated, but the equations would be too long to read: some constraints keep a multiplier."
 
 
-def lagrange(scene: Scene, linearize: bool = False, budget: float | None = None) -> MotionReport:
+def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = None) -> MotionReport:
     """Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a of a scene.
 
-    ``linearize``: also M, C and K at an equilibrium, or a note that says why not. Raises `SceneError` with every fault
-    of the scene, and `NoEquationsError` where the equations cannot be given, saying why: nothing is guessed.
+    ``scene``: a Scene, a path, a catalog name or a mapping; ``budget``: seconds. ``linearize``: also M, C and K at an
+    equilibrium, or a note that says why not. Returns a `MotionReport` of texts: one equation for each coordinate that
+    is kept; units are those of the scene. Raises `SceneError` with every fault of the scene, `NoEquationsError` where
+    the equations cannot be given, saying why (nothing is guessed), and `ArgumentError` for what is no scene.
 
     >>> import dofkit
     >>> pendulum = {"coordinates": ["theta"], "parameters": {"m": "positive", "l": "positive", "g": "positive"}}
     >>> energies = {"kinetic": "m l^2 thetadot^2/2", "potential": "-m g l cos(theta)"}
-    >>> dofkit.lagrange(dofkit.load({**pendulum, "energies": energies})).equations
+    >>> dofkit.lagrange({**pendulum, "energies": energies}).equations
     ['l^2*m*thetaddot + g*l*m*sin(theta) = 0']
     """
+    seconds, given = DEFAULT_SECONDS if budget is None else seconds_of(budget), load(scene)
     try:
-        with limited(DEFAULT_SECONDS if budget is None else budget):
-            derived = derived_of(scene)
-            return _report(derived, *(_small(scene, derived) if linearize else (None, ())))
+        with limited(seconds):
+            derived = derived_of(given)
+            return _report(derived, *(_small(given, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
 
@@ -156,18 +161,18 @@ class MotionSource:
 def read(scene: Scene) -> MotionSource:
     """The scene's energies and what is known of its constraints. Raises SceneError with all its faults."""
     found = survey(scene, euler=True)
-    if found.world.faults:
-        raise SceneError(tuple(found.world.faults), scene.name)
-    energy = EnergyReader(scene, found.world).energy()
-    if found.world.faults:
-        raise SceneError(tuple(found.world.faults), scene.name)
+    if found.faults:
+        raise SceneError(found.faults, scene.name)
+    energy, faults = energy_of(scene, found.drawing)
+    if faults:
+        raise SceneError(faults, scene.name)
     if not _tells_of_motion(scene):
         message = (
             "the scene has neither a kinetic energy in `energies` nor masses: there is nothing to derive motion from"
         )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
-    return MotionSource(scene, studied(system_of(scene, found)), energy, found.world.names)
+    return MotionSource(scene, studied(system_of(scene, found)), energy, found.names)
 
 
 def _tells_of_motion(scene: Scene) -> bool:

@@ -10,8 +10,8 @@ from dofkit.base.verdicts import Verdict
 from dofkit.report import ToldModel
 
 if TYPE_CHECKING:
-    from dofkit.motion.lagrangian.derivation import Derived
-    from dofkit.motion.lagrangian.handover import Handover
+    from dofkit.motion.lagrange.derivation import Derived
+    from dofkit.motion.lagrange.handover import Handover
 
 #: T, V and L are energies, so that every q p has the dimension of energy times time.
 QP = "action, M L^2 T^-1: each product q*p has the dimension of energy times time, whatever q is"

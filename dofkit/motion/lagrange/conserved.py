@@ -10,12 +10,12 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrangian.angles import compound
-from dofkit.motion.lagrangian.derivation import Derived
-from dofkit.motion.lagrangian.elimination import Remaining
-from dofkit.motion.lagrangian.report import Conserved
-from dofkit.motion.lagrangian.term_order import ordered
-from dofkit.motion.lagrangian.tidying import by_rates, length
+from dofkit.motion.lagrange.angles import compound
+from dofkit.motion.lagrange.derivation import Derived
+from dofkit.motion.lagrange.elimination import Remaining
+from dofkit.motion.lagrange.report import Conserved
+from dofkit.motion.lagrange.term_order import ordered
+from dofkit.motion.lagrange.tidying import by_rates, length
 from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
 
 #: Seconds for writing the energy shorter.

@@ -10,11 +10,11 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrangian.handover import Handover, handover
-from dofkit.motion.lagrangian.latex import latex_of
-from dofkit.motion.lagrangian.model import LagrangeModel
-from dofkit.motion.lagrangian.term_order import ordered
-from dofkit.motion.lagrangian.tidying import Tidier
+from dofkit.motion.lagrange.handover import Handover, handover
+from dofkit.motion.lagrange.latex import latex_of
+from dofkit.motion.lagrange.model import LagrangeModel
+from dofkit.motion.lagrange.term_order import ordered
+from dofkit.motion.lagrange.tidying import Tidier
 
 
 @dataclass(frozen=True)

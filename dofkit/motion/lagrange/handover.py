@@ -16,7 +16,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrangian.model import LagrangeModel
+from dofkit.motion.lagrange.model import LagrangeModel
 
 #: Random points that are tried.
 ATTEMPTS = 20

@@ -16,8 +16,8 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrangian.angles import compound
-from dofkit.motion.lagrangian.term_order import ordered
+from dofkit.motion.lagrange.angles import compound
+from dofkit.motion.lagrange.term_order import ordered
 
 #: Expressions with more SymPy operations than this are not expanded.
 EXPANDED = 3000

@@ -11,8 +11,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.motion.lagrangian.derivation import Derived
-from dofkit.motion.lagrangian.model import NoEquationsError
+from dofkit.motion.lagrange.derivation import Derived
+from dofkit.motion.lagrange.model import NoEquationsError
 
 #: Points of GF(p) at which the rank is looked at, and how many are tried for them.
 POINTS, ATTEMPTS = 3, 20

@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from dofkit.base.errors import Fault
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, square
-from dofkit.motion.lagrangian.forces import PARTS, ForceReader, Numbered
-from dofkit.motion.lagrangian.quantities import mass, moving
+from dofkit.motion.lagrange.forces import PARTS, ForceReader, Numbered
+from dofkit.motion.lagrange.quantities import EntryWorlds, mass, masses, moving
+from dofkit.scene.drawing import Drawing
 from dofkit.scene.frames import Frame
 from dofkit.scene.scene import Scene
 from dofkit.scene.world import World
@@ -34,27 +36,33 @@ class Energy:
         return self.kinetic - self.potential
 
 
+def energy_of(scene: Scene, drawing: Drawing) -> tuple[Energy, tuple[Fault, ...]]:
+    """What `energies` gives, and what it leaves out from the masses and the forces; and what is at fault in these."""
+    worlds = EntryWorlds(drawing)
+    return EnergyReader(scene, worlds).energy(), worlds.faults
+
+
 @dataclass
 class EnergyReader:
-    """Reads the energies of a scene; faults go to its world."""
+    """Reads the energies of a scene, each entry in its world; ``notes`` say what was taken for granted."""
 
     scene: Scene
-    world: World
+    worlds: EntryWorlds
     notes: list[str] = field(default_factory=list)
 
     def energy(self) -> Energy:
-        """What `energies` gives, and what it leaves out from the masses and the forces."""
+        """The energies, and the forces by coordinate."""
         given = self.scene.energies
-        kinetic = self._text(given and given.kinetic, "kinetic")
-        potential = self._text(given and given.potential, "potential")
-        dissipation = self._text(given and given.dissipation, "dissipation")
+        world = self.worlds.at("energies")
+        kinetic, potential, dissipation = (
+            _text(world, getattr(given, key, None), key) for key in ("kinetic", "potential", "dissipation")
+        )
         own = {} if given is None else given.forces
-        self.world.here = ("energies",)
-        forces = {name: moving(self.world, text, "forces", name) for name, text in own.items()}
+        forces = {name: moving(world, text, "forces", name) for name, text in own.items()}
         if kinetic is None:
             kinetic = ex.add(*self._kinetic())
             self._assumed_centres()
-        reader = ForceReader(self.scene, self.world, self.notes)
+        reader = ForceReader(self.scene, self.worlds, self.notes)
         springs, dampers, applied = map(reader.entering, PARTS)
         if potential is None:
             potential = reader.potential(springs)
@@ -70,10 +78,6 @@ class EnergyReader:
             forces = reader.applied(applied)
         return Energy(kinetic, potential, dissipation, forces, tuple(self.notes))
 
-    def _text(self, text: object, key: str) -> Expr | None:
-        self.world.here = ("energies",)
-        return None if text is None else moving(self.world, text, key)
-
     def _as_written(self, what: str, entries: Sequence[Numbered]) -> None:
         kinds = " and ".join(dict.fromkeys(force.type for _, force in entries))
         self.notes.append(f"`energies` gives {what}: the {kinds} among the forces is taken to be in it already.")
@@ -83,41 +87,37 @@ class EnergyReader:
             self.notes.append("Each body's centre of mass is taken to be at its origin, its inertia about that.")
 
     def _kinetic(self) -> Iterator[Expr]:
-        for i, particle in enumerate(self.scene.particles):
-            self.world.here = ("particles", i)
-            m = mass(self.world, particle.mass, "mass", particle.name)
-            yield HALF * m * _speed_squared(self.world.table.particles[particle.name])
-        d = self.world.dimension
-        for i, body in enumerate(self.scene.bodies):
-            self.world.here = ("bodies", i)
-            frame = self.world.frames[body.name]
-            m = mass(self.world, body.mass, "mass", body.name)
-            yield HALF * m * _speed_squared(self.world.table.bodies[body.name][:d])
-            if d > 1:
-                yield self._turning(body.inertia, frame)
+        bodies = [*(None for _ in self.scene.particles), *self.scene.bodies]
+        for (world, m, names), body in zip(masses(self.scene, self.worlds), bodies, strict=True):
+            yield HALF * m * _speed_squared(names)
+            if body is not None and world.dimension > 1:
+                yield _turning(world, body.inertia, world.frames[body.name])
 
-    def _turning(self, inertia: object, frame: Frame) -> Expr:
-        """w.J w/2 with J in the body's axes."""
-        if frame.dimension == 2:
-            rate = ex.velocity(frame.angles[0])
-            return HALF * mass(self.world, inertia, "inertia", frame.name) * rate * rate
-        spin = body_spin(frame)
-        if not isinstance(inertia, tuple):
-            return HALF * mass(self.world, inertia, "inertia", frame.name) * square(spin)
-        if len(inertia) != 3:
-            self.world.fault("an inertia is one number, three principal moments or three rows", "inertia")
+
+def _text(world: World, text: object, key: str) -> Expr | None:
+    return None if text is None else moving(world, text, key)
+
+
+def _turning(world: World, inertia: object, frame: Frame) -> Expr:
+    """w.J w/2 with J in the body's axes."""
+    if frame.dimension == 2:
+        rate = ex.velocity(frame.angles[0])
+        return HALF * mass(world, inertia, "inertia", frame.name) * rate * rate
+    spin = body_spin(frame)
+    if not isinstance(inertia, tuple):
+        return HALF * mass(world, inertia, "inertia", frame.name) * square(spin)
+    if len(inertia) != 3:
+        world.fault("an inertia is one number, three principal moments or three rows", "inertia")
+        return ZERO
+    if all(isinstance(row, tuple) for row in inertia):
+        rows = [[moving(world, v, "inertia", i, j) for j, v in enumerate(row)] for i, row in enumerate(inertia)]
+        if any(len(row) != 3 for row in rows):
+            world.fault("a row of the inertia has three entries", "inertia")
             return ZERO
-        if all(isinstance(row, tuple) for row in inertia):
-            rows = [
-                [moving(self.world, v, "inertia", i, j) for j, v in enumerate(row)] for i, row in enumerate(inertia)
-            ]
-            if any(len(row) != 3 for row in rows):
-                self.world.fault("a row of the inertia has three entries", "inertia")
-                return ZERO
-            return HALF * ex.add(*(ex.mul(w, m, u) for w, row in zip(spin, rows, strict=True)
-                                   for m, u in zip(row, spin, strict=True)))  # fmt: skip
-        moments = [moving(self.world, v, "inertia", i) for i, v in enumerate(inertia)]
-        return HALF * ex.add(*(ex.mul(m, w, w) for m, w in zip(moments, spin, strict=True)))
+        return HALF * ex.add(*(ex.mul(w, m, u) for w, row in zip(spin, rows, strict=True)
+                               for m, u in zip(row, spin, strict=True)))  # fmt: skip
+    moments = [moving(world, v, "inertia", i) for i, v in enumerate(inertia)]
+    return HALF * ex.add(*(ex.mul(m, w, w) for m, w in zip(moments, spin, strict=True)))
 
 
 def body_spin(frame: Frame) -> Vec:

@@ -1,0 +1,81 @@
+"""The arguments and options of the commands: what each takes, and its line of help."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from dofkit.methods.table import METHODS
+
+# of several commands
+
+Files = Annotated[list[str], typer.Argument(metavar="FILE...", help="Scenes: paths, catalog names, - for stdin.")]
+AsJson = Annotated[bool, typer.Option("--json", help="One JSON object a line, in the order given.")]
+Budget = Annotated[
+    float | None,
+    typer.Option(
+        "--budget", metavar="SECONDS", min=0, help="Seconds for each scene; what is not finished is undecided."
+    ),
+]
+
+
+def _known_method(name: str) -> str:
+    if name not in METHODS:
+        raise typer.BadParameter(f"'{name}' is none of {', '.join(METHODS)}")
+    return name
+
+
+Method = Annotated[
+    str,
+    typer.Option(
+        "--method", metavar="NAME", callback=_known_method, help=f"One way to answer alone: {', '.join(METHODS)}."
+    ),
+]
+
+
+Assignment = Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="What was handed out: YAML or JSON.")]
+Workers = Annotated[
+    int | None, typer.Option("--workers", metavar="N", min=1, help="Processes; by default one for each core.")
+]
+Scheduler = Annotated[
+    str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A Dask cluster that does the work.")
+]
+
+# of `lagrange`
+
+Linearize = Annotated[bool, typer.Option("--linearize", help="Also M, C and K of small motions about an equilibrium.")]
+
+# of `grade`
+
+Submissions = Annotated[
+    list[str],
+    typer.Argument(metavar="SUBMISSION...", help="YAML, JSON, JSON lines, CSV, folders of these, - for stdin."),
+]
+ResultFormat = Annotated[str, typer.Option("--format", metavar="NAME", help="native, or what a gradebook reads.")]
+ResultPath = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="PATH", help="Where to write; an interrupted run goes on where it stopped."),
+]
+CheckOnly = Annotated[bool, typer.Option("--check-only", help="Tell how every answer is read, and grade none.")]
+
+# of `chart`
+
+Questions = Annotated[
+    list[str] | None, typer.Option("--question", metavar="Q", help="dof, integrability, redundancy, equivalence.")
+]
+Families = Annotated[
+    list[str] | None, typer.Option("--families", metavar="NAME,...", help="Of the trials; by default all.")
+]
+Methods = Annotated[list[str] | None, typer.Option("--methods", metavar="NAME,...", help="By default all.")]
+ChartFolder = Annotated[Path, typer.Option("--out", metavar="DIR", help="Where data and figures go.")]
+ChartSource = Annotated[Path | None, typer.Option("--from", metavar="DIR", help="Draw again from the data of a run.")]
+Quick = Annotated[bool, typer.Option("--quick", help="A few small trials of each family: under a minute.")]
+Most = Annotated[
+    int | None, typer.Option("--most", metavar="N", min=0, help="Trials of each family and question; 0: all.")
+]
+Timeout = Annotated[
+    float | None,
+    typer.Option("--timeout", metavar="SECONDS", min=0.01, help="Processor time for each trial and method."),
+]
