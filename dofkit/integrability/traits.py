@@ -59,18 +59,18 @@ def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH
     return _nonlinear_without_time(piece.expr, positive, engines)
 
 
-def _inequality_without_time(g: Expr, positive: frozenset[Expr]) -> Told:
+def _inequality_without_time(g: Expr, positive: frozenset[Expr]) -> TraitAnswer:
     """False is proved by a point on the boundary at which dg/dt is not 0: there the boundary moves."""
     if _factors_without_time(g, positive):
         return True, "proved"
     return (False, "proved") if _moves(g, positive) else (None, "undecided")
 
 
-def _nonlinear_without_time(e: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
+def _nonlinear_without_time(e: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
     """Neither t nor a hidden dt: on e = 0 both de/dt and v . de/dv vanish (Euler: the set is a cone in v)."""
     moving = sorted(velocities_of(e), key=repr)
     radial = ex.add(*(v * diff(e, v) for v in moving))
-    cone: Told = (True, "proved") if _homogeneous(e, radial) else _vanishes_on(e, radial, positive, engines)
+    cone: TraitAnswer = (True, "proved") if _homogeneous(e, radial) else _vanishes_on(e, radial, positive, engines)
     parts = [_finite_without_time(e, positive, engines), cone]
     if any(holds is False for holds, _ in parts):
         return False, min((sure for holds, sure in parts if holds is False), key=VERDICTS.index)
@@ -84,7 +84,7 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
     return _vanishes_on(g, diff(g, ex.TIME), positive, engines)
 
 
-def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
+def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
     """Is ``slope`` = 0 wherever g = 0? A certified point where it is not is a proof that it is not."""
     still, sure = zero_and_verdict(slope, positive, engines)
     if still:
