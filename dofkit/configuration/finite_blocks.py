@@ -39,11 +39,17 @@ def finite_answer(block: Block, setting: Setting) -> Answer:
     return result
 
 
+#: Measured numbers are not exact: away from where they were measured they prove nothing.
+MEASURED_OFF = "the relations do not hold at the measured drawing within the tolerance, and it says nothing elsewhere"
+
+
 def _finite_answer(chart: Chart, setting: Setting) -> Answer:
     if setting.reference is not None:
         drawn = _drawn_answer(chart, setting, setting.reference)
         if drawn is not None:
             return drawn
+        if setting.tolerance is not None:
+            return Answer(None, verdict="undecided", reasons=[MEASURED_OFF])
     found = find(chart, setting.pose)
     result = Answer(found.consistent, found.dimension, found.dimension, found.verdict, reasons=list(found.reasons))
     if setting.reference is not None:

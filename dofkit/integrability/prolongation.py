@@ -8,6 +8,7 @@ minors of [A b] vanish; their common factor is the relation (single minors carry
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from itertools import combinations, islice
 from itertools import product as cartesian
@@ -74,7 +75,9 @@ def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[E
             return []
         variables = frozenset(s for s in relation.symbols if s.args[0] in ("coordinate", "time"))
         options.append(zero_set(relation, setting.positive, variables)[0])
-    together = islice(cartesian(*options), MAX_TOGETHER)
+    if math.prod(map(len, options)) > MAX_TOGETHER:
+        raise NoValueError("hidden relations have too many branches together")
+    together = cartesian(*options)
     return [tuple(dict.fromkeys(g for branch in choice for g in branch)) for choice in together]
 
 

@@ -31,7 +31,10 @@ from dofkit.relations.setting import Setting
 #: Rounds of prolongation: each finds one hidden finite relation.
 MAX_ROUNDS = 12
 #: Branches of one hidden relation that are followed.
-MAX_HIDDEN_BRANCHES = 6
+MAX_HIDDEN_BRANCHES = 12
+MANY_BRANCHES = f"hidden relations have more than {MAX_HIDDEN_BRANCHES} branches: which is the largest is not known"
+#: Decimals that were measured are no exact numbers, to which a form would have to be put.
+MEASURED_BESIDE = "measured relations stand beside differential ones: a tolerance is not carried through those"
 
 
 def answer(block: Block, setting: Setting) -> Answer:
@@ -83,6 +86,8 @@ def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
 
 
 def _mixed_answer(block: Block, setting: Setting) -> Answer:
+    if setting.tolerance is not None and block.finite:
+        return Answer(None, verdict="undecided", reasons=[MEASURED_BESIDE])
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None:
         result.instantaneous = first_order_freedom(block, setting, setting.reference)
@@ -109,7 +114,9 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
             result.reasons.append("the constraints leave no motion through an interval of time")
             return result
         if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
-            ways = [_prolonged(block, setting, Answer(), [*extra, *branch]) for branch in outcome[:MAX_HIDDEN_BRANCHES]]
+            if len(outcome) > MAX_HIDDEN_BRANCHES:
+                return Answer(None, verdict="undecided", hidden=extra, reasons=[MANY_BRANCHES])
+            ways = [_prolonged(block, setting, Answer(), [*extra, *branch]) for branch in outcome]
             return max(ways, key=_largest)
         fresh = [g for g in outcome[0] if g not in extra]
         if not fresh:
