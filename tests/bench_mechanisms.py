@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 import dofkit
-from dofkit.mobility.placement import measured
+from dofkit.mobility.placement import measured_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.scene.lowering import lower
 
@@ -75,7 +75,7 @@ def grid(n: int, braced: float) -> Scene:
 def jacobian(scene: Scene) -> Any:
     """The relations between velocities in floating point."""
     system = lower(dofkit.load(dict(scene)))
-    placement = measured(system)
+    placement = measured_placement(system)
     rows = [row for found in placement.located for row in rows_of(found) or []] if placement else []
     matrix = np.zeros((len(rows), len(system.coordinates)))
     for i, row in enumerate(rows):

@@ -11,10 +11,10 @@ from dofkit.classification.study import Study
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.mobility.general_position import General, has_geometry, in_general_position
-from dofkit.mobility.kutzbach import mobility
+from dofkit.mobility.kutzbach import kutzbach_count
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
-from dofkit.mobility.placement import Placement, drawn, measured
-from dofkit.mobility.special_position import special
+from dofkit.mobility.placement import Placement, drawn_placement, measured_placement
+from dofkit.mobility.special_position import special_facts
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.report import Generic, Mobility
 
@@ -63,7 +63,7 @@ class CountsBeside:
         many = here - dof
         start = f"at the drawing {many} equation{'s' * (many > 1)} more depend{'s' * (many == 1)} on the others"
         placement = self._placement
-        told = [] if placement is None else special(self.system, placement, self._dependent_sets(), self._slack())
+        told = [] if placement is None else special_facts(self.system, placement, self._dependent_sets(), self._slack())
         return "; ".join([start, *told[:MOST_TOLD]])
 
     def _slack(self) -> float:
@@ -72,8 +72,8 @@ class CountsBeside:
     @cached_property
     def _placement(self) -> Placement | None:
         if self.system.tolerance is not None:
-            return measured(self.system)
-        return drawn(self.system, self.setting.positive)
+            return measured_placement(self.system)
+        return drawn_placement(self.system, self.setting.positive)
 
     def _dependent_sets(self) -> list[list[int]]:
         """The constraints of minimal dependent sets of rows at the drawing; none that holds another."""
@@ -93,7 +93,7 @@ class CountsBeside:
             return None
         columns = len(system.coordinates)
         small = columns <= MOST and all(c.facts.velocities is not None for c in system.connections)
-        placement = measured(system) if small else None
+        placement = measured_placement(system) if small else None
         return None if placement is None else nearly_dependent(placement, system.dimension, columns, columns - here)
 
     def _exact(self) -> Placement | None:
@@ -107,7 +107,7 @@ class CountsBeside:
             for i, r in enumerate(self.reduced)
             for n in r.normals
         )
-        return mobility(self.system, equations, others, self.outcome.velocity_dof, self._exact)
+        return kutzbach_count(self.system, equations, others, self.outcome.velocity_dof, self._exact)
 
 
 def _if_it_has_a_value(work: Callable[[], T]) -> T | None:

@@ -104,7 +104,7 @@ class _Web:
         if at_most and side.length < known.length:
             table[frozenset((a, b))] = side
         elif not at_most and self.twice is None and owner is not None and self._differ(known, side):
-            lengths = f"{_shown(known)} and {_shown(side)}"
+            lengths = f"{_side_text(known)} and {_side_text(side)}"
             self.twice = Unmet(_owners((known, side)), f"{a[1]} and {b[1]} cannot be both {lengths} apart.")
 
     def _differ(self, a: Side, b: Side) -> bool:
@@ -133,13 +133,13 @@ class _Web:
         for pair, side in sorted(self.exact.items(), key=lambda item: -item[1].length):
             check()
             a, b = sorted(pair, key=repr)
-            far, ways = nx.single_source_dijkstra(web, a, cutoff=side.length * (1 + SLACK), weight=_beside(side))
+            far, ways = nx.single_source_dijkstra(web, a, cutoff=side.length * (1 + SLACK), weight=_lengths_but(side))
             visits += len(far)
             if b in ways:
                 others = [web[u][v]["side"] for u, v in pairwise(ways[b])]
                 if self._longer(side, others):
                     way, most = "-".join(node[1] for node in ways[b]), sum(o.length for o in others)
-                    told = f"{a[1]} and {b[1]} cannot be {_shown(side)} apart: by way of {way} they are at most"
+                    told = f"{a[1]} and {b[1]} cannot be {_side_text(side)} apart: by way of {way} they are at most"
                     return Unmet(_owners((side, *others)), f"{told} {most:.{DIGITS}g} apart.")
             if visits > MAX_VISITS:
                 return None
@@ -196,7 +196,7 @@ def _length(side: Side) -> Expr:
     return ex.sqrt(side.squared)
 
 
-def _beside(hidden: Side) -> Any:
+def _lengths_but(hidden: Side) -> Any:
     """The lengths of all sides but one."""
 
     def weight(_u: Node, _v: Node, data: Mapping[str, Side]) -> float | None:
@@ -209,5 +209,5 @@ def _owners(sides: Iterable[Side]) -> tuple[int, ...]:
     return tuple(sorted({side.owner for side in sides if side.owner is not None}))
 
 
-def _shown(side: Side) -> str:
+def _side_text(side: Side) -> str:
     return f"{side.length:.{DIGITS}g}"

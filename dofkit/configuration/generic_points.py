@@ -52,7 +52,7 @@ def on_variety(chart: Chart, point: FieldPoint) -> bool:
 def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
     """The point where the symbols have the given exact values and the others are random."""
     known = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
-    fixed = _settled(chart.ring, known)
+    fixed = _values_of_generators(chart.ring, known)
     if fixed is None:
         return None
     for attempt in range(60):
@@ -69,7 +69,7 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
     return None
 
 
-def _settled(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:
+def _values_of_generators(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:
     """(generator, node of its value) for symbols and for the functions of them that have a known value."""
     settled: dict[int, int] = {}
     try:

@@ -43,13 +43,13 @@ def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
         return None
     with ctx.workprec(BITS):
         try:
-            return _look(chart, real)
+            return _dimension_near(chart, real)
         except NoValueError:
             return None
 
 
 @raising_no_value
-def _look(chart: Chart, real: RealPoint) -> LocalDimension | None:
+def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
     point = _converge(chart, real)
     if point is None:
         return None

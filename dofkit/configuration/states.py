@@ -129,7 +129,7 @@ class States:
             if point is not None and self._holds(point):
                 return point
         for k in range(TRIES):
-            point = self._together.draw(TRIES * seed + k)
+            point = self._joint_solver.draw(TRIES * seed + k)
             if point is not None and self._holds(point):
                 return point
         return None
@@ -155,7 +155,7 @@ class States:
         return self._solver(self.moving, frozenset(unit_of(self.ring, v.index) for v in still))
 
     @cached_property
-    def _together(self) -> TriangularSolver:
+    def _joint_solver(self) -> TriangularSolver:
         return self._solver(self.relations)
 
     def _holds(self, point: FieldPoint) -> bool:

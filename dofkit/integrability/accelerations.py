@@ -41,7 +41,7 @@ class Once:
     factor: Expr
 
 
-def second_order(e: Expr, positive: frozenset[Expr], fresh: Iterator[str]) -> Normal:
+def without_accelerations(e: Expr, positive: frozenset[Expr], fresh: Iterator[str]) -> Normal:
     """What ``e = 0`` says, its second derivatives integrated once; ``fresh`` names the constants.
 
     A constant is a coordinate of its own that does not move, so that what the other constraints say of it is seen.
@@ -58,7 +58,7 @@ def second_order(e: Expr, positive: frozenset[Expr], fresh: Iterator[str]) -> No
             if accelerations_of(g):
                 once, constant = integrated_once(g, positive), next(fresh)
                 constants.append(constant)
-                told.append(_told(once, constant))
+                told.append(_integration_note(once, constant))
                 g = once.integral - ex.coordinate(constant)
             normal = normalise(g, positive, True)
             said += normal.notes
@@ -68,7 +68,7 @@ def second_order(e: Expr, positive: frozenset[Expr], fresh: Iterator[str]) -> No
     return Normal(tuple(found), tuple(dict.fromkeys((*told, *special, *said))), tuple(constants), "; ".join(told))
 
 
-def _told(once: Once, constant: str) -> str:
+def _integration_note(once: Once, constant: str) -> str:
     times = "" if once.factor == ex.ONE else f", after multiplying by {to_text(once.factor)}"
     return f"integrated once{times}: {to_text(once.integral)} = {constant}; the constant is set by the initial state"
 

@@ -23,9 +23,9 @@ from dofkit.integrability.lie_algebra import (
     MatrixSeries,
     Span,
     columns_of,
-    convolved,
-    picked,
+    product_coefficient,
     scaled,
+    some_columns,
 )
 
 #: Curves tried before the flag is left open.
@@ -134,10 +134,10 @@ class Variation:
         return self.coefficients[k] - self.slope * flow.pulled[k]
 
 
-def vary(flow: AdmissibleCurve) -> Variation:
+def variation(flow: AdmissibleCurve) -> Variation:
     """The variation in a random direction of D."""
     start = flow.full_frame[0] * random_column(flow, len(flow.frame.free))
-    return Variation(varied(flow, start), _slope(flow, start))
+    return Variation(varied_frame(flow, start), _slope(flow, start))
 
 
 def random_column(flow: AdmissibleCurve, size: int) -> Matrix:
@@ -145,49 +145,54 @@ def random_column(flow: AdmissibleCurve, size: int) -> Matrix:
     return flow.numbers.matrix(size, 1, [flow.base.number(flow.base.rng.randrange(1, 1 << 12)) for _ in range(size)])
 
 
-def varied(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
+def varied_frame(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
     """(start . grad) V_k at the point: the curve's start moved to first order, the controls kept."""
     numbers, order = flow.numbers, flow.order
-    moved = _moved(flow, start)
+    moved = _path_variation(flow, start)
     series = [Series(numbers.polynomial([m[i, 0] for m in moved]), order) for i in range(len(flow.path))]
     point = DualPoint(flow.point, flow, {c: series[i] for i, c in enumerate(flow.rows.columns) if c >= 0})
     at = values(flow.rows.ring, point)
-    return _varied(flow, at, point, series)
+    return _frame_variation(flow, at, point, series)
 
 
-def _moved(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
+def _path_variation(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
     """The variation of the path: eta' = S eta."""
     moved = [start]
     for k in range(flow.order):
-        moved.append(scaled(convolved(flow.full_slope, moved, k), 1 / flow.base.number(k + 1)))
+        moved.append(scaled(product_coefficient(flow.full_slope, moved, k), 1 / flow.base.number(k + 1)))
     return moved
 
 
-def _varied(flow: AdmissibleCurve, at: list[Any], point: DualPoint, moved: list[Series]) -> MatrixSeries:
+def _frame_variation(flow: AdmissibleCurve, at: list[Any], point: DualPoint, moved: list[Series]) -> MatrixSeries:
     n, order, frame = len(flow.path), flow.order, flow.frame
     ring = flow.rows.ring
     velocity = [Dual(v, m.derivative()) for v, m in zip(flow.velocities(), moved, strict=True)]
-    slopes = [gradient(ring, at, point, [(node, velocity[c]) for c, node in row.items()]) for row in flow.kept]
+    slopes = [gradient(ring, at, point, [(node, velocity[c]) for c, node in row.items()]) for row in flow.frame_rows]
     first = flow.by_coefficient(
         [[g[c].du if c >= 0 and c in g else None for c in flow.rows.columns] for g in slopes], n
     )
-    rows = flow.by_coefficient([[at[row[c]].du if c in row else None for c in range(n)] for row in flow.kept], n)
-    own = [picked(m, frame.dependent, flow.numbers) for m in rows]
-    bent = flow.lifted(lambda k: -(first[k] + convolved(own, flow.slope, k)), order)
-    turned = flow.lifted(lambda k: -convolved(rows, flow.full_frame, k), order)
+    rows = flow.by_coefficient([[at[row[c]].du if c in row else None for c in range(n)] for row in flow.frame_rows], n)
+    own = [some_columns(m, frame.dependent, flow.numbers) for m in rows]
+    bent = flow.lifted(lambda k: -(first[k] + product_coefficient(own, flow.slope, k)), order)
+    turned = flow.lifted(lambda k: -product_coefficient(rows, flow.full_frame, k), order)
     full_bent, full_turned = [flow.full(m, None) for m in bent], [flow.full(m, None) for m in turned]
     back = [scaled(flow.back[0], flow.sample * 0)]
     for k in range(order - 1):
-        total = convolved(back, flow.full_slope, k) + convolved(flow.back, full_bent, k)
+        total = product_coefficient(back, flow.full_slope, k) + product_coefficient(flow.back, full_bent, k)
         back.append(scaled(total, -1 / flow.base.number(k + 1)))
-    return [convolved(back, flow.full_frame, k) + convolved(flow.back, full_turned, k) for k in range(order)]
+    return [
+        product_coefficient(back, flow.full_frame, k) + product_coefficient(flow.back, full_turned, k)
+        for k in range(order)
+    ]
 
 
 def _slope(flow: AdmissibleCurve, direction: Matrix) -> Matrix:
     """grad b at the point, for the field b = sum beta_l B_l with constant beta: A_d grad b_d = -grad(A b)."""
     rows, base = flow.rows, flow.base
     at = values(rows.ring, base)
-    found = [gradient(rows.ring, at, base, [(node, direction[c, 0]) for c, node in row.items()]) for row in flow.kept]
+    found = [
+        gradient(rows.ring, at, base, [(node, direction[c, 0]) for c, node in row.items()]) for row in flow.frame_rows
+    ]
     zero, n = flow.sample * 0, len(flow.path)
     right = flow.numbers.matrix(
         len(found), n, [g.get(c, zero) if c >= 0 else zero for g in found for c in rows.columns]
@@ -218,7 +223,7 @@ def spanning_curves(
     for number in range(MAX_CURVES):
         flow = span.flow if number == 0 and span.flow is not None else AdmissibleCurve(rows, frame, base)
         flow.follow(span.dimensions.index(terminal) + 2)
-        curves.append((flow, vary(flow)))
+        curves.append((flow, variation(flow)))
         before, dimensions = dimensions, _dimensions([f for f, _ in curves], terminal)
         if _complete(curves, dimensions, terminal):
             return [f for f, _ in curves], dimensions
@@ -302,7 +307,7 @@ def _random_bracket(flows: Sequence[AdmissibleCurve], step: int) -> tuple[Scalar
     """[Y, Z] at the point for random fields of S_step."""
     weights = [[[random_column(f, f.pulled[k].ncols()) for k in range(step)] for f in flows] for _ in range(2)]
     values_at = [_combined([f.pulled for f in flows], w) for w in weights]
-    moved = [_combined([varied(f, values_at[1 - i]) for f in flows], weights[i]) for i in range(2)]
+    moved = [_combined([varied_frame(f, values_at[1 - i]) for f in flows], weights[i]) for i in range(2)]
     return columns_of(moved[1] - moved[0])[0]
 
 

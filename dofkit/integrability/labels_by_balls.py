@@ -11,8 +11,8 @@ from dofkit.exact.matrices.sparse import sparse
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import values
-from dofkit.integrability.codistribution import Codistribution, linear_rows
 from dofkit.integrability.lie_algebra_at_points import ball_span
+from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.normal_form import Finite

@@ -18,10 +18,10 @@ from dofkit.exact.points.frames import pairing
 from dofkit.exact.ring.instructions import Scalar
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
-from dofkit.integrability.codistribution import Codistribution, linear_rows
 from dofkit.integrability.growth_vector import derived_flag, growth
 from dofkit.integrability.lie_algebra import Span
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, ball_span
+from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
 from dofkit.integrability.prolongation import is_nonzero
 from dofkit.integrability.single_form import proof
 from dofkit.relations.answer import Answer, HolonomyLabel

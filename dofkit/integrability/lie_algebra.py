@@ -52,7 +52,7 @@ class PointMatrices:
         return nmod_poly([int(v) for v in coefficients], self.modulus)
 
 
-def convolved(a: MatrixSeries, b: MatrixSeries, k: int, first: int = 0) -> Matrix:
+def product_coefficient(a: MatrixSeries, b: MatrixSeries, k: int, first: int = 0) -> Matrix:
     """sum_j a_j b_(k-j), j from ``first``; None where the sum is empty."""
     total = None
     for j in range(first, k + 1):
@@ -100,8 +100,8 @@ class AdmissibleCurve:
         self.evaluate(order)
         zero, columns = self.sample * 0, range(len(self.rows.columns))
         entries = [self.at[row[c]].coefficient(order - 1) if c in row else zero
-                   for row in self.kept for c in columns]  # fmt: skip
-        self.matrices.append(self.numbers.matrix(len(self.kept), len(columns), entries))
+                   for row in self.frame_rows for c in columns]  # fmt: skip
+        self.matrices.append(self.numbers.matrix(len(self.frame_rows), len(columns), entries))
         if order == 1:
             self._pivots()
         self._velocity(order - 1)
@@ -114,14 +114,14 @@ class AdmissibleCurve:
         self.at = series_values(self.rows.ring, self.point)
 
     @property
-    def kept(self) -> list[dict[int, int]]:
+    def frame_rows(self) -> list[dict[int, int]]:
         """The frame's rows."""
         return [self.rows.entries[a] for a in self.frame.rows]
 
     def _pivots(self) -> None:
         first, size = self.matrices[0], len(self.frame.rows)
         affordable(size, 2 * size)
-        self.inverse = picked(first, self.frame.dependent, self.numbers).inv() if size else first
+        self.inverse = some_columns(first, self.frame.dependent, self.numbers).inv() if size else first
 
     def _velocity(self, k: int) -> None:
         """The k-th coefficient of q', one more random coefficient of the controls given: A_d v_d = -A_f u."""
@@ -129,8 +129,8 @@ class AdmissibleCurve:
             u.append(self.base.number(self.base.rng.randrange(1, 1 << 12)))
         controls = [self.numbers.matrix(len(self.frame.free), 1, [u[j] for u in self.controls]) for j in range(k + 1)]
         self.parted()
-        right = convolved(self.free_part, controls, k)
-        later = convolved(self.dependent_part, self.solved, k, first=1)
+        right = product_coefficient(self.free_part, controls, k)
+        later = product_coefficient(self.dependent_part, self.solved, k, first=1)
         self.solved.append(self.inverse * (-right if later is None else -(right + later)))
         number = self.base.number(k + 1)
         for i, c in enumerate(self.frame.dependent):
@@ -144,15 +144,15 @@ class AdmissibleCurve:
             self.dependent_part: MatrixSeries = []
             self.free_part: MatrixSeries = []
         for m in self.matrices[len(self.dependent_part) :]:
-            self.dependent_part.append(picked(m, self.frame.dependent, self.numbers))
-            self.free_part.append(picked(m, self.frame.free, self.numbers))
+            self.dependent_part.append(some_columns(m, self.frame.dependent, self.numbers))
+            self.free_part.append(some_columns(m, self.frame.free, self.numbers))
 
     def lifted(self, right: Callable[[int], Matrix], order: int) -> MatrixSeries:
         """The series x with A_d x = right, coefficient by coefficient through the inverse of A_d at s = 0."""
         found: MatrixSeries = []
         for k in range(order):
             check()
-            later = convolved(self.dependent_part, found, k, first=1)
+            later = product_coefficient(self.dependent_part, found, k, first=1)
             found.append(self.inverse * (right(k) if later is None else right(k) - later))
         return found
 
@@ -169,7 +169,7 @@ class AdmissibleCurve:
         velocity = self.velocities()
         slopes = [
             gradient(self.rows.ring, self.at, self.point, [(node, velocity[c]) for c, node in row.items()])
-            for row in self.kept
+            for row in self.frame_rows
         ]
         right = self.by_coefficient([[g.get(c) if c >= 0 else None for c in self.rows.columns] for g in slopes], n)
         self.slope = self.lifted(lambda k: -right[k], order)
@@ -208,8 +208,8 @@ class AdmissibleCurve:
         self.back = [self.identity(len(self.path))]
         for k in range(self.order - 1):
             check()
-            self.back.append(scaled(convolved(self.back, self.full_slope, k), -1 / self.base.number(k + 1)))
-        self.pulled = [convolved(self.back, self.full_frame, k) for k in range(self.order)]
+            self.back.append(scaled(product_coefficient(self.back, self.full_slope, k), -1 / self.base.number(k + 1)))
+        self.pulled = [product_coefficient(self.back, self.full_frame, k) for k in range(self.order)]
 
 
 def scaled(matrix: Matrix, factor: Scalar) -> Matrix:
@@ -217,7 +217,7 @@ def scaled(matrix: Matrix, factor: Scalar) -> Matrix:
     return matrix * factor
 
 
-def picked(matrix: Matrix, columns: Sequence[int], numbers: PointMatrices) -> Matrix:
+def some_columns(matrix: Matrix, columns: Sequence[int], numbers: PointMatrices) -> Matrix:
     """Some columns of a matrix."""
     entries = [matrix[i, c] for i in range(matrix.nrows()) for c in columns]
     return numbers.matrix(matrix.nrows(), len(columns), entries)

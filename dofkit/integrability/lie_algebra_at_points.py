@@ -14,8 +14,8 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, field_frame
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
-from dofkit.integrability.codistribution import Codistribution
 from dofkit.integrability.lie_algebra import Span, lie_span
+from dofkit.integrability.pfaffian_system import Codistribution
 
 
 @dataclass(frozen=True)

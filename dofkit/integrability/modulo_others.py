@@ -29,9 +29,9 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.codistribution import Codistribution, codistribution
 from dofkit.integrability.lie_algebra import Span
 from dofkit.integrability.lie_algebra_at_points import ball_span, span_at
+from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.beside_others import RewrittenRow
 from dofkit.relations.blocks import Block, coordinates_of
@@ -48,13 +48,13 @@ NOT_EQUIVALENT = (
 NO_VELOCITY = "no velocities were found to hold it against"
 
 
-def part(slot: RewrittenRow, blocks: Sequence[Block]) -> list[int]:
+def blocks_of(slot: RewrittenRow, blocks: Sequence[Block]) -> list[int]:
     """The numbers of the blocks that a reduced relation has to do with."""
     names = set(coordinates_of(slot.written.piece)).union(*(coordinates_of(r.piece) for r in slot.rows))
     return [k for k, block in enumerate(blocks) if names & set(block.coordinates)]
 
 
-def _joined(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int]) -> Block:
+def _joint_block(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int]) -> Block:
     names = dict.fromkeys(c for k in numbers for c in blocks[k].coordinates)
     names |= dict.fromkeys(sorted(coordinates_of(slot.written.piece)))
     rows = [r for k in numbers for r in blocks[k].rows]
@@ -62,13 +62,13 @@ def _joined(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int])
     return Block(tuple(names), (*finite, *(r for r in rows if not isinstance(r.piece, Finite))))
 
 
-def verified(
+def with_reductions_checked(
     slots: Sequence[RewrittenRow], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
 ) -> list[Answer]:
     """The answers, but undecided where a relation as written does not hold at the states that its reduction leaves."""
     found = list(answers)
     for slot in slots:
-        numbers = part(slot, blocks)
+        numbers = blocks_of(slot, blocks)
         if any(not found[k].consistent for k in numbers) or _holds(slot, blocks, numbers, found, setting):
             continue
         for k in numbers:
@@ -79,7 +79,7 @@ def verified(
 def _holds(
     slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int], answers: Sequence[Answer], setting: Setting
 ) -> bool:
-    joint, f = _joined(slot, blocks, numbers), slot.written.piece
+    joint, f = _joint_block(slot, blocks, numbers), slot.written.piece
     if not isinstance(f, Nonlinear):
         return True
     hidden = [g for k in numbers for g in answers[k].hidden]
@@ -94,11 +94,11 @@ def _holds(
     return bool(seen) and all(v is not None and vanishes(v) for v in seen)
 
 
-def label(
+def label_modulo_others(
     slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
 ) -> tuple[HolonomyLabel, Answer]:
     """Whether a reduced relation is a consequence of finite relations, and the answer of the blocks it touches."""
-    numbers = part(slot, blocks)
+    numbers = blocks_of(slot, blocks)
     own = [answers[k] for k in numbers]
     together = Answer(verdict=weakest(*(a.verdict for a in own)), hidden=[g for a in own for g in a.hidden])
     f = slot.written.piece
@@ -107,7 +107,7 @@ def label(
     if not isinstance(f, Nonlinear) or not curved or impossible or any(a.dof is None for a in own):
         return HolonomyLabel(None, "undecided"), together
     try:
-        told = _on_the_kernel(f.expr, _joined(slot, blocks, numbers), together.hidden, setting)
+        told = _on_the_kernel(f.expr, _joint_block(slot, blocks, numbers), together.hidden, setting)
     except (OutOfTimeError, ArithmeticError):
         return HolonomyLabel(None, "undecided"), together
     labels = [x for a in own for x in a.labels.values()]
@@ -143,7 +143,7 @@ def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setti
     ring = forms.chart.ring
     node = ring.node(f)
     good = [(p, s) for p in found.samples if (s := span_at(forms, p)) is not None]
-    seen = [v for p, s in good for v in _along(forms, s.span, p, node)]
+    seen = [v for p, s in good for v in _values_on_span(forms, s.span, p, node)]
     if seen and all(v == 0 for v in seen):
         return HolonomyLabel(True, "probable")
     rank = len(good[0][1].frame.rows) if good else None
@@ -165,10 +165,10 @@ def _real_values(forms: Codistribution, found: Variety, rank: int | None, node: 
         rank = ball_part(matrix).rank
     span = ball_span(forms, rank, real.point)
     if span is not None:
-        yield from _along(forms, span[0], real.point, node)
+        yield from _values_on_span(forms, span[0], real.point, node)
 
 
-def _along(forms: Codistribution, span: Span, point: FieldPoint | BallPoint, node: int) -> Iterator[Scalar]:
+def _values_on_span(forms: Codistribution, span: Span, point: FieldPoint | BallPoint, node: int) -> Iterator[Scalar]:
     """Values of a node at random velocities of a span, with dt = 1 where time is a column."""
     symbols, zero = forms.chart.symbols, point.number(ex.ZERO.args[0])
     for _ in range(VECTORS):

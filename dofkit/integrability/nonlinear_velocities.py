@@ -34,7 +34,7 @@ HIDDEN = "the constraints that are nonlinear in the velocities force a relation 
 FLAT = "the velocities that are allowed form flat pieces, which were not written as linear forms"
 
 
-def bend(block: Block, setting: Setting, result: Answer) -> None:
+def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None:
     """The velocity freedom: a Jacobian's rank by the velocities, at states of motion."""
     if not block.nonlinear or result.velocity_dof is None:
         return

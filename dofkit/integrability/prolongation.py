@@ -27,7 +27,7 @@ from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.codistribution import Codistribution
+from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 from dofkit.relations.setting import Setting
 
@@ -37,7 +37,7 @@ MAX_CHOICES, MAX_MINORS, MAX_SIZE = 400, 12, 8
 MAX_TOGETHER = 12
 
 
-def confined(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], ...] | None:
+def confinements(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], ...] | None:
     """Ways in which motion is confined where dt lies in the span of the rows; None where it does not."""
     if len(forms.chart.symbols) == forms.n:
         return None
@@ -61,10 +61,10 @@ def prolong(ways: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Exp
     """The branches of hidden relations; none where they cannot hold."""
     if not ways:
         return ((),)
-    return tuple(dict.fromkeys(branch for way in ways for branch in _together(way, setting)))
+    return tuple(dict.fromkeys(branch for way in ways for branch in _joint_branches(way, setting)))
 
 
-def _together(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, ...]]:
+def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, ...]]:
     """The branches on which all of some relations hold."""
     options = []
     for relation in relations:

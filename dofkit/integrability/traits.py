@@ -21,16 +21,16 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.normal_form import Finite, Inequality, Pfaffian, Piece, velocities_of
 from dofkit.relations.normal.zero_set import never_vanishes
 
-Told = tuple[bool | None, Verdict]
+TraitAnswer = tuple[bool | None, Verdict]
 
 
 @dataclass(frozen=True)
 class Traits:
     """The labels of one piece; ``catastatic`` and ``exact`` are None for what is not Pfaffian."""
 
-    scleronomic: Told
-    catastatic: Told | None = None
-    exact: Told | None = None
+    scleronomic: TraitAnswer
+    catastatic: TraitAnswer | None = None
+    exact: TraitAnswer | None = None
 
 
 def traits(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
@@ -41,7 +41,7 @@ def traits(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> 
     return Traits(still, catastatic(piece, positive, engines), exact(piece, positive, engines))
 
 
-def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
+def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
     """Time enters neither as t nor as dt, once factors that never vanish are taken out."""
     if isinstance(piece, Pfaffian):
         return _pfaffian_without_time(piece, positive, engines)
@@ -52,7 +52,7 @@ def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH
     return ex.TIME not in piece.expr.symbols and _homogeneous(piece.expr), "proved"
 
 
-def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -> Told:
+def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
     """dg/dt = 0 on g = 0."""
     if ex.TIME not in g.symbols or _factors_without_time(g, positive):
         return True, "proved"
@@ -95,7 +95,7 @@ def _factors_without_time(e: Expr, positive: frozenset[Expr]) -> bool:
     return all(ex.TIME not in f.symbols or never_vanishes(f, positive) for f in shown)
 
 
-def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> Told:
+def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
     still, sure = zero_and_verdict(form.dt, positive, engines)
     if not still:
         return still, sure
@@ -137,12 +137,12 @@ def _homogeneous(e: Expr) -> bool:
     return any(is_zero(radial - degree * e, frozenset()) for degree in range(7))
 
 
-def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
+def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
     """No dt term."""
     return zero_and_verdict(form.dt, positive, engines)
 
 
-def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> Told:
+def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
     """Closed as written: d(omega) = 0 in (q, t). Not integrability: x dy - y dx integrates and is not closed."""
     items = list(form.items())
     symbols = dict(items)

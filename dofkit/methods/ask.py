@@ -26,7 +26,7 @@ from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precision
 from dofkit.expressions import tree as ex
 from dofkit.methods.names import QUESTIONS, Question
-from dofkit.mobility.frameworks import left_out
+from dofkit.mobility.frameworks import unprescribed_links
 from dofkit.mobility.graph.answers import linkage
 from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
@@ -130,7 +130,7 @@ def _is_finite(r: Reduced) -> bool:
 
 def _by_graph(system: System, question: Question) -> Reply | None:
     """Links whose lengths were all left out are in general position: the graph answers. None for any other system."""
-    pairs = left_out(system)
+    pairs = unprescribed_links(system)
     if pairs is None:
         return None
     told = linkage([pair for _, pair in pairs], system.dimension)

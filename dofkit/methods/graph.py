@@ -11,7 +11,7 @@ from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply, cann
 from dofkit.methods.shared.reporting import many
 from dofkit.mobility.frameworks import framework_answer
 from dofkit.mobility.graph.answers import Linkage, linkage
-from dofkit.mobility.placement import general
+from dofkit.mobility.placement import general_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Row, split
@@ -51,7 +51,7 @@ def framework(system: System, pairs: list[tuple[int, tuple[str, str]]]) -> Linka
 def generic_rows(system: System, seed: int) -> tuple[list[SparseRow], list[int], int]:
     """(rows, the constraint of each, p): every connection at random places modulo p."""
     p = prime_for(1, (), seed)
-    placement = general(system, p, seed)
+    placement = general_placement(system, p, seed)
     rows: list[SparseRow] = []
     owners: list[int] = []
     for c, found in zip(system.connections, placement.located, strict=True):

@@ -51,7 +51,7 @@ def framework_answer(block: Block, setting: Setting) -> Answer | None:
     )
 
 
-def left_out(system: System) -> list[tuple[int, Pair]] | None:
+def unprescribed_links(system: System) -> list[tuple[int, Pair]] | None:
     """The ends of every link, with its constraint, of a system that is nothing but links whose lengths were left out.
 
     Each then has a length of its own that nothing prescribes. None for any other system.
@@ -78,7 +78,7 @@ def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
         return None
     of, places = _places(block.coordinates, setting)
     given = {i: iter(setting.links.get(i, ())) for i in {row.constraint for row in block.rows}}
-    pairs, lengths, free = list[Pair](), set[Expr](), _left_out(setting)
+    pairs, lengths, free = list[Pair](), set[Expr](), _unprescribed(setting)
     prescribed = []
     for row in block.rows:
         pair = next(given[row.constraint], None)
@@ -97,7 +97,7 @@ def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
     return None if prescribed and linkage(prescribed, setting.dimension).redundant else pairs
 
 
-def _left_out(setting: Setting) -> frozenset[Expr]:
+def _unprescribed(setting: Setting) -> frozenset[Expr]:
     """Squared lengths that nothing prescribes."""
     return frozenset(setting.generic) - setting.pose.keys()
 

@@ -20,7 +20,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.graph.answers import redundant_links
-from dofkit.mobility.placement import Placement, general
+from dofkit.mobility.placement import Placement, general_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.relations.blocks import Row
 from dofkit.relations.normal.normal_form import Finite
@@ -74,7 +74,7 @@ def _of_rows(system: System, given: Sequence[Row], setting: Setting) -> General:
     if written and any(r.chart == "euler" for r in system.rotations):
         return General(None, why=ANGLES)
     for seed in range(DRAWS):
-        drawn = _drawn_at_random(system, written, setting, seed)
+        drawn = _random_drawing(system, written, setting, seed)
         if drawn is None:
             continue
         placement, rows = drawn
@@ -93,16 +93,16 @@ def _as_texts(system: System, rows: Sequence[Row]) -> list[Row]:
     return [row for row in rows if row.constraint not in placed]
 
 
-def _drawn_at_random(
+def _random_drawing(
     system: System, written: Sequence[Row], setting: Setting, seed: int
 ) -> tuple[Placement, list[SparseRow]] | None:
     """Random places, and the rows of what is written as texts there; None where those have no value."""
     if not written:
-        return general(system, prime_for(1, (), seed), seed), []
+        return general_placement(system, prime_for(1, (), seed), seed), []
     ring = Ring([row.piece.expr for row in written if isinstance(row.piece, Finite)], setting.positive)
     nodes = [ring.node(row.piece.expr) for row in written if isinstance(row.piece, Finite)]
     point = field_point([ring], seed)
-    placement = general(system, point.p, seed)
+    placement = general_placement(system, point.p, seed)
     for symbol, value in _values(system, placement).items():
         index = ring.var_index(symbol)
         if index is not None:

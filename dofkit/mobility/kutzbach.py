@@ -58,7 +58,7 @@ def full(system: System) -> int:
     return system.dimension * (system.dimension + 1) // 2
 
 
-def mobility(
+def kutzbach_count(
     system: System, equations: Sequence[int], others: int, freedom: int | None, drawn: Drawing
 ) -> Mobility | None:
     """The count beside the ``freedom``; ``others`` are the equations that are no inequality's, joints' included."""

@@ -71,13 +71,13 @@ def _about_middles(j: Any, placement: Placement, dimension: int) -> Any:
 def _points(placement: Placement) -> dict[int, tuple[Member, Any]]:
     """The places at which each member is held, by its first column."""
     found: dict[int, tuple[Member, list[Any]]] = {}
-    for member, at in _held(placement):
+    for member, at in _places_held(placement):
         if member.column is not None:
             found.setdefault(member.column, (member, []))[1].append(at)
     return {column: (member, np.array(points, dtype=float)) for column, (member, points) in found.items()}
 
 
-def _held(placement: Placement) -> Iterator[tuple[Member, tuple[Any, ...]]]:
+def _places_held(placement: Placement) -> Iterator[tuple[Member, tuple[Any, ...]]]:
     for connection in placement.located:
         yield from connection.points
         yield from ((member, at) for at in connection.places for member in connection.members)

@@ -40,7 +40,7 @@ class Placement:
     places: Mapping[str, Numbers]
 
 
-def drawn(system: System, positive: frozenset[Expr]) -> Placement | None:
+def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
     """The connections where they are drawn, roots and angles as exact numbers modulo p; what is not given is random."""
     wanted = {part for vector in _vectors(system) for part in vector}
     wanted |= {c.number for c in system.connections if c.number is not None}
@@ -53,23 +53,23 @@ def drawn(system: System, positive: frozenset[Expr]) -> Placement | None:
             known = {e: int(at[node]) for e, node in nodes.items()}
         except NoValueError:
             continue
-        return _placed(system, _Drawn(point.p, known))
+        return _placement(system, _Drawn(point.p, known))
     return None
 
 
-def measured(system: System) -> Placement | None:
+def measured_placement(system: System) -> Placement | None:
     """The drawing in floating point, lengths in units of the scene's size; None where it holds parameters."""
     wanted = {part for vector in _vectors(system) for part in vector}
     wanted |= {c.number for c in system.connections if c.number is not None}
     known = {e: approximate(e) for e in wanted}
     if None in known.values():
         return None
-    return _placed(system, _Drawn(0, {e: float(v or 0) / system.size for e, v in known.items()}))
+    return _placement(system, _Drawn(0, {e: float(v or 0) / system.size for e, v in known.items()}))
 
 
-def general(system: System, p: int, seed: int = 0) -> Placement:
+def general_placement(system: System, p: int, seed: int = 0) -> Placement:
     """The same connections with everything given in general position: random, but what is one point stays one."""
-    return _placed(system, _General(p, system, seed))
+    return _placement(system, _General(p, system, seed))
 
 
 class _Drawn:
@@ -153,7 +153,7 @@ def _vectors(system: System) -> Iterator[Vector]:
         yield from (vector for vector in given if vector is not None)
 
 
-def _placed(system: System, numbers: _Drawn | _General) -> Placement:
+def _placement(system: System, numbers: _Drawn | _General) -> Placement:
     d = system.dimension
     first: dict[str, int] = {}
     for k, c in enumerate(system.coordinates):
@@ -162,12 +162,12 @@ def _placed(system: System, numbers: _Drawn | _General) -> Placement:
     members = {name: Member(first[name]) for name in system.particles}
     members |= {name: Member(first[name], numbers.vector(start, d)) for name, start in system.starts.items()}
     members[GROUND] = Member(None)
-    located = tuple(_located(c, members, numbers, d) for c in system.connections)
+    located = tuple(_located_connection(c, members, numbers, d) for c in system.connections)
     places = {name: numbers.point(DrawnPoint(name, None, particle=True), d) for name in system.particles}
     return Placement(numbers.p, members, located, places)
 
 
-def _located(c: Connection, members: Mapping[str, Member], numbers: _Drawn | _General, d: int) -> Located:
+def _located_connection(c: Connection, members: Mapping[str, Member], numbers: _Drawn | _General, d: int) -> Located:
     wanted = max(len(c.directions), c.facts.directions)
     return Located(
         c.facts,

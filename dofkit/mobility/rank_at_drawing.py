@@ -15,7 +15,7 @@ from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import doubt
 from dofkit.expressions.tree import TIME, Expr, coordinate
-from dofkit.mobility.placement import Placement, drawn
+from dofkit.mobility.placement import Placement, drawn_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.system import GROUND, System
 
@@ -42,7 +42,7 @@ def drawn_rank(system: System, positive: frozenset[Expr]) -> DrawnRank | None:
         return None
     if doubt(Ring([e for e in _numbers(system) if e.op != "num"], positive)) is not None:
         return None
-    placement = drawn(system, positive)
+    placement = drawn_placement(system, positive)
     if placement is None:
         return None
     rows: list[SparseRow] = []

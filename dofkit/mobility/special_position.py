@@ -72,17 +72,19 @@ class Geometry:
         return self.zero(_dot(_line(a), cross(_line(b), _line(c))))
 
 
-def special(system: System, placement: Placement, sets: Sequence[Sequence[int]], tolerance: float = 0.0) -> list[str]:
+def special_facts(
+    system: System, placement: Placement, sets: Sequence[Sequence[int]], tolerance: float = 0.0
+) -> list[str]:
     """What is special in each dependent set of constraints, as text; told once."""
     geometry = Geometry(system, placement, tolerance)
     found: list[str] = []
     for members in sets:
         own = [system.connections[i] for i in members]
-        found += _facts(geometry, own)
+        found += _facts_of_set(geometry, own)
     return list(dict.fromkeys(found)) or [_OTHERWISE]
 
 
-def _facts(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
+def _facts_of_set(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
     axes = list(_axes(g, own))
     bars = [*_links(g, own), *_bars(g, own)]
     if len(axes) > MOST or len(bars) > MOST:
@@ -107,15 +109,15 @@ def _of_axes(g: Geometry, axes: Sequence[DrawnLine]) -> Iterator[str]:
     alike = [c for c in classes if len(c) > 1]
     for same in alike:
         coaxial = [c for c in _classes(same, lambda a, b: g.on(a, b.through)) if len(c) > 1]
-        yield from (f"the axes of {_listed(c)} lie on one line" for c in coaxial)
+        yield from (f"the axes of {_names_of(c)} lie on one line" for c in coaxial)
         if len(coaxial) != 1 or len(coaxial[0]) < len(same):
-            yield f"the axes of {_listed(same)} are parallel"
+            yield f"the axes of {_names_of(same)} are parallel"
     if len(axes) > 2 and len(classes) > 1 and _in_one_plane(g, axes):
-        yield f"the axes of {_listed(axes)} lie in one plane"
+        yield f"the axes of {_names_of(axes)} lie in one plane"
         return
     through = _through_one_point(g, [c[0] for c in classes])
     if len(through) > 2:
-        yield f"the axes of {_listed([a for a in axes if any(a is b for b in through)])} meet in one point"
+        yield f"the axes of {_names_of([a for a in axes if any(a is b for b in through)])} meet in one point"
 
 
 def _in_one_plane(g: Geometry, axes: Sequence[DrawnLine]) -> bool:
@@ -147,7 +149,7 @@ def _of_slides(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
     ]
     for same in _classes(slides, lambda a, b: g.parallel(a.direction, b.direction)):
         if len(same) > 1:
-            yield f"{_listed(same)} slide in parallel directions"
+            yield f"{_names_of(same)} slide in parallel directions"
     if (
         g.system.dimension == 3
         and len(slides) > 2
@@ -155,7 +157,7 @@ def _of_slides(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
             not g.zero(_dot(a.direction, cross(b.direction, c.direction))) for a, b, c in combinations(slides[:MOST], 3)
         )
     ):
-        yield f"{_listed(slides)} slide parallel to one plane"
+        yield f"{_names_of(slides)} slide parallel to one plane"
 
 
 def _links(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
@@ -169,7 +171,7 @@ def _links(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
         if not c.facts.bars:
             continue
         for (k, p), (m, q) in combinations(enumerate(at.points), 2):
-            ends = (_called(c, k), _called(c, m))
+            ends = (_name_of_point(c, k), _name_of_point(c, m))
             name = "-".join(ends) if c.facts.complete else g.names[c.constraint]
             direction = _less(q[1], p[1])
             if not g.zero(*direction):
@@ -204,14 +206,14 @@ def _of_bars(g: Geometry, bars: Sequence[DrawnLine], own: Sequence[Connection]) 
     for same in _classes(bars, lambda a, b: g.parallel(a.direction, b.direction)):
         apart = [c[0] for c in _classes(same, lambda a, b: g.on(a, b.through))]
         if len(apart) > 2:
-            yield f"{_listed(same)} are parallel"
+            yield f"{_names_of(same)} are parallel"
     if g.system.dimension == 2:
         for triple in combinations(bars[:MOST], 3):
             a, b, c = triple
             if a.ends & b.ends or b.ends & c.ends or a.ends & c.ends or g.parallel(a.direction, b.direction):
                 continue
             if g.concurrent(a, b, c):
-                yield f"the lines of {_listed(triple)} meet in one point"
+                yield f"the lines of {_names_of(triple)} meet in one point"
                 break
     yield from _of_places(g, own)
     for a, b in combinations(bars, 2):
@@ -227,7 +229,7 @@ def _of_points(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
     for c in own:
         at = g.placement.located[c.constraint]
         if c.facts.bars:
-            points |= {_called(c, k): place for k, (_, place) in enumerate(at.points)}
+            points |= {_name_of_point(c, k): place for k, (_, place) in enumerate(at.points)}
     if len(points) > MOST:
         return
     first, *rest = points.values() or [()]
@@ -245,7 +247,7 @@ def _of_points(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
             yield f"the points {', '.join(points)} lie on one conic"
 
 
-def _called(c: Connection, k: int) -> str:
+def _name_of_point(c: Connection, k: int) -> str:
     point = c.points[k]
     return point.carrier if point.particle or point.at is None else _text(point.at)
 
@@ -266,7 +268,7 @@ def _classes(lines: Sequence[DrawnLine], same: Callable[[DrawnLine, DrawnLine], 
     return found
 
 
-def _listed(lines: Sequence[DrawnLine]) -> str:
+def _names_of(lines: Sequence[DrawnLine]) -> str:
     names = list(dict.fromkeys(line.name for line in lines))
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 

@@ -71,11 +71,11 @@ def why(system: System, facts: CountedFacts, naive: int) -> str | None:
         complete = complete_sets(system)
         reasons += complete
     if facts.dof < naive:
-        reasons += _unseen(facts)
+        reasons += _why_fewer(facts)
     return "; ".join(reasons)
 
 
-def _unseen(facts: CountedFacts) -> list[str]:
+def _why_fewer(facts: CountedFacts) -> list[str]:
     """What takes freedom away and is no finite equation as written."""
     forms = [e for e in facts.entries if e.form in ("pfaffian", "nonlinear")]
     integrable = [e.name for e in forms if e.holonomic]

@@ -14,7 +14,7 @@ import dofkit
 from dofkit.configuration.drawing import at_reference as local
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.interface.show.terminal import as_text
-from dofkit.mobility.placement import drawn
+from dofkit.mobility.placement import drawn_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.report import Report
 from dofkit.scene.constraints import TYPES
@@ -228,7 +228,7 @@ def test_without_a_drawing_there_is_no_general_position_beside_it() -> None:
 
 def drawn_rank(system: System) -> int | None:
     """The rank of all connections' relations between twists, where they are drawn."""
-    placement = drawn(system, frozenset())
+    placement = drawn_placement(system, frozenset())
     assert placement is not None
     p = placement.p
     rows = []

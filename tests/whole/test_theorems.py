@@ -1,6 +1,6 @@
 """The theorems that decide: each key that the code names is a line of `THEOREMS.md`, and each line names its files.
 
-``python tests/test_theorems.py`` writes the column "where used" again.
+``python tests/whole/test_theorems.py`` writes the column "where used" again.
 """
 
 from __future__ import annotations

@@ -17,12 +17,12 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.codistribution import Codistribution, codistribution, first_order
 from dofkit.integrability.labels_by_balls import ball_labels
 from dofkit.integrability.labels_by_field import field_labels
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, span_at
-from dofkit.integrability.nonlinear_velocities import bend
-from dofkit.integrability.prolongation import confined, prolong
+from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
+from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
+from dofkit.integrability.prolongation import confinements, prolong
 from dofkit.mobility.frameworks import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
@@ -85,7 +85,7 @@ def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
 def _mixed_answer(block: Block, setting: Setting) -> Answer:
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None:
-        result.instantaneous = first_order(block, setting, setting.reference)
+        result.instantaneous = first_order_freedom(block, setting, setting.reference)
     return result
 
 
@@ -100,7 +100,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
         if not found.consistent or (not found.samples and found.real is None):
             result.consistent, result.verdict, result.hidden = found.consistent, found.verdict, extra
             return result
-        new = confined(forms, found)
+        new = confinements(forms, found)
         if new is None:
             return replace(_with_spans(block, forms, found, extra, setting), doubt=result.doubt)
         outcome = prolong(new, setting)
@@ -130,11 +130,11 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
         good = _spans(forms, found)
         if good:
             field_labels(block, forms, found, good, result, setting)
-            bend(block, setting, result)
+            set_velocity_freedom(block, setting, result)
             return result
     if found.real is not None and found.real.certified:
         ball_labels(block, forms, found.real, result)
-        bend(block, setting, result)
+        set_velocity_freedom(block, setting, result)
         return result
     result.verdict, result.consistent = "undecided", None
     result.reasons.append("no regular point was found to look at the differential constraints")

@@ -12,7 +12,7 @@ from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import alike, retold
 from dofkit.classification.freedom.through_reference import through_reference
 from dofkit.expressions import tree as ex
-from dofkit.integrability.modulo_others import verified
+from dofkit.integrability.modulo_others import with_reductions_checked
 from dofkit.relations.answer import Answer
 from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split
@@ -135,7 +135,7 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
     if why or (len(outcomes) > 1 and any(a.late for o in outcomes for a in o.answers)):
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
-        best.answers = verified(best.reduced, best.blocks, best.answers, setting)
+        best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
     return best
 
 

@@ -10,7 +10,7 @@ from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.differentials import accelerations_of
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.accelerations import second_order
+from dofkit.integrability.accelerations import without_accelerations
 from dofkit.relations.normal.normal_form import Inequality, Normal, normalise, without_instants
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
@@ -71,7 +71,7 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
 
 def _normal(e: Expr, positive: frozenset[Expr], written: bool, fresh: Iterator[str]) -> Normal:
     if accelerations_of(e):
-        return second_order(e, positive, fresh)
+        return without_accelerations(e, positive, fresh)
     return without_instants(normalise(e, positive, written))
 
 

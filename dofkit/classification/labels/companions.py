@@ -9,8 +9,8 @@ from itertools import chain, count, islice
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.block import answer
 from dofkit.expressions.text import to_text
-from dofkit.integrability.codistribution import codistribution
-from dofkit.integrability.first_integrals import FirstIntegral, assigned, first_integrals
+from dofkit.integrability.first_integrals import FirstIntegral, first_integrals, integral_by_row
+from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.normal.normal_form import Pfaffian
@@ -129,7 +129,7 @@ class Companionship:
         sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
         integrals = first_integrals(forms, sought)
         shift = forms.finite - len(part.finite)
-        by_row = assigned(forms, integrals)
+        by_row = integral_by_row(forms, integrals)
         return CompanionIntegrals({numbers[row - shift]: f for row, f in by_row.items()}, integrals)
 
 

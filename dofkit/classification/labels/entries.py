@@ -16,7 +16,7 @@ from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
 from dofkit.classification.labels.reasons import Others
-from dofkit.integrability.modulo_others import label
+from dofkit.integrability.modulo_others import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Row, coordinates_of
@@ -170,7 +170,7 @@ def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list
             if isinstance(row.piece, Nonlinear):
                 told[row.constraint].append(LabelledRow(row, None, a, block))
     for slot in outcome.reduced:
-        found, a = label(slot, outcome.blocks, outcome.answers, setting)
+        found, a = label_modulo_others(slot, outcome.blocks, outcome.answers, setting)
         told[slot.written.constraint].append(LabelledRow(slot.written, found, a, reduced=True))
     for i, original in outcome.copies.items():
         told[i] = [LabelledRow(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in told[original]]

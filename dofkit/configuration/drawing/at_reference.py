@@ -195,13 +195,13 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
     if part.gap > CLEAR:
         frame = Pivots(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
         manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
-        local = _at_fixed_time(_followed(manifold, rigid, chart.time), timed)
+        local = _at_fixed_time(_dimension_along_curves(manifold, rigid, chart.time), timed)
     shown = sparse(dependencies(matrix, part))
     names = tuple(of_q.columns) if rank == of_q.rank else ()
     return AtReference(n - of_q.rank, local, shown, 2, rank, rigid, ball, names)
 
 
-def _followed(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
+def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
     try:
         return numeric_dimension(manifold, rigid, time)
     except NoValueError:

@@ -37,7 +37,7 @@ FEWEST = 3
 Point = tuple[Fraction, ...]
 
 
-class Said(NamedTuple):
+class ReducibleRelation(NamedTuple):
     """A relation, and the reduction that may use it."""
 
     relation: Expr
@@ -49,7 +49,7 @@ def smaller(chart: Chart, drawing: Mapping[Expr, Expr]) -> tuple[Chart, int]:
 
     Free are those that no relation mentions any more: the set is a product with a line for each.
     """
-    said = [Said(g, k) for g, k in zip(chart.relations, chart.kinds, strict=True)]
+    said = [ReducibleRelation(g, k) for g, k in zip(chart.relations, chart.kinds, strict=True)]
     if len(said) != len(chart.nodes) or chart.time is not None:
         return chart, 0
     if "clusters" in chart.reductions:
@@ -78,10 +78,10 @@ def smaller(chart: Chart, drawing: Mapping[Expr, Expr]) -> tuple[Chart, int]:
 # Explicit coordinates
 
 
-def _without_explicit(chart: Chart, said: Sequence[Said]) -> tuple[set[Expr], list[Said]]:
+def _without_explicit(chart: Chart, said: Sequence[ReducibleRelation]) -> tuple[set[Expr], list[ReducibleRelation]]:
     """The coordinates that relations give explicitly, and what is left of the relations without them."""
     own = frozenset(chart.symbols)
-    left: dict[int, Said] = dict(enumerate(said))
+    left: dict[int, ReducibleRelation] = dict(enumerate(said))
     users: dict[Expr, set[int]] = {}
     for i, s in left.items():
         for symbol in s.relation.symbols & own:
@@ -126,7 +126,9 @@ def _explicit(e: Expr, own: frozenset[Expr], users: Mapping[Expr, set[int]]) -> 
 # Rigid clusters
 
 
-def _as_bodies(chart: Chart, said: Sequence[Said], drawing: Mapping[Expr, Expr]) -> list[Said]:
+def _as_bodies(
+    chart: Chart, said: Sequence[ReducibleRelation], drawing: Mapping[Expr, Expr]
+) -> list[ReducibleRelation]:
     """The relations with the links of every rigid cluster of the plane replaced by those of one body."""
     places = _places(chart)
     pairs: dict[int, tuple[str, str]] = {}
@@ -137,11 +139,11 @@ def _as_bodies(chart: Chart, said: Sequence[Said], drawing: Mapping[Expr, Expr])
     if len(pairs) < FEWEST:
         return list(said)
     found = dict(enumerate(said))
-    more: list[Said] = []
+    more: list[ReducibleRelation] = []
     for cluster in linkage(pairs.values(), 2).clusters:
         members = [str(name) for name in cluster]
         within = [i for i, ends in pairs.items() if i in found and set(ends) <= set(members)]
-        at = {name: _drawn(places[name], drawing) for name in members}
+        at = {name: _point_drawn(places[name], drawing) for name in members}
         stands = {name: p for name, p in at.items() if p is not None}
         if len(members) < FEWEST or len(stands) < len(members) or not _rigid([pairs[i] for i in within], stands):
             continue
@@ -161,7 +163,7 @@ def _places(chart: Chart) -> dict[str, tuple[Expr, ...]]:
     return {owner: (own["x"], own["y"]) for owner, own in found.items() if own.keys() == {"x", "y"}}
 
 
-def _drawn(place: Sequence[Expr], drawing: Mapping[Expr, Expr]) -> Point | None:
+def _point_drawn(place: Sequence[Expr], drawing: Mapping[Expr, Expr]) -> Point | None:
     """Where a particle stands, in rational numbers."""
     values = [v.args[0] for s in place if (v := drawing.get(s)) is not None and v.op == "num"]
     return tuple(values) if len(values) == len(place) else None
@@ -182,21 +184,23 @@ def _residue(value: Fraction) -> int:
     return value.numerator * pow(value.denominator, -1, PRIME) % PRIME
 
 
-def _one_body(members: Sequence[str], at: Mapping[str, Point], places: Mapping[str, Sequence[Expr]]) -> list[Said]:
+def _one_body(
+    members: Sequence[str], at: Mapping[str, Point], places: Mapping[str, Sequence[Expr]]
+) -> list[ReducibleRelation]:
     """The first two particles keep their distance; the others follow them."""
     a, b = members[0], next(m for m in members if at[m] != at[members[0]])
     (dx, dy), squared = _from(at[a], at[b]), _squared(at[a], at[b])
     (xa, ya), (xb, yb) = places[a], places[b]
     along = ex.power(xb - xa, ex.TWO) + ex.power(yb - ya, ex.TWO) - ex.num(squared)
-    said = [Said(along, "clusters")]
+    said = [ReducibleRelation(along, "clusters")]
     for name in members:
         if name in (a, b):
             continue
         ux, uy = _from(at[a], at[name])
         s, t = (ux * dx + uy * dy) / squared, (uy * dx - ux * dy) / squared
         x, y = places[name]
-        said.append(Said(_sum((x, -1), (xa, 1 - s), (ya, t), (xb, s), (yb, -t)), "clusters"))
-        said.append(Said(_sum((y, -1), (ya, 1 - s), (xa, -t), (yb, s), (xb, t)), "clusters"))
+        said.append(ReducibleRelation(_sum((x, -1), (xa, 1 - s), (ya, t), (xb, s), (yb, -t)), "clusters"))
+        said.append(ReducibleRelation(_sum((y, -1), (ya, 1 - s), (xa, -t), (yb, s), (xb, t)), "clusters"))
     return said
 
 

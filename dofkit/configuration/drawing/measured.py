@@ -188,7 +188,7 @@ def _rank_away(drawn: _MeasuredDrawing, stride: float, seed: int) -> int | None:
     scene, at, tolerance = drawn.scene, drawn.at, drawn.tolerance
     rng = random.Random(f"dofkit measured {seed}")
     _, _, right = np.linalg.svd(drawn.j)
-    null = _beside(right[drawn.rank :], scene.whole(at), tolerance)
+    null = _without_the_whole(right[drawn.rank :], scene.whole(at), tolerance)
     direction = np.array([rng.uniform(-1, 1) for _ in null]) @ null
     direction *= stride / np.linalg.norm(direction)
     moved = {**at}
@@ -224,7 +224,7 @@ def _own(whole: Any, tolerance: float) -> Any:
     return np.vstack([shifts, right[: int(np.sum(singular > tolerance * SLACK))]])
 
 
-def _beside(null: Any, whole: Any, tolerance: float) -> Any:
+def _without_the_whole(null: Any, whole: Any, tolerance: float) -> Any:
     """The null space less the motions of the whole: those are motions anyway."""
     if not whole.size:
         return null

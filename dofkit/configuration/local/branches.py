@@ -33,13 +33,13 @@ def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | 
     """
     try:
         here = Neighbourhood(ball)
-        starts = _beginnings(here, forms)
+        starts = _tangents(here, forms)
     except FAULTS:
         return None
     best = None
     for direction in starts:
         check()
-        found = _followed(here, direction)
+        found = _dimension_along(here, direction)
         if found is not None and (best is None or found > best):
             best = found
         if best is not None and best >= wanted:
@@ -47,7 +47,7 @@ def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | 
     return best
 
 
-def _beginnings(here: Neighbourhood, forms: Sequence[Form]) -> list[np.ndarray]:
+def _tangents(here: Neighbourhood, forms: Sequence[Form]) -> list[np.ndarray]:
     """Unit tangents of M at the point on which all forms are 0, from random ones by Gauss-Newton."""
     ball = here.ball
     tangent = np.zeros((len(here.place), ball.dimension))
@@ -85,7 +85,7 @@ def _null(forms: np.ndarray, v: np.ndarray) -> np.ndarray | None:
     return v / np.linalg.norm(v) if float(np.max(np.abs((forms @ v) @ v))) < 1e-10 else None
 
 
-def _followed(here: Neighbourhood, direction: np.ndarray) -> int | None:
+def _dimension_along(here: Neighbourhood, direction: np.ndarray) -> int | None:
     dimension: int | None = None
     for distance in DISTANCES:
         try:

@@ -40,7 +40,7 @@ def split(forms: Sequence[Form]) -> Split:
     return Split(tuple(rows[a] for a in kept), tuple(solved), tuple(c for c in range(m) if c not in set(solved)))
 
 
-def along(
+def series_on_critical(
     manifold: Manifold, forms: Sequence[Form], parts: Split, direction: Sequence[Scalar], order: int
 ) -> list[Series]:
     """The dependent relations along the curve of N whose free coordinates are start + s direction."""

@@ -26,7 +26,7 @@ class _Weights:
         dependent = {manifold.columns[c] for c in manifold.frame.dependent}
         self.explicit: dict[int, list[int]] = {}
         for row in manifold.rows:
-            for column, rest in _given(self.ring, row):
+            for column, rest in _explicit_columns(self.ring, row):
                 if column in dependent and column not in self.explicit:
                     self.explicit[column] = rest
                     break
@@ -55,19 +55,19 @@ class _Weights:
         return self.known[column]
 
 
-def _given(ring: Ring, row: int) -> Iterable[tuple[int, list[int]]]:
+def _explicit_columns(ring: Ring, row: int) -> Iterable[tuple[int, list[int]]]:
     """(column, the other terms) for each column that a sum holds linearly, in one term, with a number."""
     op, terms = ring.code[row]
     if op != ADD:
         return
     for term in terms:
-        column = _alone(ring, term)
+        column = _column_of(ring, term)
         rest = [t for t in terms if t != term]
         if column is not None and ring.var_node[column] not in reachable(ring, rest):
             yield column, rest
 
 
-def _alone(ring: Ring, term: int) -> int | None:
+def _column_of(ring: Ring, term: int) -> int | None:
     op, payload = ring.code[term]
     if op == MUL:
         left = [i for i in payload if ring.code[i][0] != NUM]

@@ -82,7 +82,7 @@ def isolated_zero(germ: Germ) -> Conclusion:
     """An analytic function of one variable that is not 0 has isolated zeros: the set is the orbit [IsolatedZeros]."""
     why = "the one motion left to first order breaks a relation"
     if germ.exact:
-        first = min(k for s in germ.along for k in range(germ.order) if s.coefficient(k) != 0)
+        first = min(k for s in germ.series for k in range(germ.order) if s.coefficient(k) != 0)
         why = f"{why} at order {first}"
     return Conclusion(germ.rigid, why, germ.time is not None)
 

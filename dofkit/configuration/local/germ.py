@@ -83,14 +83,14 @@ class Germ:
         return max(LONG_ORDER if few else ORDER, self.degree + 1)
 
     @cached_property
-    def along(self) -> list[Series]:
+    def series(self) -> list[Series]:
         """The dependent relations along a random curve of M."""
         return self.manifold.follow(random_direction(self.manifold), self.order)
 
     @cached_property
     def vanishes(self) -> bool:
         """Are they 0 along it, to the order?"""
-        return all(is_zero(s.coefficient(k)) for s in self.along for k in range(self.order))
+        return all(is_zero(s.coefficient(k)) for s in self.series for k in range(self.order))
 
     @cached_property
     def vanishes_away(self) -> bool | None:
@@ -127,7 +127,7 @@ class Germ:
         """The dependent relations along a random curve of N."""
         assert self.field is not None
         direction = [self.field.base.random() for _ in self.parts.free]
-        return critical_set.along(self.field, self.forms, self.parts, direction, CRITICAL_ORDER)
+        return critical_set.series_on_critical(self.field, self.forms, self.parts, direction, CRITICAL_ORDER)
 
     @cached_property
     def remainder_order(self) -> int | None:
@@ -142,7 +142,9 @@ class Germ:
         rng, found = self.ball.base.rng, set[int]()
         for _ in range(DIRECTIONS):
             direction = [arb(rng.choice((-1, 1)) * rng.randrange(64, 512)) / 256 for _ in self.parts.free]
-            series = critical_set.along(self.ball, self.signs, self.parts, direction, self.remainder_order + 1)[0]
+            series = critical_set.series_on_critical(
+                self.ball, self.signs, self.parts, direction, self.remainder_order + 1
+            )[0]
             value = series.coefficient(self.remainder_order)
             found |= set() if value.contains(0) else {1 if value > 0 else -1}
         return found

@@ -21,6 +21,9 @@ class Proof(NamedTuple):
 class GraphAnswer(Protocol):
     """A graph of links in general position. Joints and links are numbers from 0, links in the order given."""
 
+    def __init__(self, joints: int, ends: Sequence[int]) -> None:
+        """``joints`` of them; link i lies between ``ends[2 i]`` and ``ends[2 i + 1]``."""
+
     @property
     def redundant(self) -> list[int]:
         """The links that those before them make superfluous, ascending."""

@@ -11,19 +11,22 @@ Plain graphs in, no scene needed. `linkage` answers everything about a graph, `r
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from dofkit.mobility.graph.answer import GraphAnswer, Proof
-from dofkit.mobility.graph.line import LineGraph
 from dofkit.mobility.graph.links import Joint, Link, LinkageError, read
-from dofkit.mobility.graph.plane import PlaneGraph
 from dofkit.mobility.graph.result import Group, Hinge, Linkage
 
 if TYPE_CHECKING:
     import networkx as nx
 
 __all__ = ["Group", "Hinge", "Linkage", "LinkageError", "Proof", "linkage", "redundant_links"]
+
+
+#: What answers in each dimension, and where it lives: imported when it is first asked for.
+_GRAPHS = {1: ("line", "LineGraph"), 2: ("plane", "PlaneGraph"), 3: ("space", "SpaceGraph")}
 
 
 def linkage(links: Iterable[Link] | nx.Graph[Any], dimension: int = 2, joints: Iterable[Joint] = ()) -> Linkage:
@@ -40,8 +43,7 @@ def linkage(links: Iterable[Link] | nx.Graph[Any], dimension: int = 2, joints: I
     if not isinstance(dimension, int) or dimension not in (1, 2, 3):
         raise LinkageError(f"links lie in 1, 2 or 3 dimensions, not {dimension!r}")
     graph = read(links, joints)
-    solved = _solved(dimension, len(graph.joints), graph.ends)
-    return Linkage(dimension, graph, solved)
+    return Linkage(dimension, graph, _graph_of(dimension)(len(graph.joints), graph.ends))
 
 
 def redundant_links(links: Iterable[Link] | nx.Graph[Any], dimension: int) -> list[Link]:
@@ -56,11 +58,7 @@ def redundant_links(links: Iterable[Link] | nx.Graph[Any], dimension: int) -> li
     return linkage(links, dimension).redundant
 
 
-def _solved(dimension: int, joints: int, ends: Sequence[int]) -> GraphAnswer:
-    if dimension == 1:
-        return LineGraph(joints, ends)
-    if dimension == 2:
-        return PlaneGraph(joints, ends)
-    from dofkit.mobility.graph.space import SpaceGraph
-
-    return SpaceGraph(joints, ends)
+def _graph_of(dimension: int) -> type[GraphAnswer]:
+    module, name = _GRAPHS[dimension]
+    found: type[GraphAnswer] = getattr(import_module(f"dofkit.mobility.graph.{module}"), name)
+    return found

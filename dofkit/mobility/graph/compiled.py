@@ -39,7 +39,7 @@ class Engine:
             return [value] * size
         return np.full(size, value, dtype=np.int32)
 
-    def taken(self, values: Iterable[int]) -> Any:
+    def array(self, values: Iterable[int]) -> Any:
         """The values as an array."""
         if not self.compiled:
             return values.tolist() if isinstance(values, np.ndarray) else list(values)

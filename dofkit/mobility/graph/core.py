@@ -62,12 +62,12 @@ def core_of(links: Sequence[int], ends: Ends, seed: str) -> Core:
     pairs = [(joints[ends[i][0]], joints[ends[i][1]]) for i in links]
     rng = np.random.default_rng(list(seed.encode()))
     at = residues(rng.integers(0, p, (len(joints), 3)).astype(float), p)
-    solved = _solved_first(pairs, at, p) if len(links) <= 4 * len(joints) else []
+    solved = _joints_solved_for(pairs, at, p) if len(links) <= 4 * len(joints) else []
     factors, columns = _factors(pairs, at, solved, p)
     if factors.rank == len(columns):
         circuits = {}
     elif solved:
-        circuits = _taken_back(factors, columns, solved, len(pairs), p)
+        circuits = _circuits_of_links(factors, columns, solved, len(pairs), p)
     else:
         others, carry = factors.dependencies()
         circuits = {c: [factors.independent[k] for k in np.flatnonzero(carry[:, j])] for j, c in enumerate(others)}
@@ -77,7 +77,7 @@ def core_of(links: Sequence[int], ends: Ends, seed: str) -> Core:
     return Core(tuple(links), joints, named, p, at, motions)
 
 
-def _solved_first(pairs: Sequence[tuple[int, int]], at: Any, p: int) -> list[_Solved]:
+def _joints_solved_for(pairs: Sequence[tuple[int, int]], at: Any, p: int) -> list[_Solved]:
     """Joints of few links, no two of them neighbours, those of fewest links first."""
     own: list[list[int]] = [[] for _ in at]
     for i, (a, b) in enumerate(pairs):
@@ -91,14 +91,14 @@ def _solved_first(pairs: Sequence[tuple[int, int]], at: Any, p: int) -> list[_So
             continue
         neighbours = [pairs[i][0] + pairs[i][1] - v for i in own[v]]
         arms = residues(at[v] - at[neighbours], p)
-        carry = _carried(arms, p)
+        carry = _carry(arms, p)
         if carry is not None:
             near.update(neighbours)
             found.append(_Solved(v, own[v][:3], own[v][3:], carry))
     return found
 
 
-def _carried(arms: Any, p: int) -> Any:
+def _carry(arms: Any, p: int) -> Any:
     """Coefficients c with arm_j = c_j1 arm_1 + c_j2 arm_2 + c_j3 arm_3, j > 3; None where those three are special."""
     if len(arms) < 3:
         return None
@@ -130,7 +130,7 @@ def _factors(
     return factored(residues(matrix, p), p), columns
 
 
-def _taken_back(
+def _circuits_of_links(
     factors: Factored, columns: Sequence[int], solved: Sequence[_Solved], links: int, p: int
 ) -> dict[int, list[int]]:
     """The dependences among all links, then in the order of the links: of each the last is the redundant one."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-KERNELS = ("top", "span", "incidence", "root", "close")
+KERNELS = ("top", "span", "root", "close")
 
 
 def top(parent: Any, v: int) -> int:
@@ -23,22 +23,6 @@ def span(parent: Any, ends: Any, dependent: Any) -> None:
             dependent[i] = 1
         else:
             parent[b] = a
-
-
-def incidence(ends: Any, dependent: Any, start: Any, at: Any, degree: Any) -> None:
-    """``at[start[v] : start[v + 1]]``: the links of joint v that are in the forest, ``degree[v]`` of them."""
-    for i in range(len(dependent)):
-        if not dependent[i]:
-            degree[ends[2 * i]] += 1
-            degree[ends[2 * i + 1]] += 1
-    for v in range(len(degree)):
-        start[v + 1] = start[v] + degree[v]
-        degree[v] = 0
-    for i in range(len(dependent)):
-        if not dependent[i]:
-            for v in (ends[2 * i], ends[2 * i + 1]):
-                at[start[v] + degree[v]] = i
-                degree[v] += 1
 
 
 def root(ends: Any, start: Any, at: Any, up: Any, depth: Any, queue: Any) -> None:

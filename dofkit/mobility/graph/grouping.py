@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 
-def gathered(labels: Sequence[int]) -> list[list[int]]:
+def places_by_label(labels: Sequence[int]) -> list[list[int]]:
     """The places of each label, in the order in which the labels first occur.
 
-    >>> gathered([5, 3, 5])
+    >>> places_by_label([5, 3, 5])
     [[0, 2], [1]]
     """
     found: dict[int, list[int]] = {}
@@ -27,10 +27,10 @@ def ascending(numbers: Any) -> list[int]:
     return found
 
 
-def connected(sets: Iterable[Sequence[int]]) -> list[list[int]]:
+def components(sets: Iterable[Sequence[int]]) -> list[list[int]]:
     """Sets that share a member are one; members ascending, sets by their first.
 
-    >>> connected([[1, 4], [2, 3], [4, 0]])
+    >>> components([[1, 4], [2, 3], [4, 0]])
     [[0, 1, 4], [2, 3]]
     """
     leader: dict[int, int] = {}

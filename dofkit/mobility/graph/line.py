@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.mobility.graph import forest
+from dofkit.mobility.graph import forest, net
 from dofkit.mobility.graph.answer import Proof, Question
 from dofkit.mobility.graph.compiled import engine_for
-from dofkit.mobility.graph.grouping import gathered
+from dofkit.mobility.graph.grouping import places_by_label
 
 # [Kirchhoff1847]
 _PROOF = Proof("proved", "spanning forest: in one dimension a link is redundant if and only if it closes a cycle")
@@ -24,8 +24,8 @@ class LineGraph:
         links = len(ends) // 2
         self._joints = joints
         self._engine = engine_for(forest, links)
-        self._ends = self._engine.taken(ends)
-        self._parent = self._engine.taken(range(joints))
+        self._ends = self._engine.array(ends)
+        self._parent = self._engine.array(range(joints))
         self._dependent = self._engine.filled(links, 0)
         self._engine.kernels.span(self._parent, self._ends, self._dependent)
 
@@ -39,7 +39,7 @@ class LineGraph:
         e, n = self._engine, self._joints
         up, depth = e.filled(n, -1), e.filled(n, -1)
         start, at = e.filled(n + 1, 0), e.filled(len(self._ends), 0)
-        e.kernels.incidence(self._ends, self._dependent, start, at, e.filled(n, 0))
+        e.running(net).incidence(self._ends, self._dependent, start, at, e.filled(n, 0))
         e.kernels.root(self._ends, start, at, up, depth, e.filled(n, 0))
         return up, depth
 
@@ -59,13 +59,15 @@ class LineGraph:
     def groups(self) -> list[list[int]]:
         up, depth = self._tree
         e, links = self._engine, len(self._dependent)
-        group = e.taken(range(links))
+        group = e.array(range(links))
         e.kernels.close(self._ends, self._dependent, up, depth, group, e.filled(links, -1))
-        return [members for members in gathered([e.kernels.top(group, i) for i in range(links)]) if len(members) > 1]
+        return [
+            members for members in places_by_label([e.kernels.top(group, i) for i in range(links)]) if len(members) > 1
+        ]
 
     def clusters(self) -> list[list[int]]:
         top = self._engine.kernels.top
-        return gathered([top(self._parent, v) for v in range(self._joints)])
+        return places_by_label([top(self._parent, v) for v in range(self._joints)])
 
     def proof(self, question: Question) -> Proof:
         return _PROOF

@@ -25,9 +25,8 @@ class Net(NamedTuple):
     gone: Any
 
 
-def incidence(net: Net, left_out: Any) -> None:
-    """Fills ``start``, ``at`` and ``degree`` with all links but those marked."""
-    ends, start, at, degree = net.ends, net.start, net.at, net.degree
+def incidence(ends: Any, left_out: Any, start: Any, at: Any, degree: Any) -> None:
+    """Fills ``at[start[v] : start[v + 1]]`` with the links of joint v, ``degree[v]`` of them, all but those marked."""
     for i in range(len(left_out)):
         if not left_out[i]:
             degree[ends[2 * i]] += 1

@@ -11,8 +11,9 @@ import numpy as np
 from dofkit.mobility.graph import net as nets
 from dofkit.mobility.graph import pebbles, rigid_clusters
 from dofkit.mobility.graph.answer import Proof, Question
+from dofkit.mobility.graph.circuits import circuits, rooted
 from dofkit.mobility.graph.compiled import Engine, engine_for
-from dofkit.mobility.graph.grouping import ascending, gathered
+from dofkit.mobility.graph.grouping import ascending, places_by_label
 from dofkit.mobility.graph.net import Net
 from dofkit.mobility.graph.pebbles import FREE, Board
 
@@ -33,7 +34,7 @@ def _board(engine: Engine, joints: int, links: int) -> Board:
     return Board(
         out=engine.filled(2 * joints, FREE),
         link=engine.filled(2 * joints, FREE),
-        group=engine.taken(range(links)),
+        group=engine.array(range(links)),
         seen=engine.filled(joints, 0),
         via=engine.filled(joints, 0),
         queue=engine.filled(joints, 0),
@@ -53,7 +54,7 @@ def _net(engine: Engine, ends: Any, joints: int, left_out: Any) -> tuple[Net, in
         gone=engine.filled(links, 0),
     )
     kernels = engine.running(nets)
-    kernels.incidence(net, left_out)
+    kernels.incidence(net.ends, left_out, net.start, net.at, net.degree)
     return net, kernels.peel(net)
 
 
@@ -69,7 +70,7 @@ class PlaneGraph:
         links = len(ends) // 2
         self._joints, self._links = joints, links
         self._engine = engine_for(pebbles, links, if_ready=True)
-        self._ends = self._engine.taken(ends)
+        self._ends = self._engine.array(ends)
         self._dependent = self._engine.filled(links, 0)
         self._board = _board(self._engine, joints, links)
         net, outer = _net(self._engine, self._ends, joints, self._dependent)
@@ -89,8 +90,8 @@ class PlaneGraph:
     def _one_by_one(self, links: Sequence[int], engine: Engine) -> Iterator[tuple[int, list[int]]]:
         ends, kernels = self._ends, engine.kernels
         board = _board(engine, self._joints, 0)
-        dependent = engine.taken(self._dependent)
-        kernels.orient(board, *_net(engine, engine.taken(ends), self._joints, dependent), dependent)
+        dependent = engine.array(self._dependent)
+        kernels.orient(board, *_net(engine, engine.array(ends), self._joints, dependent), dependent)
         found = engine.filled(2 * self._joints, 0)
         for i in links:
             number = kernels.circuit(board, int(ends[2 * i]), int(ends[2 * i + 1]), found)
@@ -98,8 +99,6 @@ class PlaneGraph:
 
     def _in_words(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
         """Group by group: every circuit lies in one, and its independent links are isostatic."""
-        from dofkit.mobility.graph.circuits import circuits, rooted
-
         asked, plain = set(links), Engine(pebbles, False)
         for group in self.groups():
             pairs = [i for i in group if i in asked]
@@ -117,24 +116,24 @@ class PlaneGraph:
                 yield i, [basis[k] for k in found]
 
     def groups(self) -> list[list[int]]:
-        return [g for g in gathered(_leaders(self._engine, self._board.group)) if len(g) > 1]
+        return [g for g in places_by_label(_leaders(self._engine, self._board.group)) if len(g) > 1]
 
     def clusters(self) -> list[list[int]]:
         n = self._joints
         if self._links - len(self.redundant) == 2 * n - 3:
             return [list(range(n))]
         alone, joints = set(range(n)), []
-        for links in gathered(self._turning_together()):
+        for links in places_by_label(self._cluster_leaders()):
             members = {int(self._ends[place]) for i in links for place in (2 * i, 2 * i + 1)}
             alone -= members
             joints.append(sorted(members))
         return sorted([*joints, *([v] for v in alone)])
 
-    def _turning_together(self) -> Sequence[int]:
+    def _cluster_leaders(self) -> Sequence[int]:
         """For every link the one that stands for its rigid cluster."""
         e = engine_for(rigid_clusters, self._links)
-        board = Board(*(e.taken(value.copy()) for value in self._board))
-        net, outer = _net(e, e.taken(self._ends), self._joints, e.taken(self._dependent))
+        board = Board(*(e.array(value.copy()) for value in self._board))
+        net, outer = _net(e, e.array(self._ends), self._joints, e.array(self._dependent))
         e.running(nets).sweep(net, outer)
         e.kernels.core_clusters(board, net, outer)
         e.kernels.outer_clusters(board, net, outer)

@@ -15,7 +15,7 @@ from typing import Protocol
 from dofkit.mobility.graph.answer import Proof, Question
 from dofkit.mobility.graph.core import Core, core_of
 from dofkit.mobility.graph.decompose import Ends, PeeledGraph, decompose
-from dofkit.mobility.graph.grouping import connected
+from dofkit.mobility.graph.grouping import components
 from dofkit.mobility.graph.hinged_bodies import bodies_of_core, hinged_bound, rigid_by_count
 from dofkit.mobility.graph.rigid_bodies import RigidBodies
 from dofkit.mobility.graph.sparse_core import Large, too_large
@@ -76,7 +76,7 @@ class SpaceGraph:
         return ((i, self._circuits[i]) for i in links)
 
     def groups(self) -> list[list[int]]:
-        return connected([i, *circuit] for i, circuit in self._circuits.items())
+        return components([i, *circuit] for i, circuit in self._circuits.items())
 
     @cached_property
     def _bodies(self) -> tuple[RigidBodies, bool]:

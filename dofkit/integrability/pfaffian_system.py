@@ -59,7 +59,7 @@ def linear_rows(block: Block, forms: Codistribution) -> Iterator[tuple[int, Row,
         yield i, row, i if i < own else i + forms.finite - own
 
 
-def first_order(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> int | None:
+def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> int | None:
     """Velocities that the rows allow at the reference configuration; None where it is not on the variety."""
     if block.nonlinear:
         return None

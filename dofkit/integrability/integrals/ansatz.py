@@ -1,0 +1,246 @@
+"""First integrals as combinations of products: their differentials are held against D at points over GF(p)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import combinations_with_replacement
+from math import isqrt
+from typing import Any
+
+from flint import nmod_mat
+
+from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import field_frame, kernel
+from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.pfaffian_system import Codistribution
+from dofkit.relations.ambient import free_point
+
+#: Products of up to so many functions, and so many products at most.
+MAX_DEGREE, MAX_PRODUCTS = 3, 170
+#: Functions that occur in the products.
+MAX_FUNCTIONS = 12
+#: Fresh points at which an integral is checked where the minors are not written out.
+CHECKS = 4
+
+Monomial = tuple[int, ...]
+
+
+class IntegralSearch:
+    """The functions of some forms that are constant along D = ker I, looked for among products of what occurs in them.
+
+    At points over GF(p) on the finite relations the differentials of the products are held against D.
+    """
+
+    def __init__(self, forms: Codistribution, seed: int) -> None:
+        forms = self.forms = _with_all_symbols(forms)
+        self.seed, chart = seed, forms.chart
+        self.ring = chart.ring
+        self.functions = [v.index for v in self.ring.vars if v.kind not in ("sign", "pi")][:MAX_FUNCTIONS]
+        self.constant = {i for i in self.functions if not _moves(self.ring.var_expr[i])}
+        self.solver = TriangularSolver(self.ring, list(chart.nodes), seed=seed) if chart.nodes else None
+        self.points: list[FormSample] = []
+        self._drawn = 0
+
+    def monomials(self, degree: int) -> list[Monomial]:
+        """Products of up to ``degree`` functions that move, simple ones first; sines occur once (sin^2 = 1 - cos^2)."""
+        found = []
+        for size in range(1, degree + 1):
+            for m in combinations_with_replacement(self.functions, size):
+                once = all(m.count(i) == 1 for i in set(m) if self.ring.vars[i].kind in ("sin", "root"))
+                if once and any(i not in self.constant for i in m):
+                    found.append(m)
+                if len(found) > MAX_PRODUCTS:
+                    return found
+        return sorted(found, key=lambda m: (len(m), sum(self.ring.vars[i].kind != "symbol" for i in m), m))
+
+    def candidates(self, monomials: Sequence[Monomial]) -> Iterator[Expr]:
+        """Combinations that are constant along D, the simplest first."""
+        equations: list[list[int]] = []
+        while len(equations) < len(monomials) + 6:
+            sample = self._sample(len(equations))
+            if sample is None:
+                return
+            equations += sample.slopes(monomials)
+        first = self.points[0]
+        null, nullity = nmod_mat(equations, first.p).nullspace()
+        turned = nmod_mat([[int(null[r, c]) for r in range(len(monomials))] for c in range(nullity)] or [[0]], first.p)
+        for weights in _simplest_first(turned, nullity, len(monomials), first.p):
+            coefficients = [_rational(w, first.p) for w in weights]
+            if all(c is not None for c in coefficients):
+                yield self._written(monomials, [c for c in coefficients if c is not None])
+
+    def sample(self) -> FormSample | None:
+        """A point."""
+        return self._sample(0)
+
+    def slope(self, f: Expr, sample: FormSample, v: Sequence[Any]) -> Any:
+        """df on a vector at a point."""
+        g = self._gradient(f, sample)
+        return sum((g[c] * v[i] for i, c in enumerate(self.forms.chart.columns) if c in g), sample.one * 0)
+
+    def _gradient(self, f: Expr, sample: FormSample) -> dict[int, Any]:
+        node = self.ring.node(f)
+        return gradient(self.ring, values(self.ring, sample.point), sample.point, [(node, sample.one)])
+
+    def adds(self, f: Expr, known: Sequence[Expr]) -> bool:
+        """Is df independent of the finite relations and of the integrals that are known?"""
+        sample = self.points[0]
+        rows = [list(r) for r in sample.matrix[: self.forms.finite]]
+        for e in (*known, f):
+            g = self._gradient(e, sample)
+            rows.append([g.get(c, sample.one * 0) for c in self.forms.chart.columns])
+        return rank_of(rows, sample.p) > rank_of(rows[:-1], sample.p)
+
+    def _sample(self, used: int) -> FormSample | None:
+        """One more point, all modulo one prime."""
+        width = len(self.points[0].basis) if self.points else 1
+        number = used // max(1, width)
+        while len(self.points) <= number:
+            check()
+            self._drawn += 1
+            if self._drawn > 4 * MAX_PRODUCTS:
+                return None
+            sample = _sample_at(self.forms, self._point(3 * (self.seed + self._drawn)))
+            if sample is not None and sample.basis and (not self.points or sample.p == self.points[0].p):
+                self.points.append(sample)
+            elif sample is not None and not sample.basis:
+                return None
+        return self.points[number]
+
+    def _point(self, seed: int) -> FieldPoint | None:
+        return free_point(self.forms.chart, seed) if self.solver is None else self.solver.draw(seed)
+
+    def _written(self, monomials: Sequence[Monomial], coefficients: Sequence[Fraction]) -> Expr:
+        terms = [
+            ex.mul(ex.num(c), *(self.ring.var_expr[i] for i in m))
+            for m, c in zip(monomials, coefficients, strict=True)
+            if c
+        ]
+        return ex.add(*terms)
+
+    def holds(self, f: Expr) -> bool:
+        """Is X f = 0 for D at fresh points, modulo other primes?"""
+        held = 0
+        for k in range(6 * CHECKS):
+            sample = _sample_at(self.forms, self._point(7000 + k))
+            if sample is None:
+                continue
+            if any(self.slope(f, sample, v) != 0 for v in sample.basis):
+                return False
+            held += 1
+            if held == CHECKS:
+                return True
+        return False
+
+
+@dataclass(frozen=True)
+class FormSample:
+    """A point with the functions' values and gradients there, and a basis of D."""
+
+    point: FieldPoint
+    p: int
+    one: Any
+    at: list[Any]
+    gradients: dict[int, list[Any]]
+    basis: list[list[Any]]
+    matrix: list[list[Any]]
+
+    def slopes(self, monomials: Sequence[Monomial]) -> list[list[int]]:
+        """d/ds of every product along every basis vector of D."""
+        return [[int(s) for s in self._slopes(monomials, v)] for v in self.basis]
+
+    def _slopes(self, monomials: Sequence[Monomial], v: Sequence[Any]) -> list[Any]:
+        rates = {i: sum((a * b for a, b in zip(g, v, strict=True)), self.one * 0) for i, g in self.gradients.items()}
+        found = []
+        for m in monomials:
+            total = self.one * 0
+            for place, i in enumerate(m):
+                part = rates[i]
+                for other, j in enumerate(m):
+                    if other != place:
+                        part = part * self.at[j]
+                total = total + part
+            found.append(total)
+        return found
+
+    def across(self, row: int) -> list[Any] | None:
+        """A velocity that only ``row`` forbids; None where the row depends on the others."""
+        others = [r for i, r in enumerate(self.matrix) if i != row]
+        n = len(self.matrix[row])
+        frame = field_frame(others, n, self.p)
+        vectors = kernel(others, frame, self.one * 0) if others else _unit(n, self.one)
+        for v in vectors:
+            if sum((a * b for a, b in zip(self.matrix[row], v, strict=True)), self.one * 0) != 0:
+                return v
+        return None
+
+
+def _with_all_symbols(forms: Codistribution) -> Codistribution:
+    """The same with a function for every column, those that no coefficient mentions included."""
+    ring = forms.chart.ring
+    for s in forms.chart.symbols:
+        ring.node(s)
+    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in forms.chart.symbols)
+    chart = replace(forms.chart, columns=columns)
+    return Codistribution(chart, replace(forms.rows, columns=columns), forms.finite)
+
+
+def _unit(n: int, one: Any) -> list[list[Any]]:
+    return [[one if i == j else one * 0 for j in range(n)] for i in range(n)]
+
+
+def _moves(e: Expr) -> bool:
+    return any(s.args[0] in ("coordinate", "time") for s in e.symbols)
+
+
+def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | None:
+    if point is None:
+        return None
+    ring, columns = forms.chart.ring, forms.chart.columns
+    try:
+        at = values(ring, point)
+        one = point.number(Fraction(1))
+        matrix = forms.rows.matrix(at, one * 0)
+        frame = field_frame(matrix, len(columns), point.p)
+        basis = kernel(matrix, frame, one * 0) if frame.free else []
+        gradients = {}
+        for v in ring.vars:
+            g = gradient(ring, at, point, [(ring.var_node[v.index], one)])
+            gradients[v.index] = [g.get(c, one * 0) if c >= 0 else one * 0 for c in columns]
+        at_vars = [at[ring.var_node[v.index]] for v in ring.vars]
+    except NoValueError:
+        return None
+    return FormSample(point, point.p, one, at_vars, gradients, basis, matrix)
+
+
+def _simplest_first(null: nmod_mat, nullity: int, columns: int, p: int) -> Iterator[list[int]]:
+    """A basis of the null space by its last monomial, the simplest first.
+
+    Columns run from simple to hard, so elimination from the hard end leaves one hard monomial to each vector.
+    """
+    if not nullity:
+        return
+    reversed_rows = nmod_mat([[int(null[r, columns - 1 - c]) for c in range(columns)] for r in range(nullity)], p)
+    reduced, rank = reversed_rows.rref()
+    for r in reversed(range(rank)):
+        yield [int(reduced[r, columns - 1 - c]) for c in range(columns)]
+
+
+def _rational(value: int, p: int) -> Fraction | None:
+    """The fraction with small terms that is ``value`` modulo p [Wang1981]; None where there is none."""
+    bound = isqrt(p // 2)
+    r0, r1, t0, t1 = p, value % p, 0, 1
+    while r1 > bound:
+        q = r0 // r1
+        r0, r1, t0, t1 = r1, r0 - q * r1, t1, t0 - q * t1
+    if t1 == 0 or abs(t1) > bound or r1 > 1 << 20 or abs(t1) > 1 << 20:
+        return None
+    return Fraction(r1, t1)
