@@ -11,7 +11,7 @@ from dofkit.base.errors import Fault
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.ledger import Ledger
-from dofkit.scene.world import Before, Findings, Mentioned, World
+from dofkit.scene.world import NO_FINDINGS, Before, Findings, Mentioned, World
 from dofkit.system import Connection, Constraint
 
 
@@ -33,9 +33,10 @@ def elaborations(constraints: Sequence[ConstraintBase], drawing: Drawing, faults
         lowered = _constraint_of(world, constraint, names[index])
         found = world.findings()
         yield Elaboration(lowered, _connection(world.mentioned, index, lowered), found)
-        drawn |= found.drawn
-        generic += len(found.generic)
-        faults += len(found.faults)
+        if found is not NO_FINDINGS:
+            drawn |= found.drawn
+            generic += len(found.generic)
+            faults += len(found.faults)
 
 
 def names_by_position(letter: str, given: Sequence[str | None]) -> tuple[str, ...]:

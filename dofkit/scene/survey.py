@@ -26,7 +26,7 @@ from dofkit.scene.ledger import MOVING, Texts, symbols_of
 from dofkit.scene.names import Declared, Owners, Vocabulary, name_faults, vocabulary_of, within_member
 from dofkit.scene.parts import Energies, Force, texts_of
 from dofkit.scene.reference import drawn_bodies, size_of
-from dofkit.scene.world import Before, Findings, World, within
+from dofkit.scene.world import NO_FINDINGS, Before, Findings, World, within
 from dofkit.system import GROUND, Connection, Constraint, Distance
 
 
@@ -107,7 +107,7 @@ def survey(scene: Surveyed, euler: bool = False) -> Survey:
 
 def _whole(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Findings], faults: list[Fault]) -> Survey:
     """What was read of all entries, put together."""
-    findings = [*(e.findings for e in read), *forces]
+    findings = [f for f in (*(e.findings for e in read), *forces) if f is not NO_FINDINGS]
     size = size_of([*drawing.points, *(p for f in findings for p in f.points)])
     placed = drawing.drawn.union(*(f.drawn for f in findings if f.drawn))
     drawn = drawn_bodies(placed, (ends for f in findings for ends in f.welds))

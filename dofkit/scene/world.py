@@ -60,20 +60,24 @@ class Findings(NamedTuple):
     ``special_of``: they do where the drawing turns out to place one of these bodies.
     """
 
-    generic: tuple[str, ...]
-    points: tuple[Vec, ...]
-    drawn: frozenset[str]
-    welds: tuple[tuple[str, str], ...]
-    links: tuple[tuple[str, str], ...]
-    distances: tuple[Distance, ...]
-    special: bool
-    special_of: frozenset[str]
-    misfits: tuple[Misfit, ...]
-    warnings: tuple[str, ...]
-    faults: tuple[Fault, ...]
+    generic: tuple[str, ...] = ()
+    points: tuple[Vec, ...] = ()
+    drawn: frozenset[str] = frozenset()
+    welds: tuple[tuple[str, str], ...] = ()
+    links: tuple[tuple[str, str], ...] = ()
+    distances: tuple[Distance, ...] = ()
+    special: bool = False
+    special_of: frozenset[str] = frozenset()
+    misfits: tuple[Misfit, ...] = ()
+    warnings: tuple[str, ...] = ()
+    faults: tuple[Fault, ...] = ()
 
 
-@dataclass
+#: Of an entry that leaves nothing behind, as most equations do.
+NO_FINDINGS = Findings()
+
+
+@dataclass(slots=True)
 class Mentioned:
     """What one entry mentions, in order."""
 
@@ -106,7 +110,7 @@ class World(Texts):
 
     def findings(self) -> Findings:
         """What came of reading the entry."""
-        return Findings(
+        parts = (
             tuple(self.generic),
             tuple(self.points),
             frozenset(self.drawn),
@@ -119,6 +123,7 @@ class World(Texts):
             tuple(self.warnings),
             tuple(self.faults),
         )
+        return Findings(*parts) if any(parts) else NO_FINDINGS
 
     # what constraints ask for
 

@@ -34,7 +34,7 @@ DOORS: dict[str, Callable[[Any], object]] = {
     "configurations": lambda given: dofkit.configurations(given, steps=1),
 }
 SYSTEMS = ("classify", "derived_flag", "ask", "configurations")
-NO_SCENES: tuple[Any, ...] = (None, 3, ["x"], ("a", "b"), {1}, object(), b"coordinates: [x]", 1.5, True)
+NO_SCENES: tuple[Any, ...] = (None, 3, ["x"], ("a", "b"), {1}, object, b"coordinates: [x]", 1.5, True)
 
 
 def test_dir_and_help_show_the_public_names() -> None:
@@ -121,7 +121,7 @@ def test_an_answer_names_a_constraint_that_there_is() -> None:
         dofkit.ask(named, "equivalence", {"constraint": "skates", "text": "x = 1"})
 
 
-@pytest.mark.parametrize("budget", ["5", [], True, float("nan"), object()])
+@pytest.mark.parametrize("budget", ["5", [], True, float("nan"), object])
 @pytest.mark.parametrize("door", [dofkit.classify, dofkit.derived_flag, dofkit.lagrange, None])
 def test_a_budget_is_seconds(door: Any, budget: Any) -> None:
     with pytest.raises(ArgumentError, match="the budget is a number of seconds"):
