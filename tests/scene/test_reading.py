@@ -256,7 +256,7 @@ def test_a_long_list_loads_in_bounded_time() -> None:
     text = "particles: [" + ", ".join(f"P{i}" for i in range(count + 1)) + "]\nconstraints:\n" + entries
     assert len(loads(text).constraints) == count
     found = faults(text.replace("P19999]", "Q19999]"))
-    assert [(fault.line, fault.column) for fault in found] == [(2 + count - 1, 34)]
+    assert [(fault.line, fault.column) for fault in found] == [(2 + count - 1, 33)]
 
 
 def test_names_come_from_the_file_unless_the_scene_has_one(tmp_path: Path) -> None:
