@@ -17,10 +17,10 @@ In the order in which one meets them:
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from dofkit.base.errors import DofkitError, SceneError, TextError
+from dofkit.base.surface import handed_on
 from dofkit.base.version import __version__
 
 if TYPE_CHECKING:
@@ -69,10 +69,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module 'dofkit' has no attribute '{name}'")
-    found = getattr(import_module(_HOMES[name]), name)
-    globals()[name] = found
+    found = globals()[name] = handed_on(__name__, _HOMES, name)
     return found
 
 

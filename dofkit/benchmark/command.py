@@ -68,7 +68,7 @@ class ChartFiles:
     complete: bool = False
 
 
-def run(options: ChartOptions) -> bool:
+def chart(options: ChartOptions) -> bool:
     """Run, write, draw and tell; was it brought to its end? Raises ChartError, StoppedError and OSError."""
     writable(options.out)
     if options.source is not None:

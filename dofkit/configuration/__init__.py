@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from dofkit.base.surface import handed_on
 
 if TYPE_CHECKING:
     from dofkit.configuration.drawing.at_reference import at_reference
@@ -25,6 +26,4 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-    return getattr(import_module(_HOMES[name]), name)
+    return handed_on(__name__, _HOMES, name)

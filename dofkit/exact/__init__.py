@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from dofkit.base.surface import handed_on
 
 if TYPE_CHECKING:
     from dofkit.exact.errors import NoPointError, NoValueError, OutsideDomainError, PoleError, TooLargeError
@@ -48,9 +49,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-    found = globals()[name] = getattr(import_module(_HOMES[name]), name)
+    found = globals()[name] = handed_on(__name__, _HOMES, name)
     return found
 
 

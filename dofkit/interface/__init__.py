@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from dofkit.base.surface import handed_on
 
 if TYPE_CHECKING:
     from dofkit.interface.cli import main
@@ -12,9 +13,7 @@ __all__ = ["main"]
 
 
 def __getattr__(name: str) -> Any:
-    if name != "main":
-        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-    return import_module("dofkit.interface.cli").main
+    return handed_on(__name__, {"main": "dofkit.interface.cli"}, name)
 
 
 def __dir__() -> list[str]:

@@ -115,12 +115,12 @@ def chart(
     timeout: options.Timeout = None,
 ) -> None:
     """Chart speed against accuracy: every method on scenes whose answers are known."""
-    from dofkit.benchmark.command import ChartOptions, run
+    from dofkit.benchmark.command import ChartOptions, chart
     from dofkit.benchmark.selecting import Selection
 
     selection = Selection(question or (), families or (), methods or (), quick, most)
     with _failures_of("chart"):
-        whole = run(ChartOptions(selection, out, source, scheduler, workers, timeout))
+        whole = chart(ChartOptions(selection, out, source, scheduler, workers, timeout))
     if not whole:
         raise typer.Exit(INTERRUPTED)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from dofkit.base.surface import handed_on
 
 if TYPE_CHECKING:
     from dofkit.benchmark.figures.table import FIGURES, write
@@ -12,6 +13,4 @@ __all__ = ["FIGURES", "write"]
 
 
 def __getattr__(name: str) -> Any:
-    if name not in __all__:
-        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-    return getattr(import_module("dofkit.benchmark.figures.table"), name)
+    return handed_on(__name__, dict.fromkeys(__all__, "dofkit.benchmark.figures.table"), name)

@@ -230,7 +230,7 @@ class RealSearch:
         try:
             for _ in range(NEWTON_STEPS):
                 f, j = self._ball_system(exact, nodes, indices, seed)
-                step = j.solve(f)
+                step = _solution(j, f)
                 for i, u in enumerate(unknowns):
                     exact[u] = (exact[u] - step[i, 0]).mid()
                 if all(abs(step[i, 0]) <= (1 + abs(exact[u])) * tiny for i, u in enumerate(unknowns)):
@@ -239,7 +239,7 @@ class RealSearch:
             boxed = {**exact, **{u: exact[u] + radius for u in unknowns}}
             f, _ = self._ball_system(exact, nodes, indices, seed)
             _, j = self._ball_system(boxed, nodes, indices, seed)
-            step = j.solve(f)
+            step = _solution(j, f)
         except NoValueError:
             return None
         inside = True  # [KrawczykNewton]
@@ -256,3 +256,9 @@ class RealSearch:
         at = values(self.ring, point, self.upto)
         j = jacobian(self.ring, at, point, nodes, indices, arb(0))
         return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
+
+
+@raising_no_value
+def _solution(matrix: arb_mat, right: arb_mat) -> arb_mat:
+    """x with matrix x = right. Raises PoleError where the matrix may be singular."""
+    return matrix.solve(right)

@@ -12,9 +12,9 @@ Plain graphs in, no scene needed. `linkage` answers everything about a graph, `r
 from __future__ import annotations
 
 from collections.abc import Iterable
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from dofkit.base.surface import handed_on
 from dofkit.mobility.graph.answer import GraphAnswer, Proof
 from dofkit.mobility.graph.links import Joint, Link, LinkageError, read
 from dofkit.mobility.graph.result import Group, Hinge, Linkage
@@ -60,5 +60,5 @@ def redundant_links(links: Iterable[Link] | nx.Graph[Any], dimension: int) -> li
 
 def _graph_of(dimension: int) -> type[GraphAnswer]:
     module, name = _GRAPHS[dimension]
-    found: type[GraphAnswer] = getattr(import_module(f"dofkit.mobility.graph.{module}"), name)
+    found: type[GraphAnswer] = handed_on(__name__, {name: f"dofkit.mobility.graph.{module}"}, name)
     return found

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from dofkit.base.surface import handed_on
 
 if TYPE_CHECKING:
     from dofkit.base.documents.yaml.events import Composer
@@ -12,6 +13,4 @@ __all__ = ["Composer"]
 
 
 def __getattr__(name: str) -> Any:
-    if name != "Composer":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return import_module("dofkit.base.documents.yaml.events").Composer
+    return handed_on(__name__, {"Composer": "dofkit.base.documents.yaml.events"}, name)
