@@ -17,6 +17,7 @@ import os
 import random
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -235,7 +236,9 @@ class Copy:
             done = subprocess.run(command, check=False, preexec_fn=partial(_bound, seconds), **settings)
         except subprocess.TimeoutExpired:
             return "waits for ever"
-        failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", done.stdout, re.MULTILINE)
+        if done.returncode == -signal.SIGTERM:
+            raise KeyboardInterrupt
+        failed = re.findall(r"^(?:FAILED|ERROR) (.+)$", done.stdout, re.MULTILINE)
         if done.returncode in (0, 5):
             return ""
         return failed[0] if failed else f"ended with status {done.returncode} (no end, no memory, or no import)"

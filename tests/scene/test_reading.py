@@ -250,13 +250,13 @@ def test_anchors_and_merges_are_read() -> None:
     assert [constraint.in_words for constraint in scene.constraints] == ["link A-B", "link B-C", "link A-B"]
 
 
-def test_a_long_list_loads_in_bounded_time() -> None:
-    count = 20_000
+def test_a_fault_at_the_end_of_a_long_list_has_its_place() -> None:
+    count = 5000
     entries = "".join(f"- {{type: link, between: [P{i}, P{i + 1}]}}\n" for i in range(count))
     text = "particles: [" + ", ".join(f"P{i}" for i in range(count + 1)) + "]\nconstraints:\n" + entries
     assert len(loads(text).constraints) == count
-    found = faults(text.replace("P19999]", "Q19999]"))
-    assert [(fault.line, fault.column) for fault in found] == [(2 + count - 1, 34)]
+    found = faults(text.replace(f"P{count - 1}]", f"Q{count - 1}]"))
+    assert [(fault.line, fault.column) for fault in found] == [(2 + count - 1, 33)]
 
 
 def test_names_come_from_the_file_unless_the_scene_has_one(tmp_path: Path) -> None:
