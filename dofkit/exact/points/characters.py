@@ -12,7 +12,7 @@ from itertools import combinations
 from math import prod
 from typing import Any
 
-from flint import fmpz_mat, nmod
+from flint import fmpz_mat, nmod, nmod_poly
 
 from dofkit.exact.errors import NoPointError
 
@@ -20,6 +20,8 @@ from dofkit.exact.errors import NoPointError
 MOST_REDUCED = 7
 #: A relation that is found is there by chance with a probability of 2 to the minus this.
 SURENESS = 30
+#: Roots are taken up to this degree.
+LARGEST = 512
 
 
 class Character:
@@ -56,9 +58,16 @@ class Character:
             return None
         own = relation.pop(u)
         others = prod((self.values[v] ** -k for v, k in relation.items()), start=nmod(1, self.p))
-        if abs(own) > 1:
-            raise NoPointError("an argument that is a fraction of others")
-        return others if own == 1 else 1 / others
+        return self._root(others if own > 0 else 1 / others, abs(own))
+
+    def _root(self, value: Any, degree: int) -> Any:
+        """A root of a value: any is as good as the others. Raises NoPointError where there is none."""
+        if degree == 1:
+            return value
+        roots = nmod_poly([-value, *([0] * (degree - 1)), 1], self.p).roots()
+        if not roots:
+            raise NoPointError("an argument is a fraction of others, and there is no root")
+        return min((root for root, _ in roots), key=int)
 
     def _reduced(self, u: int) -> dict[int, int] | None:
         """A short integer relation among the arguments and ``u``, by Lenstra, Lenstra and Lovasz's reduction."""
@@ -72,7 +81,7 @@ class Character:
         reduced = fmpz_mat([*rows, [0] * n + [self.p * weight]]).lll()
         for i in range(reduced.nrows()):
             row = [int(reduced[i, j]) for j in range(n)]
-            if int(reduced[i, n]) == 0 and row[0] and max(map(abs, row)) <= most:
+            if int(reduced[i, n]) == 0 and 0 < abs(row[0]) <= LARGEST and max(map(abs, row)) <= most:
                 return {v: k for v, k in zip(args, row, strict=True) if k}
         return None
 

@@ -33,8 +33,9 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
     """(zero?, how sure); None only where one engine alone cannot tell.
 
     Zero in the canonical ring is a proof, and so is zero of every coefficient there (`proved_zero`); so is not zero
-    there where the generators are independent, or where a ball at some real point excludes 0. What is 0 at random
-    points over GF(p) is probably zero [SchwartzZippel]; what no ball tells from 0 is so numerically.
+    there where the generators are independent and points over GF(p) agree, or where a ball at some real point excludes
+    0. What is 0 at random points over GF(p) is probably zero [SchwartzZippel]; what no ball tells from 0 is so
+    numerically.
     """
     if e.op == "num":
         return e.is_zero, "proved"
@@ -46,7 +47,7 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
     try:
         if canon.is_zero(node):
             return True, "proved"
-        if independent_generators(ring):
+        if independent_generators(ring) and _zero_at_points(ring, node) is not True:
             return False, "proved"
     except NoValueError:
         pass

@@ -1,0 +1,101 @@
+"""Scenes that were once answered wrongly, and sure: each right, or open, its truth worked out by hand."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import dofkit
+
+H = {"h": ["s"]}
+QUINTIC = "x^5 + 5*x^4*y + 10*x^3*y^2 + 10*x^2*y^3 + 5*x*y^4 + y^5"
+
+
+def scene(coordinates: str, *constraints: str, **more: Any) -> dict[str, Any]:
+    return {"coordinates": coordinates.split(), "constraints": [*constraints], **more}
+
+
+#: What makes it hard, the scene, and the truth.
+RIGHT: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
+    (
+        "a power beside its terms in exponents: dx = 0",
+        scene("x y z", f"xdot + y*(exp((x+y)^5) - exp({QUINTIC}))*zdot = 0"),
+        {"holonomic": True, "dof": 2},
+    ),
+    (
+        "cos(2 a) = 1 - 2 sin(a)^2 within an unknown function",
+        scene("a x y z", "xdot + y*(h(cos(2 a)) - h(1 - 2*sin(a)^2))*zdot = 0", functions=H),
+        {"holonomic": True, "dof": 3},
+    ),
+    (
+        "h(x) = h(y) follows from x = y",
+        scene("x y", "x = y", "h(x) = h(y)", functions=H),
+        {"dof": 1, "redundant": ["c2"]},
+    ),
+    (
+        "a driven cam: y = h(v t) follows",
+        scene("x y", "y = h(x)", "x = v t", "y = h(v t)", functions=H, parameters=["v"]),
+        {"consistent": True, "dof": 0, "redundant": ["c3"]},
+    ),
+    (
+        "two beads that meet on a wire",
+        scene("x1 y1 x2 y2", "y1 = h(x1)", "y2 = h(x2)", "x1 = x2", "y1 = y2", functions=H),
+        {"dof": 1, "redundant_equations": 1},
+    ),
+    (
+        "f(x) - f(y) vanishes where x = y",
+        scene("x y z w", "x = y", "dz = (h(x) - h(y)) w dx", functions=H),
+        {"holonomic": True, "dof": 2, "velocity_dof": 2},
+    ),
+    (
+        "roots of the same number",
+        scene("x y z w u", "x = y", "dw = z du", "dw - z du + (sqrt(1+x^2) - sqrt(1+y^2)) dz = 0"),
+        {"holonomic": False, "dof": 4, "velocity_dof": 3, "redundant": ["c3"]},
+    ),
+    ("sin(x) = sin(t) follows from x = t", scene("x y", "x = t", "sin(x) = sin(t)"), {"redundant": ["c2"]}),
+    (
+        "a curve behind seven points",
+        scene(
+            "x y z",
+            "x = 0",
+            "xdot = (y^5+z^3+5)*" + "*".join(f"((y-{i})^2+(z-{i * i})^2)" for i in range(1, 8)),
+        ),
+        {"dof": 1},
+    ),
+]
+
+
+@pytest.mark.parametrize(("made", "truth"), [row[1:] for row in RIGHT], ids=[row[0] for row in RIGHT])
+def test_right(made: dict[str, Any], truth: dict[str, Any]) -> None:
+    report = dofkit.classify(made)
+    assert {key: getattr(report, key) for key in truth} == truth
+    assert report.verdict != "undecided"
+
+
+def test_a_quotient_that_is_rounded_excludes_no_solution() -> None:
+    """w = 0 and u^2 = 7.4e-18 solve it exactly."""
+    parts = ["z = 1/(6004799503160661/18014398509481984 + u^2)", "z - 3 = s", "s = 1/10^16 + w^2"]
+    assert dofkit.classify(scene("u w z s", *parts)).consistent is not False
+
+
+def test_an_exact_form_with_arguments_in_two_writings_is_not_called_inexact() -> None:
+    """It is d(x sin(1/(1+y)))."""
+    entry = dofkit.classify(scene("x y", "sin(1/(1+y))*xdot + x*cos(2/(2+2*y))*(-1)/(1+y)^2*ydot = 0")).constraints[0]
+    assert entry.exact or entry.verdict == "undecided"
+
+
+def test_a_measured_drawing_beside_a_form_is_open() -> None:
+    """Without the form the same drawing moves: three cranks, measured."""
+    places = {"A": (0, 0), "B": (1, 0), "C": (2, 0), "D": (0.333, 0.943), "E": (1.333, 0.943), "F": (2.3334, 0.9427)}
+    links = [{"type": "link", "between": [*pair]} for pair in ("AD", "BE", "CF", "DE", "EF", "DF")]
+    report = dofkit.classify(
+        {
+            "dimension": 2,
+            "tolerance": 1e-3,
+            "particles": [{"name": name, "at": [*at]} for name, at in places.items()],
+            "coordinates": ["q", "r"],
+            "constraints": [*({"type": "fixed", "point": p} for p in "ABC"), *links, "rdot = x_D*qdot"],
+        }
+    )
+    assert (report.dof, report.verdict) in ((3, "numeric"), (None, "undecided"))
