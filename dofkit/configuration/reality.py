@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.generic_points import generators_of
@@ -11,10 +11,13 @@ from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.zero.independence import independent_generators
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 
 #: Blocks with more columns than this are not certified with balls.
 BALL_COLUMNS = 60
+ALLOWING = "for an unknown function that allows real configurations"
 
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
@@ -43,7 +46,24 @@ def with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
     if real.rank != rank:
         found.verdict, found.dimension = "undecided", None
         found.reasons.append("real points and points over GF(p) disagree about the rank: the set has several parts")
+    elif any(map(_hangs_on_a_function, chart.relations)):
+        found.verdict = weakest(found.verdict, "probable")
+        found.reasons.append(ALLOWING)
     return found
+
+
+def _hangs_on_a_function(e: Expr) -> bool:
+    """Do coordinates stand within unknown functions only? h(x) = 0 holds somewhere for some h, not for all."""
+    within = any(node.op == "call" for node in ex.nodes(e))
+    return within and not any(s.args[0] == "coordinate" for s in _outside_calls(e))
+
+
+def _outside_calls(e: Expr) -> Iterator[Expr]:
+    if e.op == "sym":
+        yield e
+    elif e.op != "call":
+        for child in ex.children(e):
+            yield from _outside_calls(child)
 
 
 def _by_field_alone(chart: Chart, found: Variety) -> Variety:
@@ -61,7 +81,7 @@ def _without_reality(chart: Chart, found: Variety) -> Variety:
     calls = any(chart.ring.vars[i].kind == "call" for i in generators_of(chart))
     if calls:
         found.verdict = weakest(found.verdict, "probable")
-        found.reasons.append("for an unknown function that allows real configurations")
+        found.reasons.append(ALLOWING)
         return found
     found.consistent, found.dimension, found.verdict = None, None, "undecided"
     found.reasons.append("no real configuration was found, and none was ruled out")
