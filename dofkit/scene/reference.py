@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence, Set
 from itertools import combinations, product
 from math import dist
+from operator import mul
 
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ZERO, Expr, coordinate
@@ -45,8 +46,13 @@ def _diameter(points: list[tuple[float, ...]]) -> float:
 
 
 def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
-    ways = [way for way in product((-1, 0, 1), repeat=len(points[0])) if any(way)]
-    return list({max(points, key=lambda point: sum(a * b for a, b in zip(way, point, strict=True))) for way in ways})
+    """The points that reach furthest in some direction: of a direction and its opposite, the last and the first."""
+    found = set()
+    for way in product((-1, 0, 1), repeat=len(points[0])):
+        if way > (0,) * len(way):
+            reach = [sum(map(mul, point, way)) for point in points]
+            found |= {points[reach.index(max(reach))], points[reach.index(min(reach))]}
+    return list(found)
 
 
 def drawn_bodies(placed: Iterable[str], welds: Iterable[tuple[str, str]]) -> frozenset[str]:

@@ -210,10 +210,12 @@ def _mass_faults(scene: Surveyed, vocabulary: Vocabulary) -> Iterator[Fault]:
     both: tuple[tuple[str, Owners], ...] = (("particles", scene.particles), ("bodies", scene.bodies))
     for key, owners in both:
         for i, owner in enumerate(owners):
-            texts = Texts(vocabulary.texts, (key, i))
-            _check_value(texts, owner.mass, "mass")
-            _check_value(texts, getattr(owner, "inertia", None), "inertia")
-            yield from texts.faults
+            inertia = getattr(owner, "inertia", None)
+            if owner.mass is not None or inertia is not None:
+                texts = Texts(vocabulary.texts, (key, i))
+                _check_value(texts, owner.mass, "mass")
+                _check_value(texts, inertia, "inertia")
+                yield from texts.faults
 
 
 def _energy_faults(scene: Surveyed, vocabulary: Vocabulary, before: int) -> list[Fault]:

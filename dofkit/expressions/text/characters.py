@@ -166,6 +166,8 @@ def spelled(name: str) -> str:
 
 def check_name_characters(name: str) -> str | None:
     """None if ``name`` is made of letters, digits and `_`, else the reason why not."""
+    if name.isascii() and name.replace("_", "").isalnum():
+        return None
     for char in name:
         plain = _LETTERS.get(char, char)
         if plain in GREEK or (plain.isascii() and (plain.isalnum() or plain == "_")):
