@@ -11,9 +11,9 @@ from dofkit.benchmark.record import Outcome
 def outcome_of(truth: Any, told: Any) -> Outcome:
     """How an answer compares with the truth. None is undecided, also for a single constraint of a mapping.
 
-    >>> judged(2, 2), judged(2, None), judged(["c"], ["b"])
+    >>> outcome_of(2, 2), outcome_of(2, None), outcome_of(["c"], ["b"])
     ('right', 'undecided', 'wrong')
-    >>> judged({"a": True, "b": False}, {"a": True}), judged({"a": True, "b": False}, {"a": False})
+    >>> outcome_of({"a": True, "b": False}, {"a": True}), outcome_of({"a": True, "b": False}, {"a": False})
     ('undecided', 'wrong')
     """
     if told is None:
