@@ -6,6 +6,9 @@ from typing import Literal
 
 Verdict = Literal["proved", "probable", "numeric", "undecided"]
 
+#: Which points a claim speaks of: the part near the reference, that near the witness, all.
+About = Literal["reference", "component", "everywhere"]
+
 
 #: From the strongest to the weakest.
 VERDICTS: tuple[Verdict, ...] = ("proved", "probable", "numeric", "undecided")

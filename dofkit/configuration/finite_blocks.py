@@ -47,11 +47,13 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
     if setting.reference is not None:
         drawn = _drawn_answer(chart, setting, setting.reference)
         if drawn is not None:
+            drawn.about = "reference"
             return drawn
         if setting.tolerance is not None:
             return Answer(None, verdict="undecided", reasons=[MEASURED_OFF])
     found = find(chart, setting.pose)
-    result = Answer(found.consistent, found.dimension, found.dimension, found.verdict, reasons=list(found.reasons))
+    result = Answer(found.consistent, found.dimension, found.dimension, found.verdict, found.about)
+    result.reasons = list(found.reasons)
     if setting.reference is not None:
         result.reasons.append(OFF_REFERENCE)
     result.method = "rank over GF(p)" + (" and balls" if found.real else "")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict
@@ -15,26 +14,9 @@ from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.solving.ideals import complex_dimension
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.relations.chart import Chart
-
-LARGER = "over the complex numbers the set has a part of larger dimension, and it was not decided what of it is real"
-
-
-def unless_larger(chart: Chart, found: Variety) -> Variety:
-    """Left open where the complex points have a part of a larger dimension: its real points may have it too."""
-    if found.dimension is None or not found.consistent or not found.samples or not chart.nodes:
-        return found
-    point, timed = found.samples[0], len(chart.columns) - chart.coordinates
-    if found.dimension != chart.coordinates - rank_of_rows(field_jacobian(chart, point), point.p):
-        return found
-    whole = complex_dimension(chart.ring, chart.nodes, [c for c in chart.columns if c >= 0])
-    unused = sum(1 for c in chart.columns if c < 0)
-    if whole is None or whole + unused - timed <= found.dimension:
-        return found
-    return replace(found, dimension=None, verdict="undecided", reasons=[*found.reasons, LARGER])
 
 
 def variety_at(

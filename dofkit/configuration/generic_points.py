@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from hashlib import sha256
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError, PoleError
@@ -55,9 +56,10 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
     fixed = _values_of_generators(chart.ring, known)
     if fixed is None:
         return None
+    beside = sha256(repr(sorted((repr(s), repr(v)) for s, v in known.items())).encode()).hexdigest()
     for attempt in range(60):
         try:
-            point = field_point([chart.ring], 1000 * seed + attempt)
+            point = field_point([chart.ring], 1000 * seed + attempt, beside=beside)
             for index, node in fixed:
                 point.set(chart.ring.vars[index], value_of(chart.ring, point, node))
             values(chart.ring, point)

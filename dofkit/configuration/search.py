@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.generic_dimension import unless_larger, variety_at
+from dofkit.configuration.components import of_largest_part
+from dofkit.configuration.generic_dimension import variety_at
 from dofkit.configuration.generic_points import on_variety, pose_samples, samples_for
 from dofkit.configuration.reality import near_singular_point, real_point
 from dofkit.configuration.variety import Variety
@@ -39,7 +40,7 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     looked = {"field", "balls"} <= chart.engines and found.consistent is not True and found.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
         return Variety(False, None, "proved", reasons=[EMPTY])
-    return unless_larger(chart, found)
+    return of_largest_part(chart, found, lambda part: _variety(part, {}, seed))
 
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:

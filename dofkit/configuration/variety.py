@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from dofkit.base.verdicts import Verdict
+from dofkit.base.verdicts import About, Verdict
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealPoint
 
@@ -14,7 +14,8 @@ class Variety:
     """The set {g = 0} of a block's finite relations, as far as it is known.
 
     ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None:
-    not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls.
+    not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls; ``about``: is it told of
+    the largest part, or of the ``component`` of these points?
     """
 
     consistent: bool | None
@@ -23,3 +24,4 @@ class Variety:
     samples: list[FieldPoint] = field(default_factory=list)
     real: RealPoint | None = None
     reasons: list[str] = field(default_factory=list)
+    about: About = "everywhere"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from dofkit.base.verdicts import Verdict
+from dofkit.base.verdicts import About, Verdict
 from dofkit.exact.matrices.sparse import SparseRow, Supports
 from dofkit.exact.zero.independence import Doubt
 from dofkit.expressions.tree import Expr
@@ -54,13 +54,15 @@ class Answer:
     relations that the differential ones force; ``doubt``: functions or numbers occur that may be related in a way that
     GF(p) does not show; ``late``: there was no time for it;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
-    ``looked``: what was looked at of the relations; ``size``: of the model that was computed with.
+    ``looked``: what was looked at of the relations; ``size``: of the model that was computed with; ``about``: of which
+    points it is told.
     """
 
     consistent: bool | None = True
     dof: int | None = None
     velocity_dof: int | None = None
     verdict: Verdict = "proved"
+    about: About = "everywhere"
     labels: dict[int, HolonomyLabel] = field(default_factory=dict)
     reasons: list[str] = field(default_factory=list)
     hidden: list[Expr] = field(default_factory=list)

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 import dofkit
+from dofkit.exact.points.field import prime_for
 
 H = {"h": ["s"]}
 QUINTIC = "x^5 + 5*x^4*y + 10*x^3*y^2 + 10*x^2*y^3 + 5*x*y^4 + y^5"
@@ -63,6 +64,68 @@ RIGHT: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
         ),
         {"dof": 1},
     ),
+    (
+        "y = exp(x) beside log(y) - x",
+        scene("x y", "y = exp(x)", "(log(y)-x) dx + dy = y dx"),
+        {"dof": 1, "velocity_dof": 1, "redundant": ["c2"]},
+    ),
+    (
+        "a part on which x = 10 and y = 0, with u, v, w free",
+        scene("x y u v w", "y=(x-10)*u^7", "(x-10)*v=y*w", "(x-10)*w=y*u"),
+        {"dof": 3, "consistent": True},
+    ),
+    (
+        "a plane x = y = 0 beside the line z = w = 0, x = y: two minors",
+        scene("x y z w q", "x*z = 0", "x*w = 0", "y*z = 0", "y*w = 0", "q = x + z"),
+        {"dof": 2},
+    ),
+    (
+        "a part of dimension 4 where exp(s) = 1",
+        scene("s a b c d", "s*a = s*b^3", "s*c = s*d*a", "s*d = s*b*c^2"),
+        {"dof": 4},
+    ),
+    (
+        "at the reference x = 10, y = 0: dz = 0",
+        scene(
+            "x y u v w z q",
+            "y=(x-10)*u",
+            "(x-10)*v=y*w",
+            "zdot=(x-10)*qdot",
+            configuration={"x": 10, "y": 0, "u": 1, "v": 2, "w": 3, "z": 0, "q": 0},
+        ),
+        {"dof": 4, "holonomic": True},
+    ),
+    (
+        "a reference on the other part: v = u w, where dz = (x - 10) dq",
+        scene(
+            "x y u v w z q",
+            "y=(x-10)*u",
+            "(x-10)*v=y*w",
+            "zdot=(x-10)*qdot",
+            configuration={"x": 11, "y": 1, "u": 1, "v": 3, "w": 3, "z": 0, "q": 0},
+        ),
+        {"dof": 5, "velocity_dof": 4, "holonomic": False},
+    ),
+    (
+        "a four-bar drawn as a parallelogram: dz = 0",
+        scene(
+            "a b z u",
+            "(2+cos(b)-cos(a))^2+(sin(b)-sin(a))^2=4",
+            "zdot=sin(a-b)*udot",
+            configuration={"a": 1, "b": 1, "z": 0, "u": 0},
+        ),
+        {"dof": 2, "holonomic": True},
+    ),
+    (
+        "cos x = cos y near x = y",
+        scene("x y z w", "cos(x) = cos(y)", "dz = (x-y) w dx", configuration={"x": 1, "y": 1, "z": 0, "w": 0}),
+        {"dof": 2, "velocity_dof": 2, "holonomic": True},
+    ),
+    (
+        "cos x = cos y near x = -y",
+        scene("x y z w", "cos(x) = cos(y)", "dz = (x-y) w dx", configuration={"x": 1, "y": -1, "z": 0, "w": 0}),
+        {"dof": 3, "velocity_dof": 2, "holonomic": False},
+    ),
 ]
 
 
@@ -71,6 +134,20 @@ def test_right(made: dict[str, Any], truth: dict[str, Any]) -> None:
     report = dofkit.classify(made)
     assert {key: getattr(report, key) for key in truth} == truth
     assert report.verdict != "undecided"
+
+
+def test_a_coefficient_that_vanishes_modulo_public_primes_is_none_of_0() -> None:
+    """dz = y dx, dw = (N u + z) dx: D has dimension 3, and [D, D] gives d/dz and d/dw at once for any N but 0."""
+    large = "*".join(str(prime_for(1, (), k)) for k in range(3))
+    report = dofkit.classify(scene("x y u z w", "zdot = y*xdot", f"wdot = ({large}*u + z)*xdot"))
+    assert report.growth_vector == [3, 5]
+
+
+@pytest.mark.parametrize("q", [2**61 - 1, prime_for(1, (), 0)])
+def test_a_drawn_place_with_a_prime_below_the_line(q: int) -> None:
+    places = [{"name": "A", "at": [f"1/{q}", 0]}, {"name": "B", "at": [1, 0]}]
+    link = {"type": "link", "between": ["A", "B"]}
+    assert dofkit.classify({"dimension": 2, "particles": places, "constraints": [link]}).dof == 3
 
 
 def test_a_quotient_that_is_rounded_excludes_no_solution() -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.agreement import agreed, numeric
+from dofkit.configuration.components import in_one_piece
 from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.search import find
@@ -23,6 +24,7 @@ from dofkit.integrability.lie_algebra_at_points import SampledSpan, span_at
 from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.prolongation import confinements, prolong
+from dofkit.integrability.regular_reference import on_reference, regular_reference
 from dofkit.mobility.frameworks import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
@@ -35,6 +37,11 @@ MAX_HIDDEN_BRANCHES = 12
 MANY_BRANCHES = f"hidden relations have more than {MAX_HIDDEN_BRANCHES} branches: which is the largest is not known"
 #: Decimals that were measured are no exact numbers, to which a form would have to be put.
 MEASURED_BESIDE = "measured relations stand beside differential ones: a tolerance is not carried through those"
+
+IRREGULAR = (
+    "the reference is no regular point of the forms, and other configurations may lie on another part of the set that "
+    "the finite relations leave"
+)
 
 
 def answer(block: Block, setting: Setting) -> Answer:
@@ -100,7 +107,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
         result.doubt = result.doubt or doubt(forms.chart.ring)
-        found = find(forms.chart, setting.pose)
+        found = _points(forms, setting)
         result.reasons = list(found.reasons)
         if not found.consistent or (not found.samples and found.real is None):
             result.consistent, result.verdict, result.hidden = found.consistent, found.verdict, extra
@@ -127,12 +134,28 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
     return result
 
 
+def _points(forms: Codistribution, setting: Setting) -> Variety:
+    """Points to look at the forms: of the reference's part where one is given, else generic ones."""
+    alike = in_one_piece(forms.chart)
+    if setting.reference is None or alike:
+        found = find(forms.chart, setting.pose)
+        return found if alike else replace(found, about="component")
+    if "field" not in forms.chart.engines:
+        return Variety(None, None, "undecided", reasons=[IRREGULAR])
+    drawn = on_reference(forms, setting.reference)
+    if not drawn:
+        return replace(find(forms.chart, setting.pose), about="component")
+    return regular_reference(forms, drawn, setting.reference) or Variety(None, None, "undecided", reasons=[IRREGULAR])
+
+
 def _largest(a: Answer) -> tuple[int, int, int]:
     return (int(a.consistent is not False), -1 if a.dof is None else a.dof, a.velocity_dof or 0)
 
 
 def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list[Expr], setting: Setting) -> Answer:
-    result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict)
+    result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict, about=found.about)
+    if block.nonlinear and found.about == "reference":
+        return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, IRREGULAR])
     if found.samples:
         good = _spans(forms, found)
         if good:

@@ -1,6 +1,6 @@
 """Random points over GF(p): zero here is zero of the function, with error at most degree/p a point [SchwartzZippel].
 
-Primes have 61 bits and are drawn at random (a fixed prime is a trap: x^(p-1) - 1), with p = 1 modulo the
+Primes have 61 bits and are drawn by a hash of the program (a fixed prime is a trap: x^(p-1) - 1), with p = 1 modulo the
 orders of the roots of unity that the scene mentions. sin and cos of a basic angle are a random point of
 the unit circle; exp, log, inverse and unknown functions are independent; roots are roots modulo p.
 """
@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
-from functools import cache, partial
+from functools import lru_cache, partial
 from math import gcd, lcm
 
 from flint import fmpz, nmod, nmod_poly
@@ -61,13 +61,13 @@ def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
     return tuple(sorted(found))
 
 
-def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int) -> int:
+def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int | str) -> int:
     """A random prime p = 1 modulo 8 and the order, modulo which the given roots of numbers exist."""
     return _prime(order, roots, seed, _bits.get())
 
 
-@cache
-def _prime(order: int, roots: tuple[tuple[int, int], ...], seed: int, bits: int) -> int:
+@lru_cache(maxsize=4096)
+def _prime(order: int, roots: tuple[tuple[int, int], ...], seed: int | str, bits: int) -> int:
     rng = random.Random(f"dofkit prime {order} {roots} {seed}")
     step = lcm(8, 2 * order)
     for _ in range(PRIME_TRIES):
@@ -128,6 +128,16 @@ class FieldPoint:
             self._agree(var, args, found)
         return found
 
+    def whatever(self, var: Var) -> Scalar:
+        """A generator's value where its argument is not known yet: that is drawn later, or found to agree."""
+        name = (var.kind, var.key)
+        if name not in self.given and var.kind in ("cos", "sin"):
+            self._setup_unity()
+            self._set_angle(var, self._turn())
+        elif name not in self.given:
+            self.given[name] = self._sign() if var.kind == "sign" else self.random()
+        return self.given[name]
+
     def _agree(self, var: Var, args: Sequence[Scalar], value: Scalar) -> None:
         """Take the value that a generator was given. Raises NoPointError where its function has another one there."""
         if var.kind == "exp":
@@ -139,6 +149,8 @@ class FieldPoint:
                 self._turns.agree(args[0], cos + self._imaginary * sin)
         elif self._of_arguments(var, args, lambda: value) != value:
             raise NoPointError("a function with two values at one place")
+        elif var.kind == "log":
+            self._exponentials.agree(value, args[0])
 
     def _of_arguments(self, var: Var, args: Sequence[Scalar], draw: Callable[[], Scalar]) -> Scalar:
         """The value that this function has taken at these arguments, however they are written; else a new one.
@@ -163,7 +175,7 @@ class FieldPoint:
         if var.kind == "root":
             return self._root(var, args[0])
         if var.kind == "sign":
-            return nmod(self.rng.choice((1, self.p - 1)), self.p)
+            return self._sign()
         if var.kind == "log":
             return self._logarithm(args[0])
         if args and var.kind != "call" and args[0] == 0:
@@ -189,10 +201,18 @@ class FieldPoint:
             cos, sin = nmod(1, self.p), nmod(0, self.p)
         else:
             self._setup_unity()
-            z = self._turns.at(args[0], self._turn)
-            cos, sin = (z + 1 / z) / 2, (z - 1 / z) / (2 * self._imaginary)
+            self._set_angle(var, self._turns.at(args[0], self._turn))
+            return
         self.given["cos", var.key] = cos
         self.given["sin", var.key] = sin
+
+    def _set_angle(self, var: Var, z: Scalar) -> None:
+        """Cosine and sine from z = cos + i sin."""
+        self.given["cos", var.key] = (z + 1 / z) / 2
+        self.given["sin", var.key] = (z - 1 / z) / (2 * self._imaginary)
+
+    def _sign(self) -> Scalar:
+        return nmod(self.rng.choice((1, self.p - 1)), self.p)
 
     def _turn(self) -> Scalar:
         """z = cos + i sin of a random angle, which is 1 + i w over 1 - i w."""
@@ -249,13 +269,19 @@ class FieldPoint:
         return total if prime % 4 == 1 else total / self._imaginary
 
 
-def field_point(rings: Sequence[Ring], seed: int, given: Mapping[Var, Scalar] | None = None) -> FieldPoint:
-    """A fresh random point for programs that share their symbols, modulo a prime where roots of roots exist."""
-    order, roots = circle_order(rings), number_roots(rings)
+def field_point(
+    rings: Sequence[Ring], seed: int, given: Mapping[Var, Scalar] | None = None, beside: str = ""
+) -> FieldPoint:
+    """A fresh random point for programs that share their symbols, modulo a prime where roots of roots exist.
+
+    Primes and values are drawn by a hash of the programs, and of what stands ``beside`` them: a coefficient that is
+    made to vanish modulo the primes in use changes them.
+    """
+    order, roots, own = circle_order(rings), number_roots(rings), " ".join((*(ring.digest for ring in rings), beside))
     nested = [(ring, var) for ring in rings for var in ring.vars if _nested(ring, var)]
     for attempt in range(NESTED_TRIES if nested else 1):
-        p = prime_for(order, roots, seed % 3 + 3 * attempt)
-        point = FieldPoint(p, random.Random(f"dofkit point {seed}"), order)
+        p = prime_for(order, roots, f"{seed % 3 + 3 * attempt} {own}")
+        point = FieldPoint(p, random.Random(f"dofkit point {seed} {own}"), order)
         for var, value in (given or {}).items():
             point.set(var, value)
         if all(_exists(ring, var, point) for ring, var in nested):

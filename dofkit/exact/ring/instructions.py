@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
+from hashlib import sha256
 from typing import Any, Protocol
 
 from dofkit.expressions.tree import Expr
@@ -56,6 +58,11 @@ class Instructions:
         self._orders: dict[tuple[int, ...], list[int]] = {}
         self._interned: dict[tuple[int, Any], int] = {}
         self._var_of: dict[tuple[Any, ...], int] = {}
+
+    @cached_property
+    def digest(self) -> str:
+        """A hash of the program when it was first asked for: what is drawn by it is the same wherever it runs."""
+        return sha256(repr(self.code).encode()).hexdigest()
 
     def emit(self, op: int, payload: Any) -> int:
         """The number of an instruction."""

@@ -88,6 +88,12 @@ class Ring(Instructions):
             "call": self._call,
         }
 
+    def another(self) -> Ring:
+        """An empty ring that splits arguments in the same way, so that a point of one is a point of the other."""
+        made = Ring((), self.positive, self.alias)
+        made._denominators, made._split = self._denominators, self._split
+        return made
+
     def node(self, e: Expr) -> int:
         """The number of the instruction that computes ``e``; raises PoleError where it divides by 0."""
         found = self._memo.get(e)

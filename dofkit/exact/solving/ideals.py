@@ -37,7 +37,19 @@ def complex_dimension(ring: Ring, nodes: Sequence[int], moving: Sequence[int]) -
     of unknowns of which no leading monomial is a product. None where other functions than sines and cosines of single
     coordinates occur, or where it would take long.
     """
-    made = _Polynomials.of(ring, nodes, moving)
+    if not 2 <= len(nodes) <= MAX_RELATIONS:
+        return None
+    canon = Canon(ring)
+    try:
+        own = [canon.quotient(node)[0] for node in nodes]
+    except NoValueError:
+        return None
+    return None if sum(map(_is_curved, own)) < 2 else dimension_of(canon, own, moving)
+
+
+def dimension_of(canon: Canon, own: Sequence[Poly], moving: Sequence[int]) -> int | None:
+    """The same for polynomials of a canonical ring."""
+    made = _Polynomials.of(canon, own, moving)
     basis = None if made is None else _basis(made.polynomials)
     if made is None or basis is None:
         return None
@@ -59,23 +71,17 @@ class _Polynomials:
         self.polynomials, self.unknowns, self.unseen = polynomials, unknowns, unseen
 
     @classmethod
-    def of(cls, ring: Ring, nodes: Sequence[int], moving: Sequence[int]) -> _Polynomials | None:
-        if not 2 <= len(nodes) <= MAX_RELATIONS:
-            return None
-        canon = Canon(ring)
-        try:
-            own = [canon.quotient(node)[0] for node in nodes]
-        except NoValueError:
-            return None
+    def of(cls, canon: Canon, own: Sequence[Poly], moving: Sequence[int]) -> _Polynomials | None:
+        ring = canon.ring
         used = sorted({i for p in own for i in canon.generators_in(p)})
-        if any(len(p) > MAX_LENGTH or p.total_degree() > MAX_DEGREE for p in own) or sum(map(_is_curved, own)) < 2:
+        if any(len(p) > MAX_LENGTH or p.total_degree() > MAX_DEGREE for p in own):
             return None
         kept = _unknowns(ring, used, moving)
         if kept is None or len(kept) > MAX_UNKNOWNS:
             return None
         seen, pairs = _coordinates_and_pairs(ring, kept)
         rng = random.Random("dofkit ideals")
-        values = {i: Fraction(rng.randint(2, LARGEST)) for i in used if i not in kept}
+        values = _constants(ring, [i for i in used if i not in kept], rng)
         place = {i: k for k, i in enumerate(kept)}
         ctx = fmpz_mpoly_ctx.get([f"u{k}" for k in range(len(kept))], Ordering.degrevlex)
         gens = ctx.gens()
@@ -97,10 +103,26 @@ def _unknowns(ring: Ring, used: Sequence[int], moving: Sequence[int]) -> list[in
             kept |= {i} & set(moving)
         elif var.kind in ("cos", "sin") and _angle(ring, i) in moving:
             kept |= {i, var.partner}
-        else:
+        elif var.kind not in ("cos", "sin", "exp") or any(
+            ring.var_index(s) in moving for s in ring.var_expr[i].symbols
+        ):
             return None
     angles = {_angle(ring, i) for i in kept if ring.vars[i].kind != "symbol"}
     return None if angles & kept else sorted(kept)
+
+
+def _constants(ring: Ring, others: Sequence[int], rng: random.Random) -> dict[int, Fraction]:
+    """Random values of parameters and functions of them: a cosine and its sine are a point of the circle."""
+    found = dict[int, Fraction]()
+    for i in others:
+        var = ring.vars[i]
+        if var.kind in ("cos", "sin") and i not in found:
+            half = Fraction(rng.randint(2, LARGEST), LARGEST)
+            pair = {"cos": (1 - half**2) / (1 + half**2), "sin": 2 * half / (1 + half**2)}
+            found |= {i: pair[var.kind], var.partner: pair[ring.vars[var.partner].kind]}
+        else:
+            found.setdefault(i, Fraction(rng.randint(2, LARGEST)))
+    return found
 
 
 def _angle(ring: Ring, index: int) -> int | None:

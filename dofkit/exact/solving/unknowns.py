@@ -117,12 +117,9 @@ def _independent(ring: Ring, index: int, point: FieldPoint) -> Any:
     found = point.given.get((var.kind, var.key))
     if found is not None:
         return found
-    if var.kind == "root" and not stands_for_number(ring, index):
-        point.set(var, point.random())
-        return point.given[var.kind, var.key]
-    known = stands_for_number(ring, index)
-    args = [value_along(ring, a, {}, point) if known else point.random() for a in var.args]
-    return point.generator(var, args)
+    if not stands_for_number(ring, index):
+        return point.whatever(var)
+    return point.generator(var, [value_along(ring, a, {}, point) for a in var.args])
 
 
 def is_linear(ring: Ring, node: int, index: int, point: FieldPoint) -> bool:

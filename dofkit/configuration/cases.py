@@ -1,0 +1,149 @@
+"""A set of zeros told apart into cases: a product is 0 where a factor is, a x + b where x = -b/a or where a = b = 0.
+
+On each case all relations but a few give one coordinate each. Elimination that divides by ``a`` sees the first kind
+only; a part on which ``a`` is 0 may be larger.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon, is_identically_zero
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.solving.ideals import dimension_of
+from dofkit.exact.zero.independence import doubt
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.zero_set import zero_set
+
+#: Cases that are told apart, in all; nodes of an expression past which no coordinate is put into it.
+MAX_CASES, MAX_NODES = 48, 300
+
+
+@dataclass(frozen=True)
+class ZeroCase:
+    """Where ``solved`` relations give one unknown each, ``left`` vanish too, and none of ``nonzero`` does.
+
+    ``fresh``: relations whose factors were not looked at.
+    """
+
+    solved: tuple[Expr, ...]
+    left: tuple[Expr, ...]
+    fresh: tuple[Expr, ...]
+    nonzero: tuple[Expr, ...] = ()
+
+    @property
+    def relations(self) -> tuple[Expr, ...]:
+        """All that vanishes there."""
+        return self.solved + self.left + self.fresh
+
+
+@dataclass(frozen=True)
+class BoundedCase:
+    """The relations of a case and a bound of the dimension of its points; ``counted``: the complex ones have it."""
+
+    relations: tuple[Expr, ...]
+    most: int
+    counted: bool
+
+
+def cases_of(
+    relations: Sequence[Expr], unknowns: Sequence[Expr], positive: frozenset[Expr]
+) -> list[BoundedCase] | None:
+    """The cases of some relations between ``unknowns``; None where there are too many of them.
+
+    Other symbols are generic constants. No case: there is no real point.
+    """
+    moving = frozenset(unknowns)
+    open_, found, seen = [ZeroCase((), (), tuple(relations))], list[BoundedCase](), 0
+    while open_:
+        check()
+        seen += 1
+        if seen > MAX_CASES:
+            return None
+        case = open_.pop()
+        parts = _split(case, moving, positive)
+        if parts is None:
+            found += [b for b in [_bounded(case, unknowns, positive)] if b.most >= 0]
+        else:
+            open_ += parts
+    return found
+
+
+def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -> list[ZeroCase] | None:
+    """The cases within one; None where it is told apart no further."""
+    if case.fresh:
+        g, rest = case.fresh[0], case.fresh[1:]
+        branches = zero_set(g, positive, moving)[0]
+        kept = [b for b in branches if not any(_same_zeros(e, u, positive) for e in b for u in case.nonzero)]
+        return [replace(case, left=case.left + tuple(e for e in b if not e.is_zero), fresh=rest) for b in kept]
+    choices = list(_linear(case.left, moving))
+    if not choices:
+        return None
+    _, g, s, slope = min(choices, key=lambda choice: choice[0])
+    others = tuple(e for e in case.left if e != g)
+    at_zero = substitute(g, {s: ex.ZERO})
+    value = {s: -at_zero / slope}
+    used = tuple(e for e in others if s in e.symbols)
+    beside = tuple(e for e in others if s not in e.symbols)
+    solved = ZeroCase((*case.solved, g), beside, tuple(substitute(e, value) for e in used), case.nonzero)
+    if moving.isdisjoint(slope.symbols):
+        return [solved]
+    factors = [b[0] for b in zero_set(slope, positive, moving)[0] if len(b) == 1]
+    return [
+        replace(solved, nonzero=(*case.nonzero, *factors)),
+        replace(case, left=others, fresh=(slope, at_zero)),
+    ]
+
+
+def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tuple[tuple[int, int], Expr, Expr, Expr]]:
+    """(how large, relation, unknown, its coefficient) where a relation has the first degree in an unknown."""
+    sizes = {g: sum(1 for _ in ex.nodes(g)) for g in relations}
+    for g in relations:
+        for s in sorted(moving & g.symbols, key=repr):
+            slope = diff(g, s)
+            if s in slope.symbols or is_identically_zero(slope) is not False:
+                continue
+            if sizes[g] + max((sizes[e] for e in relations if e != g and s in e.symbols), default=0) > MAX_NODES:
+                continue
+            yield (not moving.isdisjoint(slope.symbols), sum(1 for _ in ex.nodes(slope))), g, s, slope
+
+
+def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
+    """Are two expressions the same up to a number?"""
+    if e.symbols != other.symbols:
+        return False
+    ring = Ring([e, other], positive)
+    try:
+        nodes = ring.node(e), ring.node(other)
+        canon = Canon(ring)
+        first, second = (canon.quotient(n)[0] for n in nodes)
+    except NoValueError:
+        return False
+    return bool(first * second.leading_coefficient() == second * first.leading_coefficient())
+
+
+def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]) -> BoundedCase:
+    """A case that is told apart no further, with the bound of its dimension: -1 where it has no point.
+
+    One relation takes one dimension away, unless it holds everywhere; several take that of a Groebner basis.
+    """
+    most = len(unknowns) - len(case.solved)
+    if not case.left:
+        return BoundedCase(case.relations, most, True)
+    ring = Ring(case.left, positive)
+    nodes = [ring.node(g) for g in case.left]
+    if doubt(ring) is not None:
+        return BoundedCase(case.relations, most, False)
+    if len(case.left) == 1:
+        return BoundedCase(case.relations, most - 1, True)
+    moving = [i for s in unknowns if (i := ring.var_index(s)) is not None]
+    canon = Canon(ring)
+    whole = dimension_of(canon, [canon.quotient(node)[0] for node in nodes], moving)
+    if whole is None:
+        return BoundedCase(case.relations, most - 1, False)
+    return BoundedCase(case.relations, -1 if whole < 0 else most - len(moving) + whole, True)

@@ -1,0 +1,237 @@
+"""The parts of a configuration space: is there a larger one than that of the point that was found?
+
+A regular point of r relations in n unknowns tells the dimension n - r of its own part. No part is smaller [Krull1928],
+but one may be larger: y = (x - 1) u, (x - 1) v = y w, (x - 1) w = y u hold where x = 1, y = 0 whatever u, v, w are.
+That none is larger is known where
+
+- the relations but one give a coordinate each as a function of others: the set is a graph over a hypersurface;
+- the others have a parameter each of their own: almost every fibre is a manifold [Sard1942];
+- a Groebner basis shows the dimension of all complex points, or does so for every case [Buchberger1965].
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from itertools import product as cartesian
+from typing import NamedTuple
+
+import networkx as nx
+
+from dofkit.base.deadline import check
+from dofkit.configuration.cases import BoundedCase, cases_of
+from dofkit.configuration.generic_points import field_jacobian, on_variety
+from dofkit.configuration.variety import Variety
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.ring.canonical import Canon, is_identically_zero
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.tree import Expr
+from dofkit.relations.chart import Chart
+from dofkit.relations.normal.zero_set import never_vanishes
+from dofkit.relations.reductions import ReductionName
+
+#: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases together.
+MAX_RELATIONS, MAX_NODES, MAX_TOGETHER = 200, 200, 16
+LARGER = "over the complex numbers the set has a part of larger dimension, and it was not decided what of it is real"
+NEAR = "the freedom is that of the part of the configuration space near the witness: a larger part was not excluded"
+
+
+_ELIMINATED: tuple[ReductionName, ...] = ("eliminations",)
+
+
+class Part(NamedTuple):
+    """Relations between ``unknowns`` that no other relations share."""
+
+    relations: tuple[Expr, ...]
+    unknowns: tuple[Expr, ...]
+
+
+class Explicit(NamedTuple):
+    """The relations that ``give`` a coordinate each as a function of others, and those ``left`` with these put in."""
+
+    given: tuple[Expr, ...]
+    left: tuple[Expr, ...]
+
+
+def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variety]) -> Variety:
+    """What is known of the set, for its largest part; ``look`` finds generic points of the set of another chart."""
+    if found.dimension is None or not found.consistent or len(chart.relations) < 2:
+        return found
+    if len(chart.relations) > MAX_RELATIONS:
+        return _near(found)
+    given, left = explicit_relations(chart.relations)
+    parts = parts_of(left, [s for s in chart.symbols if s != ex.TIME])
+    cases = [_cases(part, chart) for part in parts]
+    if None in cases:
+        return _near(found)
+    loose = chart.coordinates - len(given) - sum(len(part.unknowns) for part in parts)
+    together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
+    best, open_, regular = found, list[bool](), _is_regular(chart, found)
+    for number, choice in enumerate(together):
+        if loose + _most(choice) <= (best.dimension or 0):
+            break
+        if number == MAX_TOGETHER:
+            return _near(best)
+        larger = _found(chart, [*given, *(g for case in choice for g in case.relations)], look)
+        if larger.consistent is False and larger.verdict == "proved":
+            continue
+        best, ended = _larger(chart, best, larger, loose + _most(choice))
+        if not ended:
+            open_.append(all(case.counted for case in choice))
+    if any(open_) and regular:
+        return replace(best, dimension=None, verdict="undecided", reasons=[*best.reasons, LARGER])
+    return _near(best) if open_ else best
+
+
+def _found(chart: Chart, relations: Sequence[Expr], look: Callable[[Chart], Variety]) -> Variety:
+    """What is known of the set of other relations; nothing where they have no value at the points that are tried."""
+    try:
+        return look(_restricted(chart, relations))
+    except NoValueError:
+        return Variety(None, None, "undecided")
+
+
+def _is_regular(chart: Chart, found: Variety) -> bool:
+    """Have the relations as large a rank there as the dimension says?"""
+    rank = None if not found.samples else rank_of_rows(field_jacobian(chart, found.samples[0]), found.samples[0].p)
+    return rank is not None and found.dimension == chart.coordinates - rank
+
+
+def _near(found: Variety) -> Variety:
+    """What was found, told of its own part only."""
+    return replace(found, about="component", reasons=[*found.reasons, NEAR])
+
+
+def _most(choice: Iterable[BoundedCase]) -> int:
+    return sum(case.most for case in choice)
+
+
+def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Variety, bool]:
+    """The larger of two varieties, and whether the other is known to be as large as it can be."""
+    samples = [p for p in other.samples if on_variety(chart, p)]
+    if not other.consistent or other.dimension is None or not samples:
+        return best, False
+    larger = other.dimension > (best.dimension or 0)
+    return replace(other, samples=samples) if larger else best, other.dimension >= most
+
+
+def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
+    """The chart with other relations, in a ring of their own: they may have no value where those of the chart do."""
+    ring = chart.ring.another()
+    nodes = tuple(ring.node(g) for g in relations)
+    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in chart.symbols)
+    kinds = _ELIMINATED * len(nodes)
+    return replace(chart, ring=ring, nodes=nodes, columns=columns, relations=tuple(relations), kinds=kinds)
+
+
+def in_one_piece(chart: Chart) -> bool:
+    """Is the set known to be irreducible? What is generic on one part of it is so on all.
+
+    So are a graph, and the zeros of one polynomial without factors: parts that it may have over larger numbers are
+    conjugate, and as good as each other.
+    """
+    if len(chart.relations) > MAX_RELATIONS:
+        return False
+    left = explicit_relations(chart.relations).left
+    if len(left) != 1:
+        return not left
+    ring = Ring(left, chart.positive)
+    try:
+        node = ring.node(left[0])
+        canon = Canon(ring)
+        top = canon.quotient(node)[0]
+        factors = canon.factors(top)
+    except NoValueError:
+        return False
+    plain = all(ring.vars[i].kind == "symbol" for i in canon.generators_in(top))
+    moving = [i for s in chart.symbols if s != ex.TIME and (i := ring.var_index(s)) is not None]
+    return plain and sum(not {*canon.generators_in(f)}.isdisjoint(moving) for f, _ in factors) == 1
+
+
+def explicit_relations(relations: Sequence[Expr]) -> Explicit:
+    """The relations that give a coordinate: a number, or parameters, times it plus what does not hold it.
+
+    Those go first whose coordinate stands in no other; then it is put into the others.
+    """
+    given, left = list[Expr](), [g for g in relations if not g.is_zero]
+    while True:
+        check()
+        times = Counter(s for g in left for s in g.symbols)
+        own = [(g, s) for g in left for s in g.symbols if times[s] == 1 and _slope(g, s) is not None]
+        if own:
+            taken = dict(own)
+            given += taken
+            left = [g for g in left if g not in taken]
+            continue
+        pair = next(((g, s) for g in left for s in sorted(g.symbols, key=repr) if _may_be_put(g, s, left)), None)
+        if pair is None:
+            return Explicit(tuple(given), tuple(left))
+        g, s = pair
+        value = {s: -substitute(g, {s: ex.ZERO}) / (_slope(g, s) or ex.ONE)}
+        given.append(g)
+        left = [h for e in left if e != g and not (h := substitute(e, value)).is_zero]
+
+
+def _slope(g: Expr, s: Expr) -> Expr | None:
+    """The coefficient of a coordinate in a sum where it stands once, times what holds no coordinate; else None."""
+    if s.args[0] != "coordinate":
+        return None
+    terms = [t for t in (g.args if g.op == "add" else (g,)) if s in t.symbols]
+    if len(terms) != 1:
+        return None
+    factors = terms[0].args if terms[0].op == "mul" else terms
+    rest = [f for f in factors if f != s]
+    plain = len(rest) == len(factors) - 1 and all(f.op == "num" or _is_parameter(f) or _is_generic(f) for f in rest)
+    return ex.mul(*rest) if plain and rest else ex.ONE if plain else None
+
+
+def _is_parameter(e: Expr) -> bool:
+    return e.op == "sym" and e.args[0] == "parameter"
+
+
+def _is_generic(e: Expr) -> bool:
+    """No coordinate in it, and 0 at single moments, or for special parameters, at most."""
+    return all(s.args[0] != "coordinate" for s in e.symbols) and is_identically_zero(e) is False
+
+
+def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:
+    """Can a coordinate be solved for and put into the other relations, which stay small?"""
+    if _slope(g, s) is None:
+        return False
+    size = sum(1 for _ in ex.nodes(g))
+    return all(s not in e.symbols or sum(1 for _ in ex.nodes(e)) + size <= MAX_NODES for e in relations if e != g)
+
+
+def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[Part]:
+    """The relations by the coordinates that they share; the moment is any."""
+    graph: nx.Graph = nx.Graph()
+    known = frozenset(symbols)
+    for i, g in enumerate(relations):
+        graph.add_node(i)
+        graph.add_edges_from((i, s) for s in g.symbols & known)
+    parts = []
+    for component in nx.connected_components(graph):
+        own = tuple(g for i, g in enumerate(relations) if i in component)
+        parts.append(Part(own, tuple(s for s in symbols if s in component)))
+    return parts
+
+
+def _cases(part: Part, chart: Chart) -> list[BoundedCase] | None:
+    """The cases of a part with the bounds of their dimensions."""
+    if _is_fibre(part, chart.positive):
+        return [BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
+    try:
+        own = [g for g in part.relations if is_identically_zero(g, chart.positive) is not True]
+        return cases_of(own, part.unknowns, chart.positive)
+    except NoValueError:
+        return None
+
+
+def _is_fibre(part: Part, positive: frozenset[Expr]) -> bool:
+    """Has each relation a parameter that no other holds, in which it is nowhere stationary? [Sard1942]."""
+    times = Counter(s for g in part.relations for s in g.symbols if _is_parameter(s))
+    return all(any(times[s] == 1 and never_vanishes(diff(g, s), positive) for s in g.symbols) for g in part.relations)
