@@ -1,17 +1,78 @@
-"""How sure an answer is."""
+"""How sure an answer is, of which points it is told, and by which argument."""
 
 from __future__ import annotations
 
-from typing import Literal
+from dataclasses import dataclass
+from math import log2
+from typing import Literal, get_args
 
 Verdict = Literal["proved", "probable", "numeric", "undecided"]
 
 #: Which points a claim speaks of: the part near the reference, that near the witness, all.
 About = Literal["reference", "component", "everywhere"]
 
+#: The arguments by which answers are given. Each is a row of the table in `classification/arguments.py`.
+ArgumentKey = Literal[
+    "nothing constrains",
+    "regular point",
+    "one relation",
+    "graph",
+    "generic fibre",
+    "cases",
+    "independent relations",
+    "rigid to first order",
+    "degree too high",
+    "zero along a curve",
+    "flat along a curve",
+    "isolated zero of one variable",
+    "indefinite form",
+    "definite form",
+    "definite combination",
+    "least along a motion",
+    "change of sign",
+    "definite at a higher order",
+    "no second-order flex",
+    "critical branch",
+    "branch followed",
+    "initial forms apart",
+    "definite initial form",
+    "singular values",
+    "links in general position",
+    "linear contradiction",
+    "no real solution",
+    "lengths compared",
+    "inequality nowhere",
+    "outside the domain",
+    "number left over",
+    "time fixed",
+    "generic points",
+    "Lie algebra, certified",
+    "Lie algebra at points",
+    "Lie algebra with balls",
+    "states of motion",
+    "finite relation",
+    "inequality",
+    "curved velocities",
+    "line field",
+    "form by itself",
+    "in the integrable part",
+    "outside the integrable part",
+    "as written",
+    "identity",
+    "zero with another derivative",
+    "rank at the reference",
+    "brackets at points",
+    "rows at a point",
+    "implication",
+    "leaving out",
+    "count",
+]
+ARGUMENTS: frozenset[str] = frozenset(get_args(ArgumentKey))
 
 #: From the strongest to the weakest.
 VERDICTS: tuple[Verdict, ...] = ("proved", "probable", "numeric", "undecided")
+#: From what says least.
+ABOUTS: tuple[About, ...] = ("reference", "component", "everywhere")
 
 
 def weakest(*verdicts: Verdict) -> Verdict:
@@ -21,3 +82,65 @@ def weakest(*verdicts: Verdict) -> Verdict:
     'numeric'
     """
     return max(verdicts, key=VERDICTS.index, default="proved")
+
+
+def least(*abouts: About) -> About:
+    """Of which points a claim speaks that needs some others.
+
+    >>> least("everywhere", "reference")
+    'reference'
+    """
+    return min(abouts, key=ABOUTS.index, default="everywhere")
+
+
+@dataclass(frozen=True)
+class Claim:
+    """How sure one answer is, by which argument, and of which points.
+
+    ``bits``: what is ``probable`` is wrong with a chance below 2^-bits; ``gap``: what is ``numeric`` was told apart by
+    this ratio. Raises ValueError for a proof without an argument, or a chance without a bound: nobody could check them.
+
+    >>> Claim("proved")
+    Traceback (most recent call last):
+    ValueError: 'proved' by no argument of the table: None
+    """
+
+    verdict: Verdict
+    argument: ArgumentKey | None = None
+    bits: int | None = None
+    gap: float | None = None
+    about: About = "everywhere"
+
+    def __post_init__(self) -> None:
+        if self.verdict != "undecided" and self.argument not in ARGUMENTS:
+            raise ValueError(f"{self.verdict!r} by no argument of the table: {self.argument}")
+        if self.verdict == "probable" and self.bits is None:
+            raise ValueError("what is probable has a bound of its error")
+        if self.verdict == "numeric" and self.gap is None:
+            raise ValueError("what is numeric has a gap")
+
+    @property
+    def bound(self) -> str | None:
+        """The chance of an error, or the gap, as text."""
+        if self.verdict == "probable":
+            return f"2^-{self.bits}"
+        return f"{self.gap:.1e}" if self.verdict == "numeric" and self.gap is not None else None
+
+
+OPEN = Claim("undecided")
+
+
+def together(*claims: Claim) -> Claim:
+    """The claim that all of some hold, by the argument of the weakest: errors add up.
+
+    >>> together(Claim("proved", "graph"), Claim("probable", "cases", bits=40), Claim("probable", "graph", bits=40))
+    Claim(verdict='probable', argument='cases', bits=39, gap=None, about='everywhere')
+    """
+    if not claims:
+        return Claim("proved", "nothing constrains")
+    worst = max(claims, key=lambda c: VERDICTS.index(c.verdict))
+    about = least(*(c.about for c in claims))
+    errors = sum(2.0**-c.bits for c in claims if c.verdict == "probable" and c.bits is not None)
+    bits = None if worst.verdict != "probable" else int(-log2(errors))
+    gaps = [c.gap for c in claims if c.verdict == "numeric" and c.gap is not None]
+    return Claim(worst.verdict, worst.argument, bits, min(gaps) if worst.verdict == "numeric" else None, about)

@@ -20,6 +20,7 @@ from typing import NamedTuple
 import networkx as nx
 
 from dofkit.base.deadline import check
+from dofkit.base.verdicts import ArgumentKey
 from dofkit.configuration.cases import BoundedCase, cases_of
 from dofkit.configuration.generic_points import field_jacobian, on_variety
 from dofkit.configuration.variety import Variety
@@ -59,8 +60,11 @@ class Explicit(NamedTuple):
 
 def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variety]) -> Variety:
     """What is known of the set, for its largest part; ``look`` finds generic points of the set of another chart."""
-    if found.dimension is None or not found.consistent or len(chart.relations) < 2:
+    if found.dimension is None or not found.consistent:
         return found
+    if len(chart.relations) < 2:
+        least = chart.coordinates - len(chart.relations)
+        return _by(found, "one relation") if found.dimension >= least else _near(found)
     if len(chart.relations) > MAX_RELATIONS:
         return _near(found)
     given, left = explicit_relations(chart.relations)
@@ -84,7 +88,7 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
             open_.append(all(case.counted for case in choice))
     if any(open_) and regular:
         return replace(best, dimension=None, verdict="undecided", reasons=[*best.reasons, LARGER])
-    return _near(best) if open_ else best
+    return _near(best) if open_ else _by(best, "cases" if parts else "graph")
 
 
 def _found(chart: Chart, relations: Sequence[Expr], look: Callable[[Chart], Variety]) -> Variety:
@@ -99,6 +103,11 @@ def _is_regular(chart: Chart, found: Variety) -> bool:
     """Have the relations as large a rank there as the dimension says?"""
     rank = None if not found.samples else rank_of_rows(field_jacobian(chart, found.samples[0]), found.samples[0].p)
     return rank is not None and found.dimension == chart.coordinates - rank
+
+
+def _by(found: Variety, argument: ArgumentKey) -> Variety:
+    """What was found at a regular point, of all parts by an argument."""
+    return replace(found, argument=argument) if found.argument == "regular point" else found
 
 
 def _near(found: Variety) -> Variety:

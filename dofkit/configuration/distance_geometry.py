@@ -65,7 +65,13 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
     found = unmet(given, setting.dimension, setting.positive) if len(given) > 1 else None
     if found is None:
         return None
-    return Answer(False, reasons=[found.reason], method="lengths compared", conflict=found.constraints)
+    return Answer(
+        False,
+        reasons=[found.reason],
+        method="lengths compared",
+        argument="lengths compared",
+        conflict=found.constraints,
+    )
 
 
 def unmet(given: Sequence[tuple[int, Distance]], dimension: int, positive: frozenset[Expr]) -> Unmet | None:

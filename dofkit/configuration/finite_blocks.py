@@ -15,6 +15,7 @@ from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse
 from dofkit.exact.points.frames import sparse_frame
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.ring.degree import error_bits
 from dofkit.exact.zero.independence import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -52,7 +53,10 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         if setting.tolerance is not None:
             return Answer(None, verdict="undecided", reasons=[MEASURED_OFF])
     found = find(chart, setting.pose)
-    result = Answer(found.consistent, found.dimension, found.dimension, found.verdict, found.about)
+    result = Answer(
+        found.consistent, found.dimension, found.dimension, found.verdict, found.about, found.argument, gap=found.gap
+    )
+    result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
     result.reasons = list(found.reasons)
     if setting.reference is not None:
         result.reasons.append(OFF_REFERENCE)
@@ -74,7 +78,7 @@ def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     columns = [i for i, s in enumerate(shown) if s != ex.TIME]
     part = ball_part([[row[c] for c in columns] for row in real.matrix])
     if part.rank < real.rank:
-        result.consistent, result.dof, result.velocity_dof = False, None, None
+        result.consistent, result.dof, result.velocity_dof, result.argument = False, None, None, "time fixed"
         result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
         return
     result.dependent = tuple(str(shown[columns[i]].args[1]) for i in part.columns)
@@ -88,6 +92,7 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
     if setting.tolerance is not None:
         return _measured_answer(chart, setting, found)
     result = Answer(True, found.local.dimension, found.local.dimension, found.local.verdict)
+    result.argument, result.bits = found.local.argument, error_bits(chart.ring, chart.nodes, len(chart.columns))
     result.method = "rank over GF(p) at the given configuration"
     result.instantaneous, result.looked = found.instantaneous, found.looked
     result.matrix, result.modulus = found.matrix, found.modulus
@@ -98,6 +103,7 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
     if found.local.confined and found.rank == len(chart.columns):
         result.consistent, result.dof, result.velocity_dof, result.verdict = False, None, None, "probable"
+        result.argument = "time fixed"
         result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
         return result
     if found.local.confined:
@@ -131,6 +137,7 @@ def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answ
     at = {s: float(v.mid()) for s, v in found.ball.symbols.items()} if found.ball is not None else {}
     told = measure(chart, at, setting.roles, float(setting.tolerance or 0), setting.size, found.rigid)
     result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
+    result.argument, result.gap = "singular values", told.gap
     result.method = "singular values within the tolerance at the given configuration"
     result.instantaneous = told.instantaneous
     exact = "no singular value but 0 itself is taken for 0"
@@ -152,7 +159,7 @@ def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:
     result.dependent = dependent_names(matrix, chart, point.p)
     if rank_q < rank:
         result.consistent, result.dof, result.velocity_dof = False, None, None
-        result.verdict = "probable"
+        result.verdict, result.argument = "probable", "time fixed"
         result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
         return
     result.degenerate = result.dof is not None and result.dof != n - rank

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dofkit.base.deadline import check
-from dofkit.base.verdicts import Verdict
+from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.configuration.generic_points import field_jacobian, generators_of
 from dofkit.configuration.local.dimension import local_at
 from dofkit.configuration.reality import BALL_COLUMNS, real_point, with_reality
@@ -33,6 +33,7 @@ def variety_at(
     timed = columns - chart.coordinates
     dimension: int | None = columns - rank - timed
     verdict: Verdict = "proved" if rank == len(chart.nodes) else "probable"
+    argument: ArgumentKey | None = "regular point"
     reasons: list[str] = []
     if rank < len(chart.nodes) and not _smooth(chart, samples[0], solver):
         local = local_at(chart, samples[0], None, 0, chart.time)
@@ -42,10 +43,10 @@ def variety_at(
             if exact is None and bound is not None and bound == columns - rank - 1:
                 exact = bound
             dimension = None if exact is None else exact - timed
-            verdict = "undecided" if exact is None else "probable"
+            verdict, argument = "undecided" if exact is None else "probable", local.argument or "generic points"
             reasons.append(local.reason)
     real = real_point(chart, seed, core) if len(chart.columns) <= BALL_COLUMNS else None
-    return with_reality(chart, Variety(True, dimension, verdict, samples, real, reasons), rank)
+    return with_reality(chart, Variety(True, dimension, verdict, samples, real, reasons, argument=argument), rank)
 
 
 def _smooth(chart: Chart, point: FieldPoint, solver: TriangularSolver | None) -> bool:

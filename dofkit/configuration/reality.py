@@ -98,6 +98,6 @@ def near_singular_point(chart: Chart, found: Variety) -> Variety:
         found.reasons.append("every real configuration that was found is singular; what moves there was not decided")
         return found
     found.dimension = local.dimension - (len(chart.columns) - chart.coordinates)
-    found.verdict = weakest(found.verdict, "numeric")
+    found.verdict, found.argument = weakest(found.verdict, "numeric"), local.argument
     found.reasons.append(f"every real configuration that was found is singular: {local.reason}")
     return found

@@ -39,7 +39,7 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     found = _variety(chart, pose, seed)
     looked = {"field", "balls"} <= chart.engines and found.consistent is not True and found.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
-        return Variety(False, None, "proved", reasons=[EMPTY])
+        return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
     return of_largest_part(chart, found, lambda part: _variety(part, {}, seed))
 
 
@@ -50,14 +50,15 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
             points = [p for p in (free_point(chart, seed + k) for k in range(samples_for(chart))) if p is not None]
         real = real_point(chart, seed, ())
         verdict: Verdict = "proved"
-        return Variety(True, chart.coordinates, verdict, points, real)
+        return Variety(True, chart.coordinates, verdict, points, real, argument="nothing constrains")
     if "field" in chart.engines and _has_joint_positions(chart):
         posed = pose_samples(chart, pose, seed)
         if posed:
             return variety_at(chart, posed, None, seed, chart.nodes)
     linear = presolve(chart.relations if "eliminations" in chart.reductions else ())
     if linear.contradiction:
-        return Variety(False, None, "proved", reasons=["linear relations contradict each other"])
+        why = "linear relations contradict each other"
+        return Variety(False, None, "proved", reasons=[why], argument="linear contradiction")
     if "field" not in chart.engines:
         return _numerical(chart, seed, chart.nodes)
     core = [n for i, n in enumerate(chart.nodes) if i not in linear.superfluous]
@@ -83,7 +84,7 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
     """What elimination alone says against the relations; None where it says nothing."""
     if solver.plan.special:
         why = "the relations hold only for special values of the parameters"
-        return Variety(False, None, "probable", reasons=[why])
+        return Variety(False, None, "probable", reasons=[why], argument="number left over")
     if not solver.plan.contradictory or _signed(chart.ring, solver.plan.witness):
         return None
     if "balls" in chart.engines:
@@ -94,7 +95,7 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
         why = "eliminating the unknowns leaves a number of which it is not known whether it is 0"
         return Variety(None, None, "undecided", reasons=[why])
     why = "eliminating the unknowns leaves a number that should be 0 and is not"
-    return Variety(False, None, "probable", reasons=[why])
+    return Variety(False, None, "probable", reasons=[why], argument="number left over")
 
 
 def _signed(ring: Ring, node: int) -> bool:
@@ -111,10 +112,11 @@ def _numerical(chart: Chart, seed: int, core: Sequence[int]) -> Variety:
     columns = len(chart.columns)
     timed = columns - chart.coordinates
     if real.certified and real.consistent and real.rank == len(core) == len(chart.nodes):
-        return Variety(True, columns - real.rank - timed, "proved", [], real)
+        return Variety(True, columns - real.rank - timed, "proved", [], real, argument="regular point")
     if not real.certified or not real.consistent:
         return near_singular_point(chart, Variety(True, None, "proved", [], real))
     if real.gap > 1e3:
         why = f"the gap between pivots is {real.gap:.1e}"
-        return Variety(True, columns - real.rank - timed, "numeric", [], real, [why])
+        dimension = columns - real.rank - timed
+        return Variety(True, dimension, "numeric", [], real, [why], argument="regular point", gap=real.gap)
     return Variety(None, None, "undecided", [], real, ["the only points found are singular"])

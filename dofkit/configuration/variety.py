@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from dofkit.base.verdicts import About, Verdict
+from dofkit.base.verdicts import About, ArgumentKey, Verdict
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.relations.answer import GAP
 
 
 @dataclass
@@ -15,7 +16,7 @@ class Variety:
 
     ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None:
     not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls; ``about``: is it told of
-    the largest part, or of the ``component`` of these points?
+    the largest part, or of the ``component`` of these points? ``argument``, ``gap``: see `Answer`.
     """
 
     consistent: bool | None
@@ -25,3 +26,5 @@ class Variety:
     real: RealPoint | None = None
     reasons: list[str] = field(default_factory=list)
     about: About = "everywhere"
+    argument: ArgumentKey | None = None
+    gap: float = GAP

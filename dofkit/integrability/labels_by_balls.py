@@ -32,6 +32,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         return
     span, _ = found
     result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
+    result.argument, result.gap = "Lie algebra with balls", part.gap
     result.velocity_dof, result.dof = n - rank, n - (total - span.dimension)
     if "field" not in forms.chart.engines:
         result.matrix = sparse(dependencies(matrix, part))

@@ -15,6 +15,7 @@ from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import sparse
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
+from dofkit.exact.ring.degree import error_bits
 from dofkit.exact.ring.instructions import Scalar
 from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
@@ -105,6 +106,9 @@ def field_labels(
         return
     proof_of = certificate(known, found)
     result.verdict = weakest(found.verdict, _rank_verdict(known, proof_of, setting))
+    result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
+    nodes = [node for row in forms.rows.entries for node in row.values()]
+    result.bits = error_bits(forms.chart.ring, nodes, len(forms.rows.entries))
     if any(s.span.dimension != known.sampled.span.dimension for _, s in good):
         result.verdict = weakest(result.verdict, "probable")
         result.reasons.append("the freedom differs between points: the generic one is given")

@@ -61,7 +61,7 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     elif not _bends(states, real.point):
         _undecided(result, FLAT)
     else:
-        result.curved = True
+        result.curved, result.argument = True, "states of motion"
         result.velocity_dof = len(block.coordinates) - moving
         full = certified_rank(states.by_velocity(real.point, states.moving)) == len(block.rows)
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")

@@ -48,6 +48,7 @@ def framework_answer(block: Block, setting: Setting) -> Answer | None:
         supports=lambda: told.circuit_places,
         dependent=tuple(block.coordinates[c] for c in columns),
         method=METHOD,
+        argument="links in general position",
     )
 
 

@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from dofkit.base.verdicts import About, Verdict
+from dofkit.base.verdicts import About, ArgumentKey, Claim, Verdict
 from dofkit.exact.matrices.sparse import SparseRow, Supports
 from dofkit.exact.zero.independence import Doubt
 from dofkit.expressions.tree import Expr
+
+#: The chance of an error at points over GF(p) is below 2 to the minus this; ratios that tell 0 from not 0 are larger.
+BITS, GAP = 30, 1e3
 
 
 @dataclass(frozen=True)
@@ -55,7 +58,7 @@ class Answer:
     GF(p) does not show; ``late``: there was no time for it;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
     ``looked``: what was looked at of the relations; ``size``: of the model that was computed with; ``about``: of which
-    points it is told.
+    points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``.
     """
 
     consistent: bool | None = True
@@ -63,6 +66,9 @@ class Answer:
     velocity_dof: int | None = None
     verdict: Verdict = "proved"
     about: About = "everywhere"
+    argument: ArgumentKey | None = None
+    bits: int = BITS
+    gap: float = GAP
     labels: dict[int, HolonomyLabel] = field(default_factory=dict)
     reasons: list[str] = field(default_factory=list)
     hidden: list[Expr] = field(default_factory=list)
@@ -81,3 +87,8 @@ class Answer:
     conflict: tuple[int, ...] = ()
     looked: FollowedClasses = field(default_factory=FollowedClasses)
     size: Size = field(default_factory=Size)
+
+    @property
+    def claim(self) -> Claim:
+        """How sure the freedom is, or that there is none."""
+        return Claim(self.verdict, self.argument, self.bits, self.gap, self.about)

@@ -111,6 +111,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
         result.reasons = list(found.reasons)
         if not found.consistent or (not found.samples and found.real is None):
             result.consistent, result.verdict, result.hidden = found.consistent, found.verdict, extra
+            result.argument = found.argument
             return result
         new = confinements(forms, found)
         if new is None:
@@ -118,6 +119,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
         outcome = prolong(new, setting)
         if not outcome:
             result.consistent, result.verdict, result.hidden = False, "probable", extra
+            result.argument = "time fixed"
             result.reasons.append("the constraints leave no motion through an interval of time")
             return result
         if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
@@ -154,6 +156,7 @@ def _largest(a: Answer) -> tuple[int, int, int]:
 
 def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list[Expr], setting: Setting) -> Answer:
     result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict, about=found.about)
+    result.argument, result.gap = found.argument, found.gap
     if block.nonlinear and found.about == "reference":
         return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, IRREGULAR])
     if found.samples:

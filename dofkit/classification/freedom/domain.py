@@ -111,7 +111,9 @@ def _conditions_text(conditions: Sequence[DomainCondition]) -> str:
 
 def _nowhere(result: Answer, conditions: Sequence[DomainCondition], verdict: Literal["proved", "probable"]) -> Answer:
     why = f"as written the relations ask for {_conditions_text(conditions)}, which holds nowhere where they do"
-    return Answer(False, verdict=verdict, hidden=result.hidden, reasons=[*result.reasons, why])
+    return Answer(
+        False, verdict=verdict, argument="outside the domain", hidden=result.hidden, reasons=[*result.reasons, why]
+    )
 
 
 def _open(result: Answer, conditions: Sequence[DomainCondition]) -> Answer:

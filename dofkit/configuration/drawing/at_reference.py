@@ -9,7 +9,7 @@ from typing import Any
 
 from flint import arb, ctx
 
-from dofkit.base.verdicts import weakest
+from dofkit.base.verdicts import VERDICTS
 from dofkit.configuration.drawing.dependent_classes import chart_of, dependent_parts
 from dofkit.configuration.drawing.fewer_coordinates import smaller
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
@@ -113,7 +113,7 @@ def _with_fewer(
     if here is None or not on_variety(small, here):
         return LocalDimension(None, "undecided", "with fewer coordinates the relations do not hold at the drawing"), 0
     if not small.nodes:
-        return LocalDimension(free, "proved", EXPLICIT), spared
+        return LocalDimension(free, "proved", EXPLICIT, argument="graph"), spared
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
     ball = ball_point(small, known, here.rng) if few and "balls" in chart.engines else None
@@ -131,7 +131,7 @@ def _by_parts(
     """
     dimension = len(chart.columns) - rank
     if rank == len(matrix):
-        return LocalDimension(dimension, "proved", INDEPENDENT), FollowedClasses(rank)
+        return LocalDimension(dimension, "proved", INDEPENDENT, argument="independent relations"), FollowedClasses(rank)
     parts = dependent_parts(chart, echelon(matrix, p, supports=True))
     if len(parts) == 1 and len(parts[0].rows) == len(matrix):
         return None
@@ -147,7 +147,8 @@ def _by_parts(
         more += spared
     reasons = dict.fromkeys(local.reason for local in found)
     looked_at = {row for part in parts for row in part.rows}
-    local = LocalDimension(dimension, weakest(*(local.verdict for local in found)), "; ".join(reasons))
+    weak = max(found, key=lambda local: VERDICTS.index(local.verdict))
+    local = LocalDimension(dimension, weak.verdict, "; ".join(reasons), argument=weak.argument)
     rigid = sum(local.reason == RIGID for local in found)
     return local, FollowedClasses(len(matrix) - len(looked_at), rigid, len(found) - rigid, followed, more)
 
@@ -164,7 +165,7 @@ def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
     if left == rigid:
-        return LocalDimension(left, "proved", RIGID), 0
+        return LocalDimension(left, "proved", RIGID, argument="rigid to first order"), 0
     local, spared = _with_fewer(chart, known, point, fields, left - rigid <= BALL_COLUMNS)
     return (local if local.dimension == left else None), spared
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from dofkit.base.verdicts import Verdict, weakest
+from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
 from dofkit.configuration.local import first_order, higher_order, second_order
 from dofkit.configuration.local.germ import Conclusion, Germ
 from dofkit.configuration.local.manifold import LocalDimension
@@ -28,7 +28,7 @@ class Criterion:
     that is at the best; with balls alone it is "numeric".
     """
 
-    key: str
+    key: ArgumentKey
     theorem: str
     hypotheses: str
     applies: Callable[[Germ], bool]
@@ -201,5 +201,5 @@ def decision(germ: Germ) -> tuple[Criterion | None, LocalDimension]:
         if told is None:
             continue
         verdict = weakest(criterion.verdict, told.verdict, "proved" if germ.exact else "numeric")
-        return criterion, LocalDimension(told.dimension, verdict, told.reason, told.confined)
+        return criterion, LocalDimension(told.dimension, verdict, told.reason, told.confined, criterion.key)
     return None, UNDECIDED

@@ -10,7 +10,7 @@ from typing import Any
 from flint import arb, arb_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
-from dofkit.base.verdicts import Verdict
+from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import FactoredMatrix
 from dofkit.exact.points.frames import Pivots, solve
@@ -26,13 +26,14 @@ Form = list[list[Scalar]]
 class LocalDimension:
     """The dimension of a set at one of its points, time counted where it is a column; None where it is not decided.
 
-    ``confined``: time is constant on the set near the point.
+    ``confined``: time is constant on the set near the point; ``argument``: by which row of the table.
     """
 
     dimension: int | None
     verdict: Verdict
     reason: str
     confined: bool = False
+    argument: ArgumentKey | None = None
 
 
 class Curve:
