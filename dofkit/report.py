@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, Self
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, model_validator
 
-from dofkit.base.verdicts import Verdict
+from dofkit.base.verdicts import About, ArgumentKey, Claim, Verdict
 
 Form = Literal["finite", "pfaffian", "nonlinear", "inequality"]
 
@@ -21,6 +21,35 @@ class ToldModel(BaseModel):
     """The base of what is told: frozen, with no keys beyond the fields."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class FieldVerdict(ToldModel):
+    """How sure a field is: the ``argument`` (a row of `dofkit.explain`'s table), and of which points it speaks.
+
+    ``bound``: of what is ``probable`` the chance of an error (``2^-40``), of what is ``numeric`` the ratio that told 0
+    from not 0. ``about``: ``reference``, the part of the configuration space near it; ``component``, that near the
+    report's ``witness``; or ``everywhere``. A proof without an argument cannot be written down: ValidationError.
+    """
+
+    verdict: Verdict
+    argument: ArgumentKey | None = None
+    bound: str | None = None
+    about: About | None = None
+
+    @model_validator(mode="after")
+    def _is_founded(self) -> Self:
+        if self.verdict != "undecided" and self.argument is None:
+            raise ValueError(f"{self.verdict!r} without an argument")
+        if self.verdict in ("probable", "numeric") and self.bound is None:
+            raise ValueError(f"{self.verdict!r} without a bound")
+        return self
+
+    @classmethod
+    def of(cls, claim: Claim) -> Self:
+        """What is told of a claim."""
+        if claim.verdict == "undecided":
+            return cls(verdict="undecided")
+        return cls(verdict=claim.verdict, argument=claim.argument, bound=claim.bound, about=claim.about)
 
 
 class Count(ToldModel):
@@ -46,7 +75,7 @@ class ConstraintEntry(ToldModel):
     no dt term (None unless ``pfaffian``); ``exact``, ``integrating_factor``, ``integral`` of a
     Pfaffian form; ``circuit``: what a redundant constraint depends on; ``equations`` and how many are
     ``independent`` of all before; ``redundant_equations``: the others by name (None where it is not known which).
-    A None label means undecided, and ``reason`` says why.
+    A None label means undecided, and ``reason`` says why; ``verdicts`` says of every label how sure it is.
     """
 
     name: str
@@ -66,6 +95,7 @@ class ConstraintEntry(ToldModel):
     independent: int | None
     redundant_equations: list[str] | None = None
     verdict: Verdict
+    verdicts: dict[str, FieldVerdict]
     reason: str
 
 
@@ -146,6 +176,9 @@ class Report(ToldModel):
     ``special_cases`` are apart: all other fields are the generic answer.
     ``generic`` is the count in general position beside that at the drawing (None without a drawing), ``mobility``
     Gruebler's and Kutzbach's beside the truth (None without bodies and joints).
+    ``verdicts`` says of every field that can be wrong how sure it is, and ``verdict`` is the weakest of these, those of
+    the entries included; ``witness`` is a certified configuration (coordinate -> text, and parameters and ``t`` where
+    they occur), None where none was found.
     A number that could not be decided is None, ``verdict`` is then ``undecided`` and ``warnings`` says why.
 
     >>> import dofkit
@@ -176,6 +209,8 @@ class Report(ToldModel):
     forces: list[ForceEntry]
     special_cases: list[SpecialCase]
     verdict: Verdict
+    verdicts: dict[str, FieldVerdict]
+    witness: dict[str, str] | None = None
     method: str
     modelled: str
     warnings: list[str]

@@ -61,6 +61,8 @@ ArgumentKey = Literal[
     "identity",
     "zero with another derivative",
     "rank at the reference",
+    "zero at the reference",
+    "free Lie algebra",
     "brackets at points",
     "rows at a point",
     "implication",

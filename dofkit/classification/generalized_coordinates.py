@@ -14,6 +14,7 @@ from dofkit.configuration.generic_points import pose_point
 from dofkit.configuration.local.neighbourhood import damped
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.engines import BOTH
+from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
@@ -52,13 +53,25 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     dependent = set(a.dependent)
     direct = [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
-        return _explicit(block, a.dof, setting) or direct
+        chosen = _explicit(block, a.dof, setting)
+        return direct if chosen is None or regular_at_witness(block.coordinates, a, chosen) is False else chosen
     if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
     if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear:
         return direct if len(direct) == a.dof else None
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
     return found if found is not None else (direct if len(direct) == a.dof and not turning else None)
+
+
+def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -> bool | None:
+    """Have the finite relations, by the coordinates that are not chosen, their full rank at the witness?
+
+    None where no rows are known there. What divides by a coefficient may divide by 0 on the part of the witness.
+    """
+    if a.real is None or a.dof is None:
+        return None
+    columns = [k for k, name in enumerate(a.real.names) if name in names and name not in chosen]
+    return ball_part([[row[k] for k in columns] for row in a.real.matrix]).rank == len(names) - a.dof
 
 
 def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:

@@ -10,7 +10,9 @@ from typing import Any, NamedTuple
 from flint import ctx
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limited, part, unless_late
+from dofkit.base.verdicts import weakest
 from dofkit.classification import report as fields
+from dofkit.classification.claims import claims
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special import special_cases
@@ -19,7 +21,7 @@ from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import PRECISION
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting
-from dofkit.report import Report
+from dofkit.report import FieldVerdict, Report
 from dofkit.system import System
 
 #: Of the time, for the blocks of a scene.
@@ -104,11 +106,23 @@ def _integrable(study: Study, told: Values) -> Values:
     return {"integrable_part": fields.largest_integrable_part(study)}
 
 
+def _sureness(study: Study, told: Values) -> Values:
+    """How sure it is: every field by itself, and the weakest of all."""
+    found = claims(study, told)
+    entries = [v.verdict for e in told["constraints"] for v in (*e.verdicts.values(), e)]
+    weak = weakest(*(c.verdict for c in found.values()), *entries)
+    return {"verdicts": {name: FieldVerdict.of(c) for name, c in found.items()}, "verdict": weak}
+
+
+def _witness(study: Study, told: Values) -> Values:
+    del told
+    return {"witness": fields.witness(study)}
+
+
 def _account(study: Study, told: Values) -> Values:
-    """How sure it is, and what ran."""
+    """What ran."""
     del told
     return {
-        "verdict": fields.verdict(study),
         "method": fields.method(study),
         "modelled": fields.modelled(study.system, study.outcome),
         "warnings": fields.warnings(study),
@@ -138,7 +152,9 @@ PASSES: tuple[Pass, ...] = (
     Pass("generalized_coordinates", _choice),
     Pass("growth_vector", _growth),
     Pass("integrable_part", _integrable),
-    Pass("verdict method modelled warnings", _account),
+    Pass("verdict verdicts", _sureness),
+    Pass("witness", _witness),
+    Pass("method modelled warnings", _account),
     Pass("generic mobility", _counts, adds="warnings", optional=True),
     Pass("special_cases", _special, adds="method warnings", optional=True),
 )

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from dofkit.base.deadline import unless_late
-from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.redundancy import merged
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.generalized_coordinates import generalized
@@ -117,11 +116,18 @@ def forces(study: Study) -> list[ForceEntry]:
     return [ForceEntry(name=f.name, reason=f.reason) for f in study.system.forces]
 
 
-def verdict(study: Study) -> Verdict:
-    """The weakest of all entries and blocks."""
-    if study.outcome.consistent is None:
-        return "undecided"
-    return weakest(*(e.verdict for e in study.entries), *(a.verdict for a in study.outcome.answers))
+def witness(study: Study) -> dict[str, str] | None:
+    """A certified configuration: the reference where it is one, else what the blocks found; None where one has none.
+
+    What nothing constrains is 0. Parameters have the values that the configuration was found with.
+    """
+    outcome = study.outcome
+    if outcome.consistent is not True or any(a.witness is None for a in outcome.answers):
+        return None
+    found = {str(s.args[1]): text for a in outcome.answers for s, text in (a.witness or {}).items()}
+    names = [c.name for c in study.system.coordinates]
+    others = {name: text for name, text in found.items() if name not in names}
+    return {name: found.get(name, "0") for name in names} | others
 
 
 def method(study: Study) -> str:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
+from dofkit.base.verdicts import OPEN
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.textbook_count import CountedFacts, count
-from dofkit.report import FORMS, ConstraintEntry, Count, ForceEntry, Form, Report
+from dofkit.report import FORMS, ConstraintEntry, Count, FieldVerdict, ForceEntry, Form, Report
 from dofkit.system import Constraint, Relation, System
 
 
@@ -51,6 +52,7 @@ def open_entry(constraint: Constraint, why: str) -> ConstraintEntry:
         equations=sum(r.sense == "=" for r in constraint.relations),
         independent=None,
         verdict="undecided",
+        verdicts={name: FieldVerdict.of(OPEN) for name in ("holonomic", "holonomic_alone", "scleronomic")},
         reason=f"Not decided: {why}.",
     )
 
@@ -107,6 +109,7 @@ def open_report(
         forces=list(forces),
         special_cases=[],
         verdict="undecided",
+        verdicts={name: FieldVerdict.of(OPEN) for name in ("consistent", "dof", "velocity_dof", "holonomic")},
         method="none",
         modelled="nothing: there was no time",
         warnings=list(warnings),

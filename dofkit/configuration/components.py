@@ -131,6 +131,9 @@ def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Var
 def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
     """The chart with other relations, in a ring of their own: they may have no value where those of the chart do."""
     ring = chart.ring.another()
+    for var in chart.ring.vars:
+        if var.kind == "symbol":
+            ring.symbol(var.key)
     nodes = tuple(ring.node(g) for g in relations)
     columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in chart.symbols)
     kinds = _ELIMINATED * len(nodes)

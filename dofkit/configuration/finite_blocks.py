@@ -5,21 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from math import isfinite
 
-from dofkit.configuration.drawing.at_reference import AtReference, at_reference
+from dofkit.configuration.drawing.at_reference import AtReference, at_reference, ball_matrix
 from dofkit.configuration.drawing.measured import measure
 from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
+from dofkit.configuration.witness import of_real_point, of_reference
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse
+from dofkit.exact.points.exact import rational_values, vanish_exactly
 from dofkit.exact.points.frames import sparse_frame
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.degree import error_bits
 from dofkit.exact.zero.independence import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.answer import Answer
+from dofkit.relations.answer import Answer, RealRows
 from dofkit.relations.blocks import Block
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
@@ -48,7 +50,7 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
     if setting.reference is not None:
         drawn = _drawn_answer(chart, setting, setting.reference)
         if drawn is not None:
-            drawn.about = "reference"
+            drawn.about, drawn.witness = "reference", of_reference(chart.symbols, setting.reference)
             return drawn
         if setting.tolerance is not None:
             return Answer(None, verdict="undecided", reasons=[MEASURED_OFF])
@@ -57,6 +59,9 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         found.consistent, found.dimension, found.dimension, found.verdict, found.about, found.argument, gap=found.gap
     )
     result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
+    result.witness = of_real_point(chart, found.real)
+    if found.argument in ("cases", "regular point"):
+        result.real = _real_rows(chart, found.real)
     result.reasons = list(found.reasons)
     if setting.reference is not None:
         result.reasons.append(OFF_REFERENCE)
@@ -67,6 +72,14 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         result.method = "real points with balls"
         _numeric_matrix(chart, found.real, result)
     return result
+
+
+def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
+    """The rows at a certified point, where they may tell another part of the set."""
+    if real is None or not real.certified or not real.consistent:
+        return None
+    matrix = ball_matrix(chart, real.point, False)
+    return None if matrix is None else RealRows(tuple(str(s.args[1]) for s in chart.symbols), matrix)
 
 
 def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
@@ -95,7 +108,8 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
     result.argument, result.bits = found.local.argument, error_bits(chart.ring, chart.nodes, len(chart.columns))
     result.method = "rank over GF(p) at the given configuration"
     result.instantaneous, result.looked = found.instantaneous, found.looked
-    result.matrix, result.modulus = found.matrix, found.modulus
+    result.matrix, result.modulus, result.first_order_sure = found.matrix, found.modulus, found.sure
+    result.exists = chart.time is None and vanish_exactly(chart.ring, chart.nodes, rational_values(reference))
     if found.dependent is None:
         result.dependent = dependent_names(found.matrix, chart, found.modulus)
     else:

@@ -13,6 +13,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from flint import fmpz
+
 from dofkit.exact.points.frames import FormRows, Pivots, rank_over
 from dofkit.exact.points.series import Series, SeriesPoint
 from dofkit.exact.ring.instructions import Scalar, Var
@@ -30,6 +32,28 @@ from dofkit.integrability.lie_algebra import (
 
 #: Curves tried before the flag is left open.
 MAX_CURVES = 24
+
+
+def is_free(growth: Sequence[int]) -> bool:
+    """Does it grow as fast as brackets of so many fields can, until the end [Witt1937]?
+
+    Of brackets of length k in m fields (1/k) sum_(d | k) mu(d) m^(k/d) are independent at most.
+
+    >>> is_free([2, 3, 5]), is_free([2, 3, 4]), is_free([2, 3, 4, 5]), is_free([3, 6, 7])
+    (True, True, False, True)
+    """
+    most, longest = growth[0], growth[-1]
+    for k, dimension in enumerate(growth[1:], start=2):
+        most += sum(_moebius(d) * growth[0] ** (k // d) for d in range(1, k + 1) if k % d == 0) // k
+        if dimension != min(most, longest):
+            return False
+    return True
+
+
+def _moebius(n: int) -> int:
+    """mu(n): 0 where a square divides n, else (-1)^(number of primes)."""
+    factors = fmpz(n).factor()
+    return 0 if any(k > 1 for _, k in factors) else (-1) ** len(factors)
 
 
 class Dual:

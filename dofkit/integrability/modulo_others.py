@@ -15,7 +15,7 @@ from dataclasses import replace
 from flint import arb
 
 from dofkit.base.deadline import OutOfTimeError
-from dofkit.base.verdicts import weakest
+from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.search import find
 from dofkit.configuration.states import States, moves, value_at, vanishes
 from dofkit.configuration.variety import Variety
@@ -100,7 +100,9 @@ def label_modulo_others(
     """Whether a reduced relation is a consequence of finite relations, and the answer of the blocks it touches."""
     numbers = blocks_of(slot, blocks)
     own = [answers[k] for k in numbers]
-    together = Answer(verdict=weakest(*(a.verdict for a in own)), hidden=[g for a in own for g in a.hidden])
+    weak = max(own, key=lambda a: VERDICTS.index(a.verdict), default=Answer(argument="nothing constrains"))
+    together = Answer(verdict=weak.verdict, about=weak.about, argument=weak.argument, bits=weak.bits, gap=weak.gap)
+    together.hidden = [g for a in own for g in a.hidden]
     f = slot.written.piece
     curved = all(answers[k].curved for k in numbers if blocks[k].nonlinear)
     impossible = any(a.consistent is False for a in answers)

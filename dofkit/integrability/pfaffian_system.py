@@ -59,21 +59,25 @@ def linear_rows(block: Block, forms: Codistribution) -> Iterator[tuple[int, Row,
         yield i, row, i if i < own else i + forms.finite - own
 
 
-def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> int | None:
-    """Velocities that the rows allow at the reference configuration; None where it is not on the variety."""
+def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> tuple[int | None, bool]:
+    """Velocities that the rows allow at the reference configuration, and whether that is proved.
+
+    None where it is not on the variety. A rank over GF(p) is not too large; of as many rows it is not too small.
+    """
     if block.nonlinear:
-        return None
+        return None, False
     forms = codistribution(block, setting, ())
     if "field" not in setting.engines:
-        return _first_order_by_balls(forms, reference)
+        return _first_order_by_balls(forms, reference), False
     point = pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 3)
     if point is None or not on_variety(forms.chart, point):
-        return None
+        return None, False
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
     except NoValueError:
-        return None
-    return forms.n - rank_of([row[: forms.n] for row in matrix], point.p)
+        return None, False
+    rank = rank_of([row[: forms.n] for row in matrix], point.p)
+    return forms.n - rank, rank == len(matrix)
 
 
 def _first_order_by_balls(forms: Codistribution, reference: Mapping[Expr, Expr]) -> int | None:

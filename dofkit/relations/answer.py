@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import logging
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from dofkit.base.verdicts import About, ArgumentKey, Claim, Verdict
+from flint import arb
+
+from dofkit.base.verdicts import OPEN, About, ArgumentKey, Claim, Verdict
 from dofkit.exact.matrices.sparse import SparseRow, Supports
 from dofkit.exact.zero.independence import Doubt
 from dofkit.expressions.tree import Expr
@@ -25,6 +29,13 @@ class HolonomyLabel:
     verdict: Verdict
     reason: str = ""
     modulo: bool = False
+
+
+class RealRows(NamedTuple):
+    """The Jacobian of finite relations at a certified real point, in balls, by coordinates."""
+
+    names: tuple[str, ...]
+    matrix: Sequence[Sequence[arb]]
 
 
 class Size(NamedTuple):
@@ -48,6 +59,9 @@ class FollowedClasses(NamedTuple):
     spared: int = 0
 
 
+DEFECTS = logging.getLogger("dofkit.defects")
+
+
 @dataclass
 class Answer:
     """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
@@ -58,7 +72,10 @@ class Answer:
     GF(p) does not show; ``late``: there was no time for it;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
     ``looked``: what was looked at of the relations; ``size``: of the model that was computed with; ``about``: of which
-    points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``.
+    points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
+    ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the number of
+    velocities at the reference proved? ``exists``: and that the relations hold there at all times? ``trusted``: is
+    what is not 0 over GF(p) known not to be 0?
     """
 
     consistent: bool | None = True
@@ -78,6 +95,10 @@ class Answer:
     degenerate: bool = False
     instantaneous: int | None = None
     curved: bool = False
+    first_order_sure: bool = False
+    exists: bool = False
+    trusted: bool = False
+    real: RealRows | None = None
     dependent: tuple[str, ...] = ()
     growth: tuple[int, ...] | None = None
     derived: tuple[int, ...] | None = None
@@ -85,10 +106,22 @@ class Answer:
     method: str = ""
     late: bool = False
     conflict: tuple[int, ...] = ()
+    witness: Mapping[Expr, str] | None = None
     looked: FollowedClasses = field(default_factory=FollowedClasses)
     size: Size = field(default_factory=Size)
 
     @property
     def claim(self) -> Claim:
-        """How sure the freedom is, or that there is none."""
+        """How sure the freedom is, or that there is none; open, and logged as a defect, without an argument."""
+        if self.argument is None and self.verdict != "undecided":
+            DEFECTS.error("an answer that is %s names no argument (method: %s)", self.verdict, self.method)
+            return OPEN
         return Claim(self.verdict, self.argument, self.bits, self.gap, self.about)
+
+    @property
+    def first_order(self) -> Claim:
+        """How sure the velocities at the reference are."""
+        if self.instantaneous is None:
+            return OPEN
+        sure: Verdict = "numeric" if self.verdict == "numeric" else "proved" if self.first_order_sure else "probable"
+        return Claim(sure, "rank at the reference", self.bits, self.gap, "reference")

@@ -12,6 +12,7 @@ from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
+from dofkit.configuration.witness import of_real_point, of_reference
 from dofkit.exact.engines import BALLS, BOTH
 from dofkit.exact.errors import NoPointError
 from dofkit.exact.points.field import FieldPoint
@@ -97,7 +98,7 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
         return Answer(None, verdict="undecided", reasons=[MEASURED_BESIDE])
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None:
-        result.instantaneous = first_order_freedom(block, setting, setting.reference)
+        result.instantaneous, result.first_order_sure = first_order_freedom(block, setting, setting.reference)
     return result
 
 
@@ -156,7 +157,9 @@ def _largest(a: Answer) -> tuple[int, int, int]:
 
 def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list[Expr], setting: Setting) -> Answer:
     result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict, about=found.about)
-    result.argument, result.gap = found.argument, found.gap
+    result.argument, result.gap, result.witness = found.argument, found.gap, of_real_point(forms.chart, found.real)
+    if found.about == "reference" and setting.reference is not None:
+        result.witness = of_reference(forms.chart.symbols, setting.reference)
     if block.nonlinear and found.about == "reference":
         return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, IRREGULAR])
     if found.samples:

@@ -7,7 +7,7 @@ from collections.abc import Hashable, Sequence
 from functools import partial
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.base.verdicts import Verdict
+from dofkit.base.verdicts import OPEN, Verdict
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
@@ -24,7 +24,7 @@ from dofkit.relations.integration_constants import fixed_constants
 from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Piece, Still
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
-from dofkit.report import ConstraintEntry
+from dofkit.report import ConstraintEntry, FieldVerdict
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.
 LISTED = 2000
@@ -104,7 +104,9 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
 def _with_open_dependence(made: ConstraintEntry) -> ConstraintEntry:
     """An entry of which it is not known whether it follows from the others."""
     reason = f"{made.reason} Whether it follows from the others was not decided."
-    return made.model_copy(update={"verdict": "undecided", "independent": None, "reason": reason})
+    verdicts = {**made.verdicts, "independent": FieldVerdict.of(OPEN)}
+    changed = {"verdict": "undecided", "verdicts": verdicts, "independent": None, "reason": reason}
+    return made.model_copy(update=changed)
 
 
 def _unmeasured(outcome: Outcome) -> set[int]:

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from dofkit.base.verdicts import VERDICTS, Verdict, weakest
+from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
+from dofkit.classification.labels.entry_claims import FoundLabels, Ground, claim_of_dependence, claims_of_labels
 from dofkit.classification.labels.reasons import Labels, Others, joined, reason_of
 from dofkit.exact.engines import BOTH
 from dofkit.expressions import tree as ex
@@ -27,7 +28,7 @@ from dofkit.relations.normal.normal_form import (
 )
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
-from dofkit.report import FORMS, ConstraintEntry, Form
+from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
 
 
 @dataclass(frozen=True)
@@ -83,6 +84,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     traits = _traits_together([evidence.traits_of(p) for p in shown], form == "pfaffian")
     integrals = _integrals_of(form, labels, proofs, evidence, bool(consistent))
     reasons = _labels(labels.in_system, labels.alone, evidence.rows)
+    claims = _claims(form, labels, traits, integrals, evidence, bool(proofs) and all(p.proved for p in proofs))
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,
@@ -99,7 +101,8 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         circuit=evidence.circuit,
         equations=reduced.equations,
         independent=None if evidence.independent is None else min(evidence.independent, reduced.equations),
-        verdict=weakest(*labels.verdicts, *traits.verdicts, *(t.answer.verdict for t in evidence.rows)),
+        verdict=weakest(*(c.verdict for c in claims.values()), *(t.answer.verdict for t in evidence.rows)),
+        verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
         reason=_once(normals) + reason_of(form, reasons, proofs, evidence.circuit, integrals.others),
     )
 
@@ -124,12 +127,12 @@ def _labels_of(
 
 
 class _EntryTraits(NamedTuple):
-    """What all pieces of a constraint carry by themselves, and how sure it is."""
+    """What all pieces of a constraint carry by themselves, and how sure each label is."""
 
     scleronomic: bool | None
     catastatic: bool | None
     exact: bool | None
-    verdicts: tuple[Verdict, ...]
+    verdicts: Mapping[str, Verdict]
 
 
 def _traits_together(traits: Sequence[Traits], pfaffian: bool) -> _EntryTraits:
@@ -140,8 +143,42 @@ def _traits_together(traits: Sequence[Traits], pfaffian: bool) -> _EntryTraits:
         _together([t for t, _ in times]),
         _together([c for c, _ in still]) if pfaffian else None,
         _together([c for c, _ in closed]) if pfaffian else None,
-        tuple(v for _, v in (*times, *still, *closed)),
+        {
+            "scleronomic": weakest(*(v for _, v in times)),
+            "catastatic": weakest(*(v for _, v in still)),
+            "exact": weakest(*(v for _, v in closed)),
+        },
     )
+
+
+def _claims(
+    form: Form,
+    labels: _EntryLabels,
+    traits: _EntryTraits,
+    integrals: _EntryIntegrals,
+    evidence: Evidence,
+    by_themselves: bool,
+) -> dict[str, Claim]:
+    """How sure every label is."""
+    in_system, alone = labels.verdicts
+    values: dict[str, bool | str | None] = {
+        "holonomic": labels.in_system,
+        "holonomic_alone": labels.alone,
+        "scleronomic": traits.scleronomic,
+    }
+    if form == "pfaffian":
+        values |= {"catastatic": traits.catastatic, "exact": traits.exact}
+    if integrals.integral is not None:
+        values["integral"] = integrals.integral
+    verdicts = {"holonomic": in_system, "holonomic_alone": alone, "integral": in_system, **traits.verdicts}
+    rows = evidence.rows
+    ground = Ground(form, [t.answer for t in rows], [t.label for t in rows if t.label is not None])
+    claims = claims_of_labels(ground, FoundLabels(values, verdicts, by_themselves))
+    if evidence.independent is not None:
+        claims["independent"] = claim_of_dependence(ground, evidence.circuit)
+    if evidence.circuit is not None:
+        claims["circuit"] = claims.get("independent", OPEN)
+    return claims
 
 
 class _EntryIntegrals(NamedTuple):
@@ -189,6 +226,7 @@ def unfinished(reduced: Reduced, why: str) -> ConstraintEntry:
         equations=reduced.equations,
         independent=None,
         verdict="undecided",
+        verdicts={name: FieldVerdict.of(OPEN) for name in ("holonomic", "holonomic_alone", "scleronomic")},
         reason=f"Not decided: {why}.",
     )
 

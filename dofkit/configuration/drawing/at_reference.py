@@ -23,6 +23,7 @@ from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import rank_of, without_time
 from dofkit.exact.matrices.sparse import SparseRow, echelon, rank_of_rows, sparse
 from dofkit.exact.points.balls import BallPoint, jacobian, precision
+from dofkit.exact.points.exact import exact_rank, rational_values
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values
@@ -44,6 +45,7 @@ class AtReference:
 
     ``matrix`` is the Jacobian there over GF(``modulus``), or the pattern of its dependent rows. ``dependent``: columns
     that the others determine, where the matrix does not tell. ``looked``: what was looked at of the relations.
+    ``sure``: is ``instantaneous`` proved?
     """
 
     instantaneous: int
@@ -55,6 +57,7 @@ class AtReference:
     ball: BallPoint | None
     dependent: tuple[int, ...] | None = None
     looked: FollowedClasses = field(default_factory=FollowedClasses)
+    sure: bool = False
 
 
 def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = True) -> AtReference | None:
@@ -64,7 +67,22 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = Tru
     """
     with ctx.workprec(precision()):
         known = {**reference, ex.TIME: ex.ZERO}
-        return (_by_field if "field" in chart.engines else by_balls)(chart, known, exact)
+        if "field" not in chart.engines:
+            return by_balls(chart, known, exact)
+        found = _by_field(chart, known, exact)
+        return found if found is None else replace(found, sure=exact and _is_exact(chart, known, found))
+
+
+def _is_exact(chart: Chart, known: Mapping[Expr, Expr], found: AtReference) -> bool:
+    """Is the rank, which is not too large over GF(p), proved not to be too small?
+
+    So it is where no row depends on others, where only motions of the whole are left, and at a rational point.
+    """
+    velocities = found.instantaneous
+    if chart.coordinates - velocities == len(found.matrix) or velocities == found.rigid:
+        return True
+    columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
+    return exact_rank(chart.ring, chart.nodes, columns, rational_values(known)) == chart.coordinates - velocities
 
 
 def _by_field(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:

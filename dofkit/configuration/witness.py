@@ -1,0 +1,41 @@
+"""A certified configuration as text: the point of the set near which an answer is told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+from flint import arb
+
+from dofkit.exact.points.real_search import RealPoint
+from dofkit.expressions import tree as ex
+from dofkit.expressions.text import to_text
+from dofkit.expressions.tree import Expr
+from dofkit.relations.chart import Chart
+
+#: Digits of what is no short number; the point that is certified lies within one unit of the last.
+DIGITS = 25
+
+Witness = Mapping[Expr, str]
+
+
+def of_real_point(chart: Chart, real: RealPoint | None) -> Witness | None:
+    """Coordinates, time and named parameters at a point whose ball holds a true zero; None without one."""
+    if real is None or not real.certified or not real.consistent:
+        return None
+    known = {s: v for s, v in real.point.symbols.items() if not str(s.args[-1]).startswith("_")}
+    return {**dict.fromkeys(chart.symbols, "0"), **{s: _text(v) for s, v in known.items()}}
+
+
+def of_reference(symbols: Iterable[Expr], reference: Mapping[Expr, Expr]) -> Witness:
+    """The reference configuration; t = 0 there."""
+    return {s: "0" if s == ex.TIME else to_text(reference[s]) for s in symbols if s == ex.TIME or s in reference}
+
+
+def _text(value: Any) -> str:
+    ball = arb(value)
+    if ball.is_exact():
+        mantissa, exponent = (int(n) for n in ball.man_exp())
+        return str(Fraction(mantissa) * Fraction(2) ** exponent)
+    return str(ball.mid().str(DIGITS, radius=False))
