@@ -68,6 +68,7 @@ ArgumentKey = Literal[
     "implication",
     "leaving out",
     "count",
+    "one method alone",
 ]
 ARGUMENTS: frozenset[str] = frozenset(get_args(ArgumentKey))
 

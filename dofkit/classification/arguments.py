@@ -277,6 +277,13 @@ _OWN: dict[ArgumentKey, Argument] = {
     "count": Argument(
         "a number that follows from others", "", "the others", "dofkit.classification.claims.claims", "the others"
     ),
+    "one method alone": Argument(
+        "what a method that was asked alone is sound for",
+        "",
+        "those of the method's own row",
+        "dofkit.methods.shared.reporting.report_alone",
+        "what the method tells",
+    ),
 }
 
 

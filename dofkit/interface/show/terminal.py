@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from dofkit.interface.show.faults import safe
-from dofkit.report import ConstraintEntry, Report, SpecialCase
+from dofkit.report import ConstraintEntry, FieldVerdict, Report, SpecialCase
 
 #: More constraints than this are counted, not listed.
 MOST_ROWS = 60
@@ -53,6 +53,7 @@ def _parts(report: Report, title: str | None) -> Iterator[RenderableType]:
     yield from _section("Warnings", [_item("!", warning) for warning in report.warnings])
     told = [_item(name, text) for name, text in (("model", report.modelled), ("method", report.method)) if text]
     yield from _section("How", [*told, *_verdicts(report)])
+    yield from _section("Not proved", _weaker(report))
 
 
 def _facts(report: Report) -> RenderableType:
@@ -200,6 +201,23 @@ def _redundancy(report: Report) -> list[RenderableType]:
         on = _names(entry.circuit or [])
         told.append(_item(entry.name, f"follows from {on}" if on else "says nothing: it always holds"))
     return told
+
+
+def _weaker(report: Report) -> list[RenderableType]:
+    """What is not proved, in one line each."""
+    weaker = ((name, found) for name, found in report.verdicts.items() if found.verdict != "proved")
+    return [_item(name, f"{found.verdict}{_because(found)}") for name, found in weaker]
+
+
+def _because(found: FieldVerdict) -> str:
+    """The argument, and the chance of an error or the gap."""
+    if found.verdict == "undecided":
+        return ""
+    means = f"wrong with a chance below {found.bound}" if found.verdict == "probable" else f"by a gap of {found.bound}"
+    where = (
+        "" if found.about == "everywhere" else f", near the {'witness' if found.about == 'component' else found.about}"
+    )
+    return f" ({found.argument}; {means}{where})"
 
 
 def _verdicts(report: Report) -> list[RenderableType]:

@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dofkit.base.deadline import OutOfTimeError
-from dofkit.base.verdicts import Verdict, weakest
+from dofkit.base.verdicts import OPEN as OPEN_CLAIM
+from dofkit.base.verdicts import VERDICTS, About, Claim, Verdict, weakest
 from dofkit.classification.undecided import sketch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
@@ -16,7 +17,8 @@ from dofkit.expressions.tree import Expr
 from dofkit.methods.names import MethodName
 from dofkit.methods.shared.reply import MethodFindings, MethodLabel
 from dofkit.methods.shared.row import Method
-from dofkit.report import ConstraintEntry, Report
+from dofkit.relations.answer import BITS, GAP
+from dofkit.report import ConstraintEntry, FieldVerdict, Report
 from dofkit.system import Constraint, System
 
 #: What a method may end with where a scene is not what it is for.
@@ -38,16 +40,34 @@ def report_alone(system: System, method: MethodName, row: Method) -> Report:
         found = MethodFindings({}, {}, [f"{method} alone came to nothing: {str(error) or type(error).__name__}."])
     pairs = zip(system.constraints, base.constraints, strict=True)
     entries = [_entry(c, e, found, found.labels.get(i), row.best) for i, (c, e) in enumerate(pairs)]
+    whole = {name: _all([getattr(e, name) for e in entries]) for name in ("holonomic", "scleronomic")}
     told = {
         "constraints": entries,
-        "holonomic": _all([e.holonomic for e in entries]),
-        "scleronomic": _all([e.scleronomic for e in entries]),
+        **whole,
         "verdict": weakest(*(e.verdict for e in entries), found.verdict if "dof" in found.fields else "undecided"),
         "method": f"{method} alone: {row.cannot}",
         "modelled": "the equations as they are written",
         "warnings": [*system.warnings, *found.warnings],
     }
-    return base.model_copy(update={**told, **found.fields})
+    fields = {name: _told(found.verdict, system) for name, value in found.fields.items() if value is not None}
+    labels = {name: _of_entries(name, value, entries) for name, value in whole.items()}
+    return base.model_copy(update={**told, **found.fields, "verdicts": {**base.verdicts, **fields, **labels}})
+
+
+def _told(verdict: Verdict, system: System) -> FieldVerdict:
+    """What a method tells of one field, at the reference where there is one."""
+    about: About = "everywhere" if system.reference is None else "reference"
+    open_ = verdict == "undecided"
+    return FieldVerdict.of(OPEN_CLAIM if open_ else Claim(verdict, "one method alone", BITS, GAP, about))
+
+
+def _of_entries(name: str, value: bool | None, entries: Sequence[ConstraintEntry]) -> FieldVerdict:
+    """What is told of a label of the whole: the weakest where it is true, the surest that is not where it is false."""
+    own = [e.verdicts[name] for e in entries if value or getattr(e, name) is False]
+    if value is None:
+        return FieldVerdict.of(OPEN_CLAIM)
+    choose = max if value else min
+    return choose(own, key=lambda v: VERDICTS.index(v.verdict), default=FieldVerdict.of(Claim("proved", "as written")))
 
 
 def _all(labels: Sequence[bool | None]) -> bool | None:
@@ -70,8 +90,15 @@ def _entry(
     known = found.independent and entry.bilateral
     told = [label.holonomic, still, *([True] if known or not entry.bilateral else [None])]
     sure = weakest(best, label.verdict, found.verdict if known else "proved")
+    verdicts = {
+        "holonomic": _label_told(label.holonomic, label.verdict),
+        "holonomic_alone": _label_told(label.alone, label.verdict),
+        "scleronomic": _label_told(still, "proved"),
+        **({"independent": _label_told(True, sure)} if known else {}),
+    }
     return entry.model_copy(
         update={
+            "verdicts": verdicts,
             "holonomic": label.holonomic,
             "holonomic_alone": label.alone,
             "scleronomic": still,
@@ -82,6 +109,11 @@ def _entry(
             "reason": label.reason + (OPEN if label.holonomic is not None and entry.bilateral and not known else ""),
         }
     )
+
+
+def _label_told(value: bool | None, verdict: Verdict) -> FieldVerdict:
+    sure = verdict if value is not None else "undecided"
+    return FieldVerdict.of(OPEN_CLAIM if sure == "undecided" else Claim(sure, "one method alone", BITS, GAP))
 
 
 def without_time(constraint: Constraint) -> bool:
