@@ -24,7 +24,7 @@ class ToldModel(BaseModel):
 
 
 class FieldVerdict(ToldModel):
-    """How sure a field is: the ``argument`` (a row of `dofkit.explain`'s table), and of which points it speaks.
+    """How sure a field is: the ``argument`` (a row of `classification/arguments.py`), and of which points it speaks.
 
     ``bound``: of what is ``probable`` the chance of an error (``2^-40``), of what is ``numeric`` the ratio that told 0
     from not 0. ``about``: ``reference``, the part of the configuration space near it; ``component``, that near the

@@ -1,12 +1,14 @@
 """Which tests notice a wrong line: lines of the deciding rooms are changed one at a time, and the tests are run.
 
-python tests/mutations.py [--many 100] [--seed 1] [--workers 2] [--only 3,17] [--list]
+python tests/mutations.py --measure FILE          which tests run which line, by coverage.py: once, some 20 minutes
+python tests/mutations.py [--map FILE] [--many 100] [--seed 1] [--workers 2] [--only 3,17] [--list]
 
 A line is drawn from those that decide: with a comparison, a boolean operator, a sign, 0 or 1, a truth value, the end of
 a range. Each change is made in a copy of the repository, one copy a worker. There, in order and
 until one fails: the scenes of the catalog and of the tests against what they expect; the other tests of the default
 run, those of the changed room first; the sweeps. A change that makes the tests run without end, or take much more
-memory, is noticed too. What is not noticed and changes no answer stands in `SAME`, with why.
+memory, is noticed too. With a map only the tests that run the line are asked, sweeps included: the others cannot
+notice. What is not noticed and changes no answer stands in `SAME`, with why.
 """
 
 from __future__ import annotations
@@ -30,6 +32,8 @@ from itertools import count
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Any
+
+from coverage import CoverageData
 
 if sys.platform != "win32":
     import resource
@@ -187,9 +191,10 @@ def drawn(many: int, seed: int, rooms: Sequence[str] = ROOMS) -> list[Mutant]:
 class Copy:
     """A copy of the repository in which one line at a time is another one."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, chart: LineMap | None) -> None:
         self.folder = folder
         self._times = count(1)
+        self._map = chart
         for name in COPIED:
             if (ROOT / name).is_dir():
                 shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
@@ -205,7 +210,8 @@ class Copy:
         self._write(path, "".join(lines))
         try:
             for stage, seconds in zip(STAGES, SECONDS, strict=True):
-                by = self._failing(self._arguments(stage, mutant), seconds)
+                arguments = self._arguments(stage, mutant) if self._map is None else self._covering(stage, mutant)
+                by = self._failing(arguments, seconds) if arguments else ""
                 if by:
                     return Verdict(stage, by)
             return Verdict(None, mutant.why_same or "")
@@ -226,6 +232,16 @@ class Copy:
         order = sorted(rooms, key=lambda room: order.index(room) if room in order else len(order))
         chosen = [*(f"tests/{room}" for room in order), *(f"--deselect={path}" for path in SCENES)]
         return [*chosen, "-m", "sweep"] if stage == "sweeps" else chosen
+
+    def _covering(self, stage: str, mutant: Mutant) -> list[str]:
+        """The tests of a stage that run the line, in a file of arguments; none where no test does."""
+        found = [] if self._map is None else self._map.tests(mutant)
+        scenes = [test for test in found if test.startswith(SCENES)]
+        own = f"tests/{mutant.room}/"
+        others = sorted((t for t in found if t not in scenes), key=lambda t: (not t.startswith(own), t))
+        chosen = {"scenes": scenes, "tests": others}.get(stage, [])
+        (self.folder / "chosen.txt").write_text("\n".join(["-m", "sweep or not sweep", *chosen]), encoding="utf-8")
+        return ["@chosen.txt"] if chosen else []
 
     def _failing(self, arguments: Sequence[str], seconds: int) -> str:
         """The first test that fails, with how; nothing where all pass."""
@@ -250,13 +266,77 @@ def _bound(seconds: int) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
-def table(chosen: Mapping[int, Mutant], workers: int) -> Iterator[tuple[int, Verdict]]:
+class LineMap:
+    """Which tests run which lines, as coverage.py measured it."""
+
+    def __init__(self, path: Path) -> None:
+        self._data = CoverageData(str(path))
+        self._data.read()
+        self._files = {Path(name).as_posix(): name for name in self._data.measured_files()}
+
+    def tests(self, mutant: Mutant) -> list[str]:
+        """The tests that run a line of the statement."""
+        name = next((own for path, own in self._files.items() if path.endswith(mutant.path)), None)
+        by_line = {} if name is None else self._data.contexts_by_lineno(name)
+        contexts = {c for line in _statement(mutant) for c in by_line.get(line, ())}
+        return sorted(found for c in contexts if (found := _test_of(c)) is not None)
+
+
+def _statement(mutant: Mutant) -> range:
+    """The lines of the smallest statement around a line."""
+    tree = ast.parse((ROOT / mutant.path).read_text(encoding="utf-8"))
+    around = [
+        range(node.lineno, (node.end_lineno or node.lineno) + 1)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.stmt) and node.lineno <= mutant.line <= (node.end_lineno or node.lineno)
+    ]
+    return min(around, key=len)
+
+
+def _test_of(context: str) -> str | None:
+    """``tests/room/test_x.py::test_y`` from a context's dotted name."""
+    parts = context.split(".")
+    ends = [k for k in range(1, len(parts)) if (ROOT / "/".join(parts[:k])).with_suffix(".py").is_file()]
+    return None if not ends else "::".join(["/".join(parts[: ends[-1]]) + ".py", *parts[ends[-1] :]])
+
+
+def measure(path: Path, workers: int) -> None:
+    """Run all tests, sweeps included, and write which of them run which lines of the deciding rooms."""
+    include = ",".join(f"dofkit/{room}" + ("" if room.endswith(".py") else "/*") for room in ROOMS)
+    with tempfile.TemporaryDirectory() as folder:
+        settings = Path(folder) / "rc"
+        settings.write_text(f"[run]\ndynamic_context = test_function\ninclude = {include}\n", encoding="utf-8")
+        files = sorted((ROOT / "tests").rglob("test_*.py"), key=lambda p: p.stat().st_size)
+        parts = [files[k::workers] for k in range(workers)]
+        running = [subprocess.Popen(_measured(settings, Path(folder) / f"part.{k}", p)) for k, p in enumerate(parts)]
+        for one in running:
+            one.wait()
+        together = CoverageData(str(path))
+        for k in range(workers):
+            together.update(_read(Path(folder) / f"part.{k}"))
+        together.write()
+
+
+def _measured(settings: Path, data: Path, files: Sequence[Path]) -> list[str]:
+    """A run of some files of tests under coverage."""
+    run = ["-m", "coverage", "run", f"--rcfile={settings}", f"--data-file={data}", "-m", "pytest", "-n0"]
+    names = [str(file.relative_to(ROOT)) for file in files]
+    return [sys.executable, *run, "-q", "-p", "no:cacheprovider", "-m", "sweep or not sweep", *names]
+
+
+def _read(path: Path) -> CoverageData:
+    data = CoverageData(str(path))
+    data.read()
+    return data
+
+
+def table(chosen: Mapping[int, Mutant], workers: int, chart: Path | None) -> Iterator[tuple[int, Verdict]]:
     """Every mutant with who noticed it, in order."""
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(workers) as threads:
         copies: SimpleQueue[Copy] = SimpleQueue()
         for number in range(workers):
             (place := Path(folder) / str(number)).mkdir()
-            copies.put(Copy(place))
+            copies.put(Copy(place, None if chart is None else LineMap(chart)))
 
         def judged(mutant: Mutant) -> Verdict:
             copy = copies.get()
@@ -274,15 +354,20 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--only", type=lambda text: [int(number) for number in text.split(",")])
+    parser.add_argument("--map", type=Path, help="what --measure wrote")
+    parser.add_argument("--measure", type=Path, help="write which tests run which lines, and no more")
     parser.add_argument("--list", action="store_true", help="only show what would be changed")
     given = parser.parse_args()
+    if given.measure:
+        measure(given.measure, given.workers)
+        return
     chosen = dict(enumerate(drawn(given.many, given.seed)))
     chosen = {number: chosen[number] for number in given.only or chosen}
     if given.list:
         print(*(f"{number:>3}  {mutant}" for number, mutant in chosen.items()), sep="\n")
         return
     found: Counter[str] = Counter()
-    for number, verdict in table(chosen, given.workers):
+    for number, verdict in table(chosen, given.workers, given.map):
         same = verdict.stage is None and bool(verdict.by)
         found[verdict.stage or ("same" if same else "unnoticed")] += 1
         print(f"{number:>3}  {verdict.stage or ('same' if same else 'UNNOTICED'):<10} {chosen[number]}", flush=True)

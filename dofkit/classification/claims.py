@@ -39,7 +39,7 @@ def claims(study: Study, told: Mapping[str, Any]) -> dict[str, Claim]:
     free = freedom(study)
     found = {"consistent": consistency(study)}
     if told["consistent"] is False:
-        found["conflicting"] = _conflict(found["consistent"], told["conflicting"])
+        found["conflicting"] = _conflict(study, found["consistent"])
     else:
         found |= {"dof": _unless(told["dof"], free), "velocity_dof": _unless(told["velocity_dof"], free)}
         found["redundant_equations"] = _unless(told["redundant_equations"], _counted(free))
@@ -84,11 +84,12 @@ def consistency(study: Study) -> Claim:
     return min(against, key=lambda c: VERDICTS.index(c.verdict))
 
 
-def _conflict(against: Claim, names: Sequence[str]) -> Claim:
-    """Of a minimal set that cannot hold together: of one constraint nothing can be left out."""
-    if not names:
+def _conflict(study: Study, against: Claim) -> Claim:
+    """Of a minimal set that cannot hold together: without any one of them the others do, which may be proved."""
+    members, minimal = study.dependence.conflicting
+    if not members:
         return OPEN
-    return against if len(names) == 1 else together(against, LEFT_OUT)
+    return against if minimal else together(against, LEFT_OUT)
 
 
 def first_order(study: Study) -> Claim:
@@ -125,6 +126,9 @@ def _dependence(study: Study, free: Claim, some: bool) -> Claim:
     """Of what depends on what: nothing does where the count says so; links in general position by their graph."""
     if not some and study.redundant_equations == 0:
         return _counted(free)
+    copied = {study.names[i] for i in study.outcome.copies}
+    if {study.names[i] for r in study.dependence.dependent for i in r.redundant} <= copied:
+        return free
     graphs = {a.argument for a in study.outcome.answers} <= {"links in general position"}
     return free if graphs else together(free, ROWS, IMPLIED)
 

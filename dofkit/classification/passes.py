@@ -54,7 +54,7 @@ def _scene(study: Study, told: Values) -> Values:
 def _conflicts(study: Study, told: Values) -> Values:
     del told
     names = study.names
-    conflicting = [names[i] for i in study.dependence.conflicting]
+    conflicting = [names[i] for i in study.dependence.conflicting.members]
     return {"consistent": study.outcome.consistent, "conflicting": conflicting}
 
 

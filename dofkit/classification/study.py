@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.circuits import Redundancies, left_open
-from dofkit.classification.dependence.conflicts import conflict
+from dofkit.classification.dependence.conflicts import Conflict, conflict
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
@@ -29,7 +29,7 @@ DEPENDENCE = 0.5
 class Dependence(NamedTuple):
     """A minimal set of constraints that cannot hold together, and what depends on what, each by numbers."""
 
-    conflicting: list[int]
+    conflicting: Conflict
     dependent: list[Redundancies]
 
 
@@ -62,7 +62,7 @@ class Study:
     def dependence(self) -> Dependence:
         """What conflicts and what depends on what, in a share of the time."""
         nothing = left_open(i for i, r in enumerate(self.reduced) if r.normals)
-        conflicting: list[int] = []
+        conflicting = Conflict([])
         with part(DEPENDENCE):
             if self.outcome.consistent is False:
                 look = partial(conflict, self.system, self.reduced, self.setting, self.outcome)

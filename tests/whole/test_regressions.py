@@ -34,7 +34,7 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
     (
         "x = y = 0 is the larger part",
         scene("x = y^2", "x^2 = y^2 z", "x w = y^2 u", coordinates=["x", "y", "z", "w", "u"]),
-        {"dof": None},
+        {"dof": 3},
     ),
     (
         "two minors say less than three where a = d = 0",

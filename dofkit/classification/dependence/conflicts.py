@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.expressions import tree as ex
@@ -19,23 +20,32 @@ from dofkit.system import System
 CONFLICT_SECONDS = 5.0
 
 
-def conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[int]:
+class Conflict(NamedTuple):
+    """Constraints that cannot hold together; ``minimal``: it is proved that none of them can be left out."""
+
+    members: list[int]
+    minimal: bool = False
+
+
+def conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Conflict:
     """Constraints that cannot hold together, none of which can be left out: a deletion filter, the last written first.
 
     What is left out must leave the others proved to be inconsistent, so the set conflicts also where some of the
     checks are undecided; it is then perhaps not minimal.
     """
     if outcome.impossible:
-        return [outcome.impossible[0]]
+        return Conflict([outcome.impossible[0]], True)
     plain = replace(setting, grows=False, flag=False)
     guilty = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
     kept = sorted({row.constraint for row in guilty.rows})
     shown = next(a.conflict for a in outcome.answers if a.consistent is False)
     if shown and set(shown) <= set(kept):
-        return list(shown)
-    if not _inconsistent(system, reduced, plain, kept):
+        return Conflict(list(shown), True)
+    sets = ConstraintSets(system, reduced, plain)
+    if not sets.inconsistent(kept):
         kept = [i for i, r in enumerate(reduced) if r.normals]
-    return _filtered(system, reduced, plain, kept)
+    kept = _filtered(sets, kept)
+    return Conflict(kept, all(sets.consistent(kept[:k] + kept[k + 1 :]) for k in range(len(kept))))
 
 
 def _linear(some: Sequence[Reduced]) -> list[Expr] | None:
@@ -48,7 +58,7 @@ def _linear(some: Sequence[Reduced]) -> list[Expr] | None:
     return relations if single and len(relations) == len(pieces) and len(relations) > 1 and not timed else None
 
 
-def _filtered(system: System, reduced: Sequence[Reduced], setting: Setting, kept: list[int]) -> list[int]:
+def _filtered(sets: ConstraintSets, kept: list[int]) -> list[int]:
     """Leave out parts of half the size, of a quarter, and so on down to single constraints."""
     until = time.process_time() + CONFLICT_SECONDS
     size = max(1, len(kept) // 2)
@@ -57,17 +67,36 @@ def _filtered(system: System, reduced: Sequence[Reduced], setting: Setting, kept
             if time.process_time() > until:
                 return kept
             fewer = kept[: max(0, end - size)] + kept[end:]
-            if fewer and _inconsistent(system, reduced, setting, fewer):
+            if fewer and sets.inconsistent(fewer):
                 kept = fewer
         if size == 1:
             return kept
         size = max(1, size // 2)
 
 
-def _inconsistent(system: System, reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> bool:
-    """Are some constraints proved, or as good as proved, to be inconsistent? Linear ones alone are simply solved."""
-    straight = _linear([reduced[i] for i in numbers])
-    if straight is not None:
-        return presolve(straight).contradiction
-    some = [r if i in set(numbers) else Reduced(r.constraint, (), ()) for i, r in enumerate(reduced)]
-    return solve(system, some, setting).consistent is False
+class ConstraintSets:
+    """Sets of a system's constraints, with what was found of each."""
+
+    def __init__(self, system: System, reduced: Sequence[Reduced], setting: Setting) -> None:
+        self.system, self.reduced, self.setting = system, reduced, setting
+        self._known: dict[tuple[int, ...], tuple[bool | None, bool]] = {(): (True, True)}
+
+    def inconsistent(self, numbers: Sequence[int]) -> bool:
+        """Are some constraints proved, or as good as proved, to be inconsistent?"""
+        key = tuple(numbers)
+        if key not in self._known:
+            self._known[key] = self._looked(numbers)
+        return self._known[key][0] is False
+
+    def consistent(self, numbers: Sequence[int]) -> bool:
+        """Was it proved, when they were looked at, that they hold somewhere?"""
+        return self._known.get(tuple(numbers)) == (True, True)
+
+    def _looked(self, numbers: Sequence[int]) -> tuple[bool | None, bool]:
+        """(consistent, proved); linear ones alone are simply solved."""
+        straight = _linear([self.reduced[i] for i in numbers])
+        if straight is not None:
+            return not presolve(straight).contradiction, True
+        some = [r if i in set(numbers) else Reduced(r.constraint, (), ()) for i, r in enumerate(self.reduced)]
+        found = solve(self.system, some, self.setting)
+        return found.consistent, all(a.exists or a.verdict == "proved" for a in found.answers)

@@ -59,7 +59,14 @@ def entries_of(
             check()
             beside = partial(_with_others, i, told[i], company, names)
             evidence = Evidence(
-                told[i], _by_itself(i, r, told[i], setting), number, circuit, constants, traits_of, beside
+                told[i],
+                _by_itself(i, r, told[i], setting),
+                number,
+                circuit,
+                constants,
+                traits_of,
+                beside,
+                i in outcome.copies,
             )
             made = entry(r, evidence, setting, consistent)
             made = _with_open_dependence(made) if i in left_open else _with_equations(made, r, following.get(i))

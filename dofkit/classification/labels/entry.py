@@ -60,7 +60,7 @@ class Evidence:
 
     ``independent`` equations and ``circuit``, None where unknown or none; ``constants`` of integration that the system
     fixes have values; ``traits_of`` gives what a piece carries by itself, ``companions_of`` what the other constraints
-    do for a form that is holonomic in the system, or is not.
+    do for a form that is holonomic in the system, or is not; ``copied``: an earlier constraint says the same.
     """
 
     rows: Sequence[LabelledRow]
@@ -70,6 +70,7 @@ class Evidence:
     constants: Mapping[str, Expr]
     traits_of: Callable[[Piece], Traits]
     companions_of: Callable[[bool], Others]
+    copied: bool = False
 
 
 def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bool | None) -> ConstraintEntry:
@@ -175,7 +176,7 @@ def _claims(
     ground = Ground(form, [t.answer for t in rows], [t.label for t in rows if t.label is not None])
     claims = claims_of_labels(ground, FoundLabels(values, verdicts, by_themselves))
     if evidence.independent is not None:
-        claims["independent"] = claim_of_dependence(ground, evidence.circuit)
+        claims["independent"] = claim_of_dependence(ground, evidence.circuit, evidence.copied)
     if evidence.circuit is not None:
         claims["circuit"] = claims.get("independent", OPEN)
     return claims
