@@ -12,6 +12,7 @@ from flint import ctx
 from dofkit.base.deadline import DEFAULT_SECONDS, limited, part, unless_late
 from dofkit.classification import report as fields
 from dofkit.classification.counts import counts_beside
+from dofkit.classification.feasibility.told import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
@@ -115,6 +116,10 @@ def _account(study: Study, told: Values) -> Values:
     }
 
 
+def _feasibility(study: Study, told: Values) -> Values:
+    return inequalities_together(study, told)
+
+
 def _counts(study: Study, told: Values) -> Values:
     found, near = counts_beside(study, told["instantaneous_dof"])
     return {**found, **({} if near is None else {"warnings": [*told["warnings"], near]})}
@@ -139,6 +144,7 @@ PASSES: tuple[Pass, ...] = (
     Pass("growth_vector", _growth),
     Pass("integrable_part", _integrable),
     Pass("verdict method modelled warnings", _account),
+    Pass("feasible infeasible feasible_at", _feasibility, adds="verdict warnings", optional=True),
     Pass("generic mobility", _counts, adds="warnings", optional=True),
     Pass("special_cases", _special, adds="method warnings", optional=True),
 )
