@@ -34,6 +34,7 @@ from dofkit.relations.setting import Setting
 
 METHOD = "exact elimination over the rationals"
 CONTRADICTION = "linear relations contradict each other"
+OTHERWISE = "exact elimination over the rationals does not say what points over GF(p) do"
 #: Functions of time that are analytic everywhere: 0 through an interval only if they are 0 always.
 _ENTIRE = frozenset({"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan"})
 
@@ -55,7 +56,7 @@ class LinearRelations:
 
 
 @dataclass(frozen=True)
-class Elimination:
+class LinearElimination:
     """``supports``: what every dependent row is a sum of; ``contradictory``: the first that contradicts these."""
 
     relations: LinearRelations
@@ -68,7 +69,7 @@ class Elimination:
         return len(self.relations.rows) - len(self.supports)
 
 
-def elimination(block: Block, positive: frozenset[Expr]) -> Elimination | None:
+def elimination(block: Block, positive: frozenset[Expr]) -> LinearElimination | None:
     """The rows of a block by exact elimination, finite ones first, as written; None where it is not linear, or open."""
     relations = _linear_relations(block)
     found = None if relations is None else dependences(relations.rows)
@@ -78,8 +79,8 @@ def elimination(block: Block, positive: frozenset[Expr]) -> Elimination | None:
         left = relations.sum_of_rests(i, factors)
         if not linear_terms(left) or zero_and_verdict(left, positive) == (True, "proved"):
             continue
-        return Elimination(relations, found, i) if certainly_nonzero(left, positive) else None
-    return Elimination(relations, found, None)
+        return LinearElimination(relations, found, i) if certainly_nonzero(left, positive) else None
+    return LinearElimination(relations, found, None)
 
 
 def _linear_relations(block: Block) -> LinearRelations | None:
@@ -179,6 +180,7 @@ def eliminated(block: Block, setting: Setting) -> Answer | None:
         supports=lambda: supports,
         dependent=tuple(block.coordinates[c] for c in columns),
         method=METHOD,
+        linear=True,
     )
 
 
@@ -203,15 +205,18 @@ def confirmed(block: Block, a: Answer, setting: Setting, alone: bool) -> Answer:
     found = elimination(block, setting.positive)
     if found is None:
         return a
-    if a.consistent is False:
-        return a if found.contradictory is None else replace(a, verdict="proved", method=METHOD)
-    if found.contradictory is not None or not _agrees(found, a, len(block.coordinates), alone):
+    free = len(block.coordinates) - found.rank
+    if a.consistent is not (found.contradictory is None) or (a.consistent and a.dof not in (None, free)):
+        return Answer(None, verdict="undecided", reasons=[OTHERWISE], method=METHOD)
+    if not a.consistent:
+        return replace(a, verdict="proved", method=METHOD)
+    if not _agrees(found, a, len(block.coordinates), alone):
         return a
     labels = {i: replace(label, verdict="proved") for i, label in a.labels.items()}
-    return replace(a, verdict="proved", labels=labels, method=METHOD)
+    return replace(a, verdict="proved", labels=labels, method=METHOD, linear=True)
 
 
-def _agrees(found: Elimination, a: Answer, n: int, alone: bool) -> bool:
+def _agrees(found: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
     """Does an answer say what the elimination does: freedom, labels, growth, and what depends on what?"""
     free = n - found.rank
     numbers = {a.dof, a.velocity_dof, *(() if a.instantaneous is None else (a.instantaneous,))}
@@ -225,7 +230,7 @@ def _agrees(found: Elimination, a: Answer, n: int, alone: bool) -> bool:
     return same and _same_dependence(found, matrix, a.modulus, alone)
 
 
-def _same_dependence(found: Elimination, matrix: Sequence[SparseRow], p: int, alone: bool) -> bool:
+def _same_dependence(found: LinearElimination, matrix: Sequence[SparseRow], p: int, alone: bool) -> bool:
     """Do the rows depend on each other modulo p as they do over the rationals?
 
     The same rows are sums of the same rows before them; where constraints wrote several rows each, other sets of them

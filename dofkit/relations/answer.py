@@ -54,6 +54,7 @@ class Answer:
     relations that the differential ones force; ``doubt``: functions or numbers occur that may be related in a way that
     GF(p) does not show; ``late``: there was no time for it;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
+    ``linear``: every relation is linear with rational coefficients, and all of them were eliminated exactly;
     ``looked``: what was looked at of the relations; ``size``: of the model that was computed with.
     """
 
@@ -77,5 +78,6 @@ class Answer:
     method: str = ""
     late: bool = False
     conflict: tuple[int, ...] = ()
+    linear: bool = False
     looked: FollowedClasses = field(default_factory=FollowedClasses)
     size: Size = field(default_factory=Size)

@@ -25,7 +25,7 @@ def dependences(rows: Sequence[Mapping[int, Any]]) -> dict[int, RationalRow] | N
     {2: {1: 1/2, 0: -1/2}}
     """
     alone = private(rows)
-    reduction = _Reduction(Counter(c for row in rows for c in row))
+    reduction = _RationalReduction(Counter(c for row in rows for c in row))
     found: dict[int, RationalRow] = {}
     for i, row in enumerate(rows):
         if i % LOOK == 0:
@@ -42,7 +42,7 @@ def dependences(rows: Sequence[Mapping[int, Any]]) -> dict[int, RationalRow] | N
     return found
 
 
-class _Reduction:
+class _RationalReduction:
     """Pivot rows with a 1 in their pivot column, each free of the pivots before it."""
 
     def __init__(self, weight: Mapping[int, int]) -> None:
