@@ -180,6 +180,9 @@ class Report(ToldModel):
     the entries included; ``witness`` is a certified configuration (coordinate -> text, and parameters and ``t`` where
     they occur), None where none was found.
     A number that could not be decided is None, ``verdict`` is then ``undecided`` and ``warnings`` says why.
+    ``feasible``: whether the inequalities can all be met together with the constraints (None where that is not known,
+    or where there are none); ``feasible_at`` is then a point at which they are: what is coupled to them, parameters
+    and time (``t``) and velocities (``xdot``) included; ``infeasible`` a minimal set that cannot be met.
 
     >>> import dofkit
     >>> report = dofkit.classify("four-bar-linkage")
@@ -189,6 +192,9 @@ class Report(ToldModel):
 
     scene: str
     consistent: bool | None
+    feasible: bool | None = None
+    infeasible: list[str] = []
+    feasible_at: dict[str, str] | None = None
     dof: int | None
     velocity_dof: int | None
     instantaneous_dof: int | None

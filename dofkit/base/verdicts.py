@@ -69,6 +69,9 @@ ArgumentKey = Literal[
     "leaving out",
     "count",
     "one method alone",
+    "exact elimination",
+    "met at a point",
+    "excluded together",
 ]
 ARGUMENTS: frozenset[str] = frozenset(get_args(ArgumentKey))
 

@@ -277,6 +277,27 @@ _OWN: dict[ArgumentKey, Argument] = {
     "count": Argument(
         "a number that follows from others", "", "the others", "dofkit.classification.claims.claims", "the others"
     ),
+    "exact elimination": Argument(
+        "all that is asked of linear relations",
+        "",
+        "coefficients are rational numbers, and every row that is a sum of others has the same sum on its right side",
+        "dofkit.configuration.linear_blocks.elimination",
+        "the factors of each sum",
+    ),
+    "met at a point": Argument(
+        "inequalities can all be met",
+        "KrawczykNewton",
+        "a certified point of the constraints at which each holds",
+        "dofkit.classification.feasibility.feasibility.feasibility",
+        _POINT,
+    ),
+    "excluded together": Argument(
+        "inequalities cannot all be met",
+        "Motzkin1936",
+        "a combination that contradicts itself, or boxes that cover space",
+        "dofkit.classification.feasibility.refutation.refuted",
+        "the multipliers, or the tree of boxes",
+    ),
     "one method alone": Argument(
         "what a method that was asked alone is sound for",
         "",

@@ -29,8 +29,11 @@ ALIKE: frozenset[ArgumentKey | None] = frozenset(
         "links in general position",
         "Lie algebra, certified",
         "states of motion",
+        "exact elimination",
     }
 )
+#: Arguments that tell what depends on what as well.
+SETTLED: frozenset[ArgumentKey | None] = frozenset({"links in general position", "exact elimination"})
 LEFT_OUT = Claim("probable", "leaving out", bits=BITS)
 
 
@@ -129,8 +132,8 @@ def _dependence(study: Study, free: Claim, some: bool) -> Claim:
     copied = {study.names[i] for i in study.outcome.copies}
     if {study.names[i] for r in study.dependence.dependent for i in r.redundant} <= copied:
         return free
-    graphs = {a.argument for a in study.outcome.answers} <= {"links in general position"}
-    return free if graphs else together(free, ROWS, IMPLIED)
+    settled = {a.argument for a in study.outcome.answers if a.velocity_dof is not None} <= SETTLED
+    return free if settled else together(free, ROWS, IMPLIED)
 
 
 def _chosen(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:

@@ -14,6 +14,7 @@ from dofkit.base.verdicts import weakest
 from dofkit.classification import report as fields
 from dofkit.classification.claims import claims
 from dofkit.classification.counts import counts_beside
+from dofkit.classification.feasibility.told import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
@@ -129,6 +130,10 @@ def _account(study: Study, told: Values) -> Values:
     }
 
 
+def _feasibility(study: Study, told: Values) -> Values:
+    return inequalities_together(study, told)
+
+
 def _counts(study: Study, told: Values) -> Values:
     found, near = counts_beside(study, told["instantaneous_dof"])
     return {**found, **({} if near is None else {"warnings": [*told["warnings"], near]})}
@@ -155,6 +160,7 @@ PASSES: tuple[Pass, ...] = (
     Pass("verdict verdicts", _sureness),
     Pass("witness", _witness),
     Pass("method modelled warnings", _account),
+    Pass("feasible infeasible feasible_at", _feasibility, adds="verdict verdicts witness warnings", optional=True),
     Pass("generic mobility", _counts, adds="warnings", optional=True),
     Pass("special_cases", _special, adds="method warnings", optional=True),
 )

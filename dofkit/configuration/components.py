@@ -44,7 +44,7 @@ NEAR = "the freedom is that of the part of the configuration space near the witn
 _ELIMINATED: tuple[ReductionName, ...] = ("eliminations",)
 
 
-class Part(NamedTuple):
+class RelationPart(NamedTuple):
     """Relations between ``unknowns`` that no other relations share."""
 
     relations: tuple[Expr, ...]
@@ -218,7 +218,7 @@ def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:
     return all(s not in e.symbols or sum(1 for _ in ex.nodes(e)) + size <= MAX_NODES for e in relations if e != g)
 
 
-def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[Part]:
+def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[RelationPart]:
     """The relations by the coordinates that they share; the moment is any."""
     graph: nx.Graph = nx.Graph()
     known = frozenset(symbols)
@@ -228,11 +228,11 @@ def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[Part]:
     parts = []
     for component in nx.connected_components(graph):
         own = tuple(g for i, g in enumerate(relations) if i in component)
-        parts.append(Part(own, tuple(s for s in symbols if s in component)))
+        parts.append(RelationPart(own, tuple(s for s in symbols if s in component)))
     return parts
 
 
-def _cases(part: Part, chart: Chart) -> list[BoundedCase] | None:
+def _cases(part: RelationPart, chart: Chart) -> list[BoundedCase] | None:
     """The cases of a part with the bounds of their dimensions."""
     if _is_fibre(part, chart.positive):
         return [BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
@@ -243,7 +243,7 @@ def _cases(part: Part, chart: Chart) -> list[BoundedCase] | None:
         return None
 
 
-def _is_fibre(part: Part, positive: frozenset[Expr]) -> bool:
+def _is_fibre(part: RelationPart, positive: frozenset[Expr]) -> bool:
     """Has each relation a parameter that no other holds, in which it is nowhere stationary? [Sard1942]."""
     times = Counter(s for g in part.relations for s in g.symbols if _is_parameter(s))
     return all(any(times[s] == 1 and never_vanishes(diff(g, s), positive) for s in g.symbols) for g in part.relations)

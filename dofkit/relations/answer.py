@@ -71,6 +71,7 @@ class Answer:
     relations that the differential ones force; ``doubt``: functions or numbers occur that may be related in a way that
     GF(p) does not show; ``late``: there was no time for it;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
+    ``linear``: every relation is linear with rational coefficients, and all of them were eliminated exactly;
     ``looked``: what was looked at of the relations; ``size``: of the model that was computed with; ``about``: of which
     points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
     ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the number of
@@ -107,6 +108,7 @@ class Answer:
     late: bool = False
     conflict: tuple[int, ...] = ()
     witness: Mapping[Expr, str] | None = None
+    linear: bool = False
     looked: FollowedClasses = field(default_factory=FollowedClasses)
     size: Size = field(default_factory=Size)
 

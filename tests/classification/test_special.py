@@ -240,7 +240,7 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
     (
         "two speeds",
         scene("dx = a dt", "dx = b dt", coordinates=["x", "y"], parameters=["a", "b"]),
-        [("a = b", "c1 and c2 together can hold: dof 1", ("c1", "c2"), "probable")],
+        [("a = b", "c1 and c2 together can hold: dof 1", ("c1", "c2"), "proved")],
     ),
     (
         "parallel lines",

@@ -82,6 +82,21 @@ def test_what_contradicts_is_named() -> None:
     assert "probable: exact arithmetic at random points" in text
 
 
+@pytest.mark.parametrize(
+    ("fields", "line"),
+    [
+        ({"feasible": True, "feasible_at": {"x": "1", "y": "0"}}, "can all be met, as at x = 1, y = 0"),
+        ({"feasible": False, "infeasible": ["c1", "wall"]}, "cannot all be met: no motion satisfies all of c1, wall"),
+        ({"feasible": None}, "undecided whether they can all be met"),
+    ],
+)
+def test_inequalities_have_one_line_where_there_are_some(fields: dict[str, Any], line: str) -> None:
+    wall = entry(name="wall", form="inequality", bilateral=False)
+    assert f"inequalities        {line}\n" in shown(report(constraints=[entry(), wall], **fields))
+    assert "inequalities" not in shown(report(**fields))
+    assert "inequalities" not in shown(report(constraints=[wall], consistent=False, conflicting=["wall"], **fields))
+
+
 def test_redundancy_forces_and_warnings() -> None:
     told = report(
         redundant_equations=1,

@@ -17,6 +17,21 @@ def scene(coordinates: str, *constraints: str, **more: Any) -> dict[str, Any]:
     return {"coordinates": coordinates.split(), "constraints": [*constraints], **more}
 
 
+def test_linear_relations_are_proved() -> None:
+    """x = y, y = 3, x = 3, and a tackle with its speeds: exact elimination leaves nothing to chance."""
+    finite = dofkit.classify(scene("x y", "x = y", "y = 3", "x = 3"))
+    assert (finite.verdict, finite.dof, finite.redundant) == ("proved", 0, ["c3"])
+    speeds = dofkit.classify(scene("x y z", "2 xdot + ydot = 0", "ydot = zdot", "2 xdot + zdot = 0"))
+    assert (speeds.verdict, speeds.dof, speeds.velocity_dof, speeds.redundant) == ("proved", 1, 1, ["c3"])
+    assert [e.integral for e in speeds.constraints] == ["2*x + y = C", "y - z = C", "2*x + z = C"]
+
+
+def test_inequalities_that_exclude_each_other_are_consistent_and_infeasible() -> None:
+    for texts in (("x^2 + y^2 = 1", "x >= 2"), ("x > 1", "x < 0")):
+        report = dofkit.classify(scene("x y", *texts))
+        assert (report.consistent, report.feasible, report.infeasible) == (True, False, ["c1", "c2"])
+
+
 #: What makes it hard, the scene, and the truth.
 RIGHT: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
     (

@@ -84,7 +84,8 @@ def _of_part(
         unless_late(partial(analysed, group), left_open(o for rows in group for o in rows.owners))
         for group in sharing([a for a in answered if isinstance(a, OwnedRows)])
     ]
-    holds = unless_late(partial(everywhere, reduced, setting, numbers, by_rank), None)
+    straight = all(a.linear for _, a in blocks)
+    holds = straight or unless_late(partial(everywhere, reduced, setting, numbers, by_rank), None)
     if holds:
         return settled + by_rank
     if holds is False:

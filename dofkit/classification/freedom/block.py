@@ -10,6 +10,7 @@ from dofkit.classification.freedom.agreement import agreed, numeric
 from dofkit.configuration.components import in_one_piece
 from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.finite_blocks import finite_answer
+from dofkit.configuration.linear_blocks import confirmed, eliminated
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
 from dofkit.configuration.witness import of_real_point, of_reference
@@ -78,7 +79,8 @@ def _engines(block: Block, setting: Setting) -> Answer:
 
 def _answer(block: Block, setting: Setting) -> Answer:
     if not block.forms and not block.nonlinear:
-        finite = finite_answer(block, setting)
+        large = eliminated(block, setting)
+        finite = finite_answer(block, setting) if large is None else large
         finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
         return finite if "closed" in setting.reductions else _tested(block, setting, finite)
     return _mixed_answer(block, setting)
@@ -194,7 +196,8 @@ def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Samp
 def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:
     """A constraint's own rows with the others forgotten."""
     blocks, _ = split(coordinates, rows)
-    answers = [answer(b, replace(setting, pose={}, reference=None, grows=False, flag=False)) for b in blocks]
+    plain = replace(setting, pose={}, reference=None, grows=False, flag=False)
+    answers = [confirmed(b, answer(b, plain), setting, len(rows) == 1) for b in blocks]
     merged = Answer()
     for a in answers:
         merged.verdict = weakest(merged.verdict, a.verdict)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import product as cartesian
 
-from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check
+from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import alike, retold
 from dofkit.classification.freedom.through_reference import through_reference
+from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import with_reductions_checked
@@ -121,6 +124,8 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
             outcome.reduced = way.reduced
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
+    if len(outcomes) == 1:
+        best.answers = _confirmed(best, setting)
     best.copies = copied if outcomes else {}
     best.unsettled = unsettled
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
@@ -152,6 +157,16 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
     elif best.consistent is not False:
         best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
     return best
+
+
+def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
+    """The answers of the only choice, as proved where exact elimination says the same."""
+    written = Counter(row.constraint for row in only.rows)
+    told = []
+    for block, a in zip(only.blocks, only.answers, strict=True):
+        alone = all(written[row.constraint] == 1 for row in block.rows)
+        told.append(unless_late(partial(confirmed, block, a, setting, alone), a))
+    return told
 
 
 def _first_order(

@@ -58,16 +58,9 @@ def entries_of(
         try:
             check()
             beside = partial(_with_others, i, told[i], company, names)
-            evidence = Evidence(
-                told[i],
-                _by_itself(i, r, told[i], setting),
-                number,
-                circuit,
-                constants,
-                traits_of,
-                beside,
-                i in outcome.copies,
-            )
+            alone = _by_itself(i, r, told[i], setting)
+            copied = i in outcome.copies
+            evidence = Evidence(told[i], alone, number, circuit, constants, traits_of, beside, copied)
             made = entry(r, evidence, setting, consistent)
             made = _with_open_dependence(made) if i in left_open else _with_equations(made, r, following.get(i))
             entries.append(made)

@@ -69,7 +69,6 @@ def claim_of_dependence(ground: Ground, circuit: Sequence[str] | None, copied: b
         return Claim("proved", "identity")
     if own.verdict == "undecided" or circuit is None:
         return own
-    rows: Verdict = "proved" if own.argument == "links in general position" else "probable"
-    return ground.claim(
-        weakest(own.verdict, rows), own.argument if rows == "proved" and own.argument else "rows at a point"
-    )
+    if own.argument in ("links in general position", "exact elimination"):
+        return own
+    return ground.claim(weakest(own.verdict, "probable"), "rows at a point")

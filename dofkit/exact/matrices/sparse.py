@@ -55,7 +55,7 @@ class Echelon:
 def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -> Echelon:
     """The greedy basis of the rows over GF(p)."""
     weight = Counter(c for row in rows for c in row)
-    alone = _private(rows)
+    alone = private(rows)
     found = _Reduction(p, weight)
     independent = []
     dependent: dict[int, tuple[int, ...]] = {}
@@ -80,7 +80,7 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
     >>> vanishing([{0: 1}, {0: 1, 1: 1}, {1: 2}], 7)
     [{2: 1, 1: 5, 0: 2}]
     """
-    alone = _private(rows)
+    alone = private(rows)
     reduction = _Reduction(p, Counter(c for row in rows for c in row))
     found = []
     for i, row in enumerate(rows):
@@ -107,7 +107,7 @@ def last_columns(rows: Sequence[Mapping[int, int]], columns: int, p: int) -> tup
     return tuple(sorted(columns - 1 - k for k in echelon(turned, p).independent))
 
 
-def _private(rows: Sequence[Mapping[int, int]]) -> set[int]:
+def private(rows: Sequence[Mapping[int, int]]) -> set[int]:
     """Rows that can be taken away one after another, each with a column that no row left has: independent of the rest.
 
     A tree or a chain goes entirely; what stays is the core, where every column occurs twice.

@@ -38,7 +38,8 @@ class RealPoint:
 
     ``point``: ball values of all symbols. ``part``: of the Jacobian there by the unknowns, a regular part of its rows;
     ``certified``: the ball contains a true zero of as many independent relations; ``consistent``: the other
-    relations' balls contain 0 too. ``matrix``: the Jacobian by the ranked symbols that occur.
+    relations' balls contain 0 too. ``matrix``: the Jacobian by the ranked symbols that occur; ``solved``: how many
+    relations were put to the interval Newton test.
     """
 
     point: BallPoint
@@ -46,6 +47,7 @@ class RealPoint:
     certified: bool
     consistent: bool
     matrix: list[list[arb]]
+    solved: int = 0
 
     @property
     def rank(self) -> int:
@@ -218,7 +220,7 @@ class RealSearch:
         except NoValueError:
             return None
         consistent = all(at[n].contains(0) for n in self.nodes)
-        return RealPoint(point, ball_part(matrix), certified, consistent, matrix)
+        return RealPoint(point, ball_part(matrix), certified, consistent, matrix, len(rows))
 
     def _newton(
         self, exact: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int

@@ -82,6 +82,7 @@ def _rows(report: Report) -> Iterator[tuple[str, Text]]:
     yield from _beside(report)
     words = [_label(report.holonomic, "holonomic"), _label(report.scleronomic, "scleronomic")]
     yield "the system", Text(", ".join(words))
+    yield from _inequalities(report)
     if report.generalized_coordinates:
         yield "coordinates", Text(f"{_names(report.generalized_coordinates)} (independent, and enough)")
     if report.growth_vector:
@@ -90,6 +91,19 @@ def _rows(report: Report) -> Iterator[tuple[str, Text]]:
     if part is not None and part.rank and part.basis:
         yield "integrable part", Text(f"{safe(', '.join(part.basis))} (and what is finite as written)")
     yield "verdict", Text(report.verdict, _STYLES[report.verdict])
+
+
+def _inequalities(report: Report) -> Iterator[tuple[str, Text]]:
+    """Whether they can all be met, where there are some."""
+    if report.consistent is False or all(e.bilateral for e in report.constraints):
+        return
+    at = ", ".join(f"{name} = {value}" for name, value in (report.feasible_at or {}).items())
+    told = {
+        True: Text(safe(f"can all be met, as at {at}" if at else "can all be met")),
+        False: Text(f"cannot all be met: no motion satisfies all of {_names(report.infeasible)}", "bold red"),
+        None: Text("undecided whether they can all be met", "yellow"),
+    }
+    yield "inequalities", told[report.feasible]
 
 
 def _beside(report: Report) -> Iterator[tuple[str, Text]]:

@@ -1,0 +1,183 @@
+"""Can all inequalities be met together with the constraints? A point shows that they can, a proof that they cannot.
+
+They are judged for the set of all configurations and motions that the constraints allow, also where a reference
+configuration is given; time and parameters may be as they like, so that what is met is met for an open set of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+from dofkit.base.deadline import limited, unless_late
+from dofkit.base.verdicts import Verdict, weakest
+from dofkit.classification.feasibility.parts import Part, parts_of
+from dofkit.classification.feasibility.refutation import contradictory, refuted
+from dofkit.classification.feasibility.state_problem import StateProblem, problems_of
+from dofkit.classification.feasibility.witness import Values, value_of, witness
+from dofkit.classification.freedom.branches import Outcome, copies
+from dofkit.exact.engines import BOTH
+from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import Answer
+from dofkit.relations.reduced import Reduced
+from dofkit.relations.setting import Setting
+from dofkit.system import TypeFacts
+
+#: In the plane two bodies that share a point are not turned over.
+MOST_DIMENSIONS = 3
+#: Seconds for a point or a proof, and for leaving constraints out.
+SECONDS, LEAVING_SECONDS = 6.0, 6.0
+#: Up to so many constraints are left out one by one from the beginning.
+FEW = 8
+#: So many constraints are named in a reason.
+MOST_NAMES = 8
+OPEN = "whether the inequalities can all be met together with the constraints was not decided"
+NOT_MINIMAL = "what is named infeasible cannot all be met; whether that needs {names} was not decided"
+
+
+@dataclass(frozen=True)
+class Feasibility:
+    """Whether the inequalities can all be met together with the constraints, and how sure that is.
+
+    ``at``: where they are, values of the symbols that are coupled to them; ``infeasible``: where they cannot, the
+    numbers of constraints that cannot all be met, none of which can be left out unless ``reasons`` say so.
+    """
+
+    feasible: bool | None
+    infeasible: tuple[int, ...] = ()
+    at: Values = field(default_factory=dict)
+    verdict: Verdict = "undecided"
+    reasons: tuple[str, ...] = ()
+
+
+def feasibility(
+    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, conflicting: Sequence[int]
+) -> Feasibility:
+    """Of a system with inequalities; ``conflicting``: what its constraints contradict each other by."""
+    if outcome.consistent is False:
+        told = weakest(*(a.verdict for a in outcome.answers if a.consistent is False))
+        return Feasibility(False, tuple(conflicting), verdict=told)
+    if setting.engines != BOTH:
+        return Feasibility(None)
+    repeated = copies(reduced)
+    numbers = [i for i, r in enumerate(reduced) if i not in repeated and (r.normals or r.inequalities)]
+    judge = _Judge(reduced, setting, outcome)
+    with limited(SECONDS):
+        found = unless_late(partial(judge.judged, numbers), Feasibility(None, reasons=(OPEN,)))
+    return found if found.feasible is not False else _minimal(judge, found)
+
+
+def _minimal(judge: _Judge, found: Feasibility) -> Feasibility:
+    """A set that cannot be met, none of which can be left out (a deletion filter, the last written first).
+
+    What is left out leaves a set that is proved not to be met; what is kept is needed, where a point shows that the
+    others can be met without it: then fewer of them can be as well.
+    """
+    kept, needed, some = list(found.infeasible), set[int](), replace(judge, whole=False)
+    with limited(LEAVING_SECONDS):
+        size = max(1, len(kept) // 2) if len(kept) > FEW else 1
+        while size:
+            for end in range(len(kept), 0, -size):
+                left_out = kept[max(0, end - size) : end]
+                fewer = [i for i in kept if i not in left_out]
+                told = unless_late(partial(some.judged, fewer), Feasibility(None)).feasible
+                kept = fewer if told is False else kept
+                needed |= set(left_out) if told and size == 1 else set()
+            size //= 2
+    open_ = [i for i in kept if i not in needed]
+    names = [f"'{judge.reduced[i].constraint.name}'" for i in open_]
+    shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if names[MOST_NAMES:] else "")
+    reasons = (NOT_MINIMAL.format(names=shown),) if open_ else ()
+    return replace(found, infeasible=tuple(kept), reasons=reasons)
+
+
+@dataclass(frozen=True)
+class _Judge:
+    """Judges sets of the constraints of one system; ``whole``: all of them, of which the blocks' answers speak."""
+
+    reduced: Sequence[Reduced]
+    setting: Setting
+    outcome: Outcome
+    whole: bool = True
+
+    def judged(self, numbers: Sequence[int]) -> Feasibility:
+        """A point for every part with an inequality, at the same values of time and parameters; or a proof.
+
+        Parts that share time or parameters and are open are taken together, and these may then have any values.
+        """
+        met: dict[int, Feasibility] = {}
+        alone, joined = (parts_of(self.reduced, numbers, shared) for shared in (False, True))
+        for part, fixed in [*((p, True) for p in alone), *((p, False) for p in joined)]:
+            if not all(i in met for i in part.numbers):
+                found = self._of(part, fixed)
+                if found.feasible is False:
+                    return found
+                met |= dict.fromkeys(part.numbers, found) if found.feasible else {}
+        asked = {i for part in alone for i in part.numbers}
+        beside = self._answers(set(numbers) - asked)
+        if not asked <= met.keys() or None in [a.consistent for a in beside]:
+            return Feasibility(None, reasons=(OPEN,))
+        at = {s: v for found in met.values() for s, v in found.at.items()}
+        sure = weakest(*(found.verdict for found in met.values()), *(a.verdict for a in beside))
+        return Feasibility(True, at=at, verdict=sure)
+
+    def _answers(self, numbers: set[int]) -> list[Answer]:
+        """The answers of blocks of these constraints: where a block can be met, so can a part of it."""
+        pairs = zip(self.outcome.blocks, self.outcome.answers, strict=True)
+        return [a for block, a in pairs if not numbers.isdisjoint(row.constraint for row in block.rows)]
+
+    def _of(self, part: Part, fixed: bool) -> Feasibility:
+        """Of one part; ``fixed``: time and parameters have given values where a point is looked for."""
+        positive = self.setting.positive
+        claims = part.written()
+        if not contradictory(claims, positive):
+            for problem in self._problems(part):
+                given = {s: value_of(s) for s in problem.constants} if fixed else {}
+                found = witness(replace(problem, fixed=given), positive, self._drawn, self._codimension(part))
+                if found is not None:
+                    return Feasibility(True, at=found.at, verdict=found.verdict)
+            if not _refuted(part, positive):
+                return Feasibility(None)
+        return Feasibility(False, part.numbers, verdict="proved")
+
+    def _problems(self, part: Part) -> Iterator[StateProblem]:
+        """Where a point is looked for; measured geometry, and joints that also close turned over, are left open."""
+        measured = self.setting.tolerance is not None and any(r.normals for r in part.reduced)
+        if measured or not part.readable:
+            return
+        turned = any(_turns_over(r.constraint.facts, self.setting.dimension) for r in part.reduced)
+        for choice in part.choices() or ():
+            for problem in problems_of(choice.rows, choice.conditions, choice.names):
+                yield replace(problem, drawn_only=turned)
+
+    @property
+    def _drawn(self) -> Mapping[Expr, Expr]:
+        return self.setting.pose if self.setting.reference is None else self.setting.reference
+
+    def _codimension(self, part: Part) -> int | None:
+        """Of the set that the finite relations of a part cut out, where the blocks' answers are those of one branch."""
+        plain = all(len(n.branches) == 1 for r in part.reduced for n in r.normals)
+        if not self.whole or not plain or not self.outcome.consistent:
+            return None
+        numbers, pairs = set(part.numbers), zip(self.outcome.blocks, self.outcome.answers, strict=True)
+        own = [(b, a) for b, a in pairs if not numbers.isdisjoint(row.constraint for row in b.rows)]
+        return (
+            sum(len(b.coordinates) - (a.dof or 0) for b, a in own) if all(a.dof is not None for _, a in own) else None
+        )
+
+
+def _turns_over(facts: TypeFacts, dimension: int) -> bool:
+    """Do the relations of a type also hold in an assembly that is turned over, which nobody means?"""
+    return facts.half_turns and not (facts.axial and dimension < MOST_DIMENSIONS)
+
+
+def _refuted(part: Part, positive: frozenset[Expr]) -> bool:
+    """Is it proved that a part cannot be met: as written, or on every choice of branches?"""
+    if not part.readable:
+        return False
+    if refuted(part.written(), positive):
+        return True
+    choices = list(part.choices() or ())
+    claims = [choice.claims() for choice in choices]
+    return bool(choices) and all(refuted(c, positive) for c in claims)

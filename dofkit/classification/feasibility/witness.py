@@ -1,0 +1,317 @@
+"""Points at which equations and conditions hold together, with a certificate: exact numbers, or balls.
+
+An inequality e >= 0 becomes the equation e = s^2 of one more unknown. A zero that the interval Newton test certifies
+[KrawczykNewton], with s apart from 0, is a point at which it holds strictly.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import product as cartesian
+from typing import NamedTuple
+
+from flint import arb, fmpq, fmpq_mat
+
+from dofkit.base.deadline import check
+from dofkit.base.verdicts import Verdict
+from dofkit.classification.feasibility.state_problem import StateProblem
+from dofkit.exact.boxes.box_program import BoxProgram
+from dofkit.exact.boxes.intervals import WHOLE, EmptyError, Interval, down, up
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.points.balls import BallPoint, jacobian
+from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.solving.linear_inequalities import LinearCondition, solution
+from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.enclosures import approximate, interval_of
+from dofkit.expressions.tree import Expr
+from dofkit.relations.linear import linear
+from dofkit.relations.normal.domain import DomainCondition
+
+#: Searches along slacks, from so many starts each, with so many steps; equations and conditions that one may have.
+SEARCHES, STARTS, STEPS, MAX_ROWS = 3, 6, 60, 80
+#: Simple points that are tried: up to this many places take every choice of values.
+MAX_GRID = 3
+_SIMPLE = (ex.ZERO, ex.ONE, ex.MINUS_ONE)
+#: Numbers that what a search ended near is taken for: fractions with these denominators, times one of these.
+#: Else a fraction with at most the last one below.
+DENOMINATORS, NEAR, PLAIN = 12, 1e-5, 1000
+_UNITS = (ex.ONE, ex.PI, ex.sqrt(ex.TWO), ex.sqrt(ex.num(3)))
+
+
+#: An exact value, or a ball, of symbols.
+Values = Mapping[Expr, Expr | arb]
+
+
+class Witness(NamedTuple):
+    """A certified point: the values of all symbols; ``verdict``: how sure it is."""
+
+    at: Values
+    verdict: Verdict = "proved"
+
+
+def witness(
+    problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr], codimension: int | None = None
+) -> Witness | None:
+    """A point at which all of a problem holds, and through which a motion passes; None where none was found.
+
+    ``drawn``: values of places to try first. ``codimension``: of the set that the equations cut out, as far as it is
+    known otherwise: where some of them follow from the others, a zero of so many is taken for one of all.
+    """
+    if problem.unknown_functions:
+        return None
+    found = _at(problem, positive, drawn)
+    if found is not None or problem.drawn_only:
+        return found
+    if all(linear(e) is not None for e in problem.expressions) and not any(c.sense == "!=" for c in problem.conditions):
+        return _linearly(problem, positive)
+    if len(problem.expressions) > MAX_ROWS:
+        return None
+    found = _by_simple_points(problem, positive)
+    return _by_slacks(problem, positive, codimension) if found is None else found
+
+
+def value_of(s: Expr) -> Fraction:
+    """A value for time or a parameter, positive, and the same wherever it occurs."""
+    return Fraction(random.Random(f"dofkit feasible {s!r}").randrange(256, 1025), 512)
+
+
+# -- exact points -----------------------------------------------------------------------------------
+
+
+def _at(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr]) -> Witness | None:
+    """The point with some exact values of all places, where it is at rest.
+
+    The equations hold there whatever the parameters; the conditions strictly at some values of them, or at all.
+    """
+    if not problem.still or not all(s in drawn for s in problem.places):
+        return None
+    point = {s: drawn[s] for s in problem.places}
+    try:
+        moved = [substitute(e, point) for e in problem.expressions]
+        here = {s: value_of(s) for s in _symbols((*moved, *point.values()))}
+        n = len(problem.equations)
+        if not all(_vanishes(e, positive, here) for e in moved[:n]):
+            return None
+        held = zip(moved[n:], problem.conditions, strict=True)
+        if all(_holds(e, c, positive, here) for e, c in held):
+            numbers = {s: ex.num(v) for s, v in here.items()}
+            return Witness(
+                {s: substitute(v, numbers) for s, v in (*point.items(), *((c, c) for c in problem.constants))}
+            )
+    except (NoValueError, ArithmeticError, ValueError):
+        return None
+    return None
+
+
+def _symbols(parts: Iterable[Expr]) -> frozenset[Expr]:
+    return frozenset[Expr]().union(*(e.symbols for e in parts))
+
+
+def _vanishes(e: Expr, positive: frozenset[Expr], at: Mapping[Expr, Fraction]) -> bool:
+    """0 for all values of the parameters, and with a value at these."""
+    return interval_of(e, at) is not None and zero_and_verdict(e, positive) == (True, "proved")
+
+
+def _holds(e: Expr, c: DomainCondition, positive: frozenset[Expr], at: Mapping[Expr, Fraction]) -> bool:
+    value = interval_of(e, at)
+    if value is None:
+        return False
+    if c.sense == "!=":
+        return not value.contains(0)
+    return bool(value > 0) or (c.sense == ">=" and _vanishes(e, positive, at))
+
+
+def _by_simple_points(problem: StateProblem, positive: frozenset[Expr]) -> Witness | None:
+    """Simple values of the places, then such values near to where a search ends."""
+    if not problem.rigidly:
+        return None
+    for point in _simple_points(problem):
+        check()
+        if not _far_off(problem, point):
+            found = _at(problem, positive, point)
+            if found is not None:
+                return found
+    return None
+
+
+def _simple_points(problem: StateProblem) -> Iterator[Mapping[Expr, Expr]]:
+    places = problem.places
+    if len(places) <= MAX_GRID:
+        for choice in cartesian(_SIMPLE, repeat=len(places)):
+            yield dict(zip(places, choice, strict=True))
+    else:
+        yield from (dict.fromkeys(places, v) for v in _SIMPLE)
+    search = _Search(problem, frozenset())
+    for seed in range(SEARCHES):
+        near = search.ended(seed)
+        if near is not None:
+            yield {s: _simple_near(near[s]) for s in places}
+
+
+def _far_off(problem: StateProblem, point: Mapping[Expr, Expr]) -> bool:
+    """Is some equation or condition clearly not met, by a rough ball?"""
+    at = {s: approximate(v) for s, v in point.items()}
+    fractions = {s: Fraction(v) for s, v in at.items() if v is not None}
+    for k, e in enumerate(problem.expressions):
+        value = interval_of(e, fractions, 64)
+        if value is None or bool(value < -NEAR) or (k < len(problem.equations) and bool(value > NEAR)):
+            return True
+    return False
+
+
+def _simple_near(value: float) -> Expr:
+    """The simple number near to a float, else the float itself."""
+    for unit in _UNITS:
+        size = approximate(unit) or 1.0
+        for denominator in range(1, DENOMINATORS + 1):
+            top = round(value / size * denominator)
+            if abs(top * size / denominator - value) < NEAR:
+                return ex.mul(ex.num(Fraction(top, denominator)), unit)
+    return ex.num(Fraction(value).limit_denominator(PLAIN))
+
+
+# -- linear ones ------------------------------------------------------------------------------------
+
+
+def _linearly(problem: StateProblem, positive: frozenset[Expr]) -> Witness | None:
+    """A point from exact linear programming: all is linear with rational coefficients."""
+    rows, columns = problem.independent
+    order = sorted(problem.symbols, key=repr)
+    open_only = not problem.rigidly
+    if open_only and _linear_rank(rows, columns) < len(rows):
+        return None
+    senses = ["=" for _ in problem.equations] + [">" if open_only else c.sense for c in problem.conditions]
+    conditions = [_linear_condition(e, sense, order) for e, sense in zip(problem.expressions, senses, strict=True)]
+    conditions += [_linear_condition(s, ">", order) for s in order if s in positive]
+    conditions += [_linear_condition(s - ex.num(v), "=", order) for s, v in problem.fixed.items() if s in order]
+    found = solution(conditions)
+    if not found:
+        return None
+    at: dict[Expr, Expr | arb] = dict.fromkeys(problem.unknowns, ex.ZERO)
+    return Witness(at | {s: ex.num(Fraction(int(v.p), int(v.q))) for s, v in zip(order, found, strict=True)})
+
+
+def _linear_condition(e: Expr, sense: str, order: Sequence[Expr]) -> LinearCondition:
+    terms = linear(e) or {}
+    row = [Fraction(terms.get(s, 0)) for s in (*order, ex.ONE)]
+    numbers = [fmpq(v.numerator, v.denominator) for v in row]
+    return LinearCondition(tuple(numbers[:-1]), numbers[-1], "=" if sense == "=" else ">" if sense == ">" else ">=")
+
+
+def _linear_rank(rows: Sequence[Expr], columns: Sequence[Expr]) -> int:
+    tables = [linear(e) or {} for e in rows]
+    entries = [[Fraction(t.get(s, 0)) for s in columns] for t in tables]
+    if not entries or not columns:
+        return 0
+    return int(fmpq_mat([[fmpq(v.numerator, v.denominator) for v in row] for row in entries]).rank())
+
+
+# -- balls ------------------------------------------------------------------------------------------
+
+
+class _Search:
+    """The search for points along slacks, one for each condition."""
+
+    def __init__(self, problem: StateProblem, positive: frozenset[Expr]) -> None:
+        self.problem, self.positive = problem, positive
+        self.slacks = [ex.coordinate(f"_slack {k}") for k, c in enumerate(problem.conditions) if c.sense != "!="]
+        wanted = [c.expr for c in problem.conditions if c.sense != "!="]
+        above = [e - s * s for e, s in zip(wanted, self.slacks, strict=True)]
+        rows = [*problem.equations, *above]
+        self.ring = Ring([*rows, *problem.expressions], positive)
+        self.rows = [self.ring.node(e) for e in rows]
+        self.search = RealSearch(self.ring, self.rows, [*problem.unknowns, *self.slacks], positive)
+        self.given = {s: float(v) for s, v in problem.fixed.items()}
+
+    def ended(self, seed: int) -> dict[Expr, float] | None:
+        """Where a search in floating point ends; 0 for what nothing mentions."""
+        try:
+            symbols = self.search.start(seed, self.given)
+            if self.search.descend(symbols, seed, STEPS) is None:
+                return None
+        except (NoValueError, ArithmeticError, ValueError):
+            return None
+        return {s: symbols.get(s, 0.0) for s in self.problem.places}
+
+    def found(self, seed: int) -> RealPoint | None:
+        """A point that is certified, with all slacks apart from 0."""
+        try:
+            point = self.search.search(seed, self.given, STARTS, STEPS)
+        except (NoValueError, ArithmeticError, ValueError):
+            return None
+        if point is None or not point.certified or not point.consistent:
+            return None
+        apart = all(not arb(point.point.symbols[s]).contains(0) for s in self.slacks)
+        return point if apart and self._signs(point) else None
+
+    def _signs(self, point: RealPoint) -> bool:
+        at = point.point.symbols
+        return all(arb(at[p]) > 0 for p in self.positive if p in at)
+
+
+def _by_slacks(problem: StateProblem, positive: frozenset[Expr], codimension: int | None) -> Witness | None:
+    search = _Search(problem, positive)
+    for seed in range(SEARCHES):
+        check()
+        point = search.found(seed)
+        verdict = None if point is None else _certified(problem, search, point, codimension)
+        if point is not None and verdict is not None:
+            at = point.point.symbols
+            shown = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
+            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **shown}, verdict)
+    return None
+
+
+def _certified(problem: StateProblem, search: _Search, point: RealPoint, codimension: int | None) -> Verdict | None:
+    """How sure it is that all holds at the point and a motion passes through it; None where it is not known."""
+    if not _defined(problem, point.point):
+        return None
+    whole = point.solved == point.rank == len(search.rows)
+    rows, columns = problem.independent
+    rank = _rank(search.ring, point.point, rows, columns)
+    if whole:
+        return "proved" if problem.rigidly or rank == len(rows) else None
+    regular = point.rank == len(search.slacks) + (codimension or 0)
+    known = codimension is not None and not problem.rates and regular and rank == codimension
+    return "probable" if known else None
+
+
+def _rank(ring: Ring, point: BallPoint, rows: Sequence[Expr], columns: Sequence[Expr]) -> int:
+    """The certified rank of the derivatives of some rows by some symbols."""
+    known = [i for s in columns if (i := ring.var_index(s)) is not None]
+    if not rows or not known:
+        return 0
+    at = values(ring, point)
+    return ball_part(jacobian(ring, at, point, [ring.node(e) for e in rows], known, arb(0))).rank
+
+
+def _defined(problem: StateProblem, point: BallPoint) -> bool:
+    """Has all that was written a value on the whole ball, equations one that may be 0, conditions the right sign?"""
+    try:
+        program = BoxProgram([(e, WHOLE) for e in problem.expressions])
+        box = [_hull(arb(point.symbols[s])) for s in program.variables]
+        at = program.forward(box)
+        if not program.total(at):
+            return False
+    except (EmptyError, NoValueError, KeyError):
+        return False
+    told = [at[root] for root, _ in program.roots]
+    n = len(problem.equations)
+    zeros = all(low <= 0.0 <= high for low, high in told[:n])
+    return zeros and all(_agrees(v, c) for v, c in zip(told[n:], problem.conditions, strict=True))
+
+
+def _agrees(value: Interval, c: DomainCondition) -> bool:
+    low, high = value
+    return (low > 0.0 or high < 0.0) if c.sense == "!=" else low > 0.0
+
+
+def _hull(value: arb) -> Interval:
+    return down(down(float(value.lower()))), up(up(float(value.upper())))

@@ -1,0 +1,257 @@
+"""Blocks all of whose relations are linear with rational coefficients: answered, or confirmed, by exact elimination.
+
+A q + r(t) = 0 and B dq + s(t) dt = 0, where r and s may hold parameters: a row that is a sum of others over the
+rationals follows from them if its right side is the same sum, and else contradicts them; nothing else can happen. All
+forms are closed, so every one is a consequence of finite relations, and n - rank coordinates are free everywhere.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from flint import fmpq
+
+from dofkit.configuration.reality import BALL_COLUMNS
+from dofkit.exact.engines import BOTH
+from dofkit.exact.matrices.modular import without_time
+from dofkit.exact.matrices.rational_rows import RationalRow, dependences
+from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
+from dofkit.exact.points.field import prime_for
+from dofkit.exact.zero.identity import certainly_nonzero, zero_and_verdict
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
+from dofkit.expressions.terms import linear_terms, number_and_rest
+from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block
+from dofkit.relations.normal.normal_form import Finite, Pfaffian, Piece
+from dofkit.relations.setting import Setting
+
+METHOD = "exact elimination over the rationals"
+CONTRADICTION = "linear relations contradict each other"
+OTHERWISE = "exact elimination over the rationals does not say what points over GF(p) do"
+#: Functions of time that are analytic everywhere: 0 through an interval only if they are 0 always.
+_ENTIRE = frozenset({"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan"})
+
+
+@dataclass(frozen=True)
+class LinearRelations:
+    """Rows over a block's coordinates, by their numbers, and what else stands in each: ``rests`` in time."""
+
+    rows: Sequence[RationalRow]
+    rests: Sequence[Expr]
+    finite: Sequence[bool]
+
+    def sum_of_rests(self, i: int, factors: Mapping[int, fmpq]) -> Expr:
+        """What is left where row i = sum f_k row_k: of finite ones the rests, beside forms their rates."""
+        beside = [(fmpq(-1), i), *((v, k) for k, v in factors.items())]
+        rates = not all(self.finite[k] for _, k in beside)
+        told = ((v, diff(self.rests[k], ex.TIME) if rates and self.finite[k] else self.rests[k]) for v, k in beside)
+        return ex.add(*(ex.mul(ex.num(_fraction(v)), e) for v, e in told if not e.is_zero))
+
+
+@dataclass(frozen=True)
+class LinearElimination:
+    """``supports``: what every dependent row is a sum of; ``contradictory``: the first that contradicts these."""
+
+    relations: LinearRelations
+    supports: Mapping[int, RationalRow]
+    contradictory: int | None
+
+    @property
+    def rank(self) -> int:
+        """Independent rows."""
+        return len(self.relations.rows) - len(self.supports)
+
+
+def elimination(block: Block, positive: frozenset[Expr]) -> LinearElimination | None:
+    """The rows of a block by exact elimination, finite ones first, as written; None where it is not linear, or open."""
+    relations = _linear_relations(block)
+    found = None if relations is None else dependences(relations.rows)
+    if relations is None or found is None:
+        return None
+    for i, factors in found.items():
+        left = relations.sum_of_rests(i, factors)
+        if not linear_terms(left) or zero_and_verdict(left, positive) == (True, "proved"):
+            continue
+        return LinearElimination(relations, found, i) if certainly_nonzero(left, positive) else None
+    return LinearElimination(relations, found, None)
+
+
+def _linear_relations(block: Block) -> LinearRelations | None:
+    finite = [isinstance(r.piece, Finite) for r in block.rows]
+    order = [(not f, r.constraint) for f, r in zip(finite, block.rows, strict=True)]
+    if block.nonlinear or block.conditions or order != sorted(order):
+        return None
+    place = {ex.coordinate(name): k for k, name in enumerate(block.coordinates)}
+    parts = [_linear_row(r.piece, place) for r in block.rows]
+    rows = [p for p in parts if p is not None]
+    if len(rows) < len(parts) or not all(_entire(rest) for _, rest in rows):
+        return None
+    return LinearRelations([row for row, _ in rows], [rest for _, rest in rows], finite)
+
+
+def _linear_row(piece: Piece, place: Mapping[Expr, int]) -> tuple[RationalRow, Expr] | None:
+    """(coefficients, the rest); None where a coefficient is no rational number or the rest holds coordinates."""
+    if isinstance(piece, Pfaffian):
+        if any(a.op != "num" for a in piece.coefficients.values()) or _moving(piece.dt):
+            return None
+        return {place[ex.coordinate(n)]: _number(a.args[0]) for n, a in piece.coefficients.items()}, piece.dt
+    if not isinstance(piece, Finite):
+        return None
+    row, rest = RationalRow(), []
+    for term in piece.expr.args if piece.expr.op == "add" else (piece.expr,):
+        factor, own = number_and_rest(term) if term.op != "num" else (term.args[0], ex.ONE)
+        k = place.get(own)
+        if k is not None:
+            row[k] = row.get(k, fmpq(0)) + _number(factor)
+        elif _moving(own):
+            return None
+        else:
+            rest.append(term)
+    return {k: v for k, v in row.items() if v != 0}, ex.add(*rest)
+
+
+def _moving(e: Expr) -> bool:
+    return any(s.args[0] not in ("time", "parameter") for s in e.symbols)
+
+
+def _entire(e: Expr) -> bool:
+    """Real at all times, and analytic in time: polynomials in t and some functions of them, with any constants."""
+    if e.op == "fn":
+        return e.args[0] in _ENTIRE and _entire(e.args[1])
+    if e.op != "pow":
+        return e.op != "call" and all(map(_entire, ex.children(e)))
+    base, exponent = e.args
+    whole = exponent.op == "num" and exponent.args[0].denominator == 1
+    if ex.TIME in e.symbols:
+        return whole and exponent.args[0] > 0 and _entire(base)
+    return (whole and _entire(base)) or (exponent.op == base.op == "num" and base.args[0] > 0)
+
+
+def _number(value: Any) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
+
+
+def _fraction(value: fmpq) -> Fraction:
+    return Fraction(int(value.p), int(value.q))
+
+
+# -- an answer without points -----------------------------------------------------------------------
+
+
+def eliminated(block: Block, setting: Setting) -> Answer | None:
+    """The answer to a large block of finite relations, away from any drawing; None for any other.
+
+    Smaller ones are answered at points like all others, and `confirmed`.
+    """
+    small = len(block.coordinates) <= BALL_COLUMNS or block.forms or setting.reference is not None
+    if small or setting.engines != BOTH or setting.tolerance is not None or "eliminations" not in setting.reductions:
+        return None
+    found = elimination(block, setting.positive)
+    if found is None:
+        return None
+    owners = [r.constraint for r in block.rows]
+    if found.contradictory is not None:
+        guilty = [owners[k] for k in (found.contradictory, *found.supports[found.contradictory])]
+        minimal = tuple(sorted(guilty)) if max(Counter(owners).values()) == 1 else ()
+        return Answer(False, argument="linear contradiction", reasons=[CONTRADICTION], conflict=minimal, method=METHOD)
+    p, n = prime_for(1, (), 0), len(block.coordinates)
+    matrix = _modulo(found.relations.rows, p)
+    if matrix is None:
+        return None
+    kept = [row for i, row in enumerate(matrix) if i not in found.supports]
+    columns = last_columns(kept, n, p)
+    if len(columns) != found.rank:
+        return None
+    supports = {i: tuple(sorted(f)) for i, f in found.supports.items()}
+    return Answer(
+        dof=n - found.rank,
+        velocity_dof=n - found.rank,
+        verdict="proved" if _same_dependence(found, matrix, p, alone=False) else "probable",
+        derived=(found.rank,),
+        matrix=matrix,
+        modulus=p,
+        supports=lambda: supports,
+        dependent=tuple(block.coordinates[c] for c in columns),
+        method=METHOD,
+        linear=True,
+        argument="exact elimination",
+    )
+
+
+def _modulo(rows: Sequence[RationalRow], p: int) -> list[SparseRow] | None:
+    """The rows over GF(p); None where p divides a numerator or a denominator."""
+    if any(int(v.p) % p == 0 or int(v.q) % p == 0 for row in rows for v in row.values()):
+        return None
+    return [{c: int(v.p) * pow(int(v.q), -1, p) % p for c, v in row.items()} for row in rows]
+
+
+# -- an answer from points --------------------------------------------------------------------------
+
+
+def confirmed(block: Block, a: Answer, setting: Setting, alone: bool) -> Answer:
+    """An answer that is only probable, as proved where exact elimination says the same.
+
+    ``alone``: every constraint of the block wrote one row, in this block or any other.
+    """
+    decided = a.verdict == "probable" and a.consistent is not None and setting.engines == BOTH
+    if not decided or setting.tolerance is not None:
+        return a
+    found = elimination(block, setting.positive)
+    if found is None:
+        return a
+    free = len(block.coordinates) - found.rank
+    if a.consistent is not (found.contradictory is None) or (a.consistent and a.dof not in (None, free)):
+        return Answer(None, verdict="undecided", reasons=[OTHERWISE], method=METHOD)
+    if not a.consistent:
+        return replace(a, verdict="proved", argument="linear contradiction", method=METHOD)
+    if not _agrees(found, a, len(block.coordinates), alone):
+        return a
+    labels = {i: replace(label, verdict="proved") for i, label in a.labels.items()}
+    return replace(a, verdict="proved", labels=labels, method=METHOD, linear=True, argument="exact elimination")
+
+
+def _agrees(found: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
+    """Does an answer say what the elimination does: freedom, labels, growth, and what depends on what?"""
+    free = n - found.rank
+    numbers = {a.dof, a.velocity_dof, *(() if a.instantaneous is None else (a.instantaneous,))}
+    grown = a.growth is None or len(set(a.growth)) == 1
+    derived = a.derived is None or set(a.derived) == {found.rank}
+    holonomic = all(label.holonomic for label in a.labels.values())
+    if numbers != {free} or not (grown and derived and holonomic) or a.hidden or a.degenerate:
+        return False
+    matrix = without_time(a.matrix, n)
+    same = len(a.dependent) == found.rank and matrix == _modulo(found.relations.rows, a.modulus)
+    return same and _same_dependence(found, matrix, a.modulus, alone)
+
+
+def _same_dependence(found: LinearElimination, matrix: Sequence[SparseRow], p: int, alone: bool) -> bool:
+    """Do the rows depend on each other modulo p as they do over the rationals?
+
+    The same rows are sums of the same rows before them; where constraints wrote several rows each, other sets of them
+    are asked for as well: no minor of the rows concerned is a multiple of p that is not 0, because none is as large
+    [Hadamard1893], or because they are those of a graph, all of whose minors are 0 or 1 in size [Kirchhoff1847].
+    """
+    told = echelon(matrix, p, supports=True).supports
+    if {i: tuple(sorted(f)) for i, f in found.supports.items()} != told:
+        return False
+    core = sorted({k for i, f in found.supports.items() for k in (i, *f)})
+    if alone or not core:
+        return True
+    rows = [_primitive(found.relations.rows[i]) for i in core]
+    small = math.prod(sum(v * v for v in row) for row in rows) < p * p
+    return small or all(sorted(row) in ([-1], [1], [-1, 1]) for row in rows)
+
+
+def _primitive(row: RationalRow) -> list[int]:
+    """The entries as whole numbers without a common factor."""
+    scale = math.lcm(*(int(v.q) for v in row.values()))
+    whole = [int(v * scale) for v in row.values()]
+    common = math.gcd(*whole)
+    return [v // common for v in whole]

@@ -1,0 +1,170 @@
+"""Linear equations and inequalities over the rationals: a solution, or a proof that there is none.
+
+Which of the two it is comes from a simplex method in exact arithmetic; what it finds is checked by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import count
+from typing import Literal
+
+from flint import fmpq, fmpq_mat
+
+from dofkit.base.deadline import check
+
+#: Entries of a matrix of equations that is eliminated, and of a tableau that is worked through.
+MAX_EQUATIONS, MAX_TABLEAU = 1_000_000, 250_000
+
+#: Steps by the least cost, for each row of the tableau.
+GREEDY = 4
+
+Vector = tuple[fmpq, ...]
+#: Entries that are not 0.
+Row = dict[int, fmpq]
+ZERO, ONE = fmpq(0), fmpq(1)
+
+
+@dataclass(frozen=True)
+class LinearCondition:
+    """``coefficients`` . x + ``constant`` is 0, or >= 0, or > 0, by its ``sense``."""
+
+    coefficients: Vector
+    constant: fmpq
+    sense: Literal["=", ">=", ">"]
+
+    def holds(self, x: Sequence[fmpq]) -> bool:
+        """Does it hold at a point?"""
+        value = _dot(self.coefficients, x) + self.constant
+        return bool(value == 0 if self.sense == "=" else value > 0 if self.sense == ">" else value >= 0)
+
+
+def _dot(a: Sequence[fmpq], b: Sequence[fmpq]) -> fmpq:
+    return sum((x * y for x, y in zip(a, b, strict=True) if x != 0 and y != 0), ZERO)
+
+
+def solution(conditions: Sequence[LinearCondition]) -> Vector | Literal[False] | None:
+    """A point at which all conditions hold, False where there is none (proved), None where they are too many."""
+    n = len(conditions[0].coefficients) if conditions else 0
+    equations = [c for c in conditions if c.sense == "="]
+    if len(equations) * (n + 1) > MAX_EQUATIONS:
+        return None
+    graph = _graph(equations, n)
+    if graph is None:
+        return False
+    inequalities = [_restricted(c, graph) for c in conditions if c.sense != "="]
+    if (len(inequalities) + len(graph.free) + 2) * (len(graph.free) + 2) > MAX_TABLEAU:
+        return None
+    found = _alternative(inequalities, len(graph.free))
+    if found is None or found is False:
+        return found
+    whole = graph.point(found)
+    return whole if all(c.holds(whole) for c in conditions) else None
+
+
+@dataclass(frozen=True)
+class _Graph:
+    """The solutions of equations: x_c = ``rows``[c] . (x_free, 1) for the pivots c; ``free``: the other numbers."""
+
+    free: tuple[int, ...]
+    rows: dict[int, Vector]
+    n: int
+
+    def point(self, at: Vector) -> Vector:
+        """All coordinates from the free ones."""
+        known = dict(zip(self.free, at, strict=True))
+        known |= {c: _dot(row[:-1], at) + row[-1] for c, row in self.rows.items()}
+        return tuple(known[c] for c in range(self.n))
+
+
+def _graph(equations: Sequence[LinearCondition], n: int) -> _Graph | None:
+    """The solutions of the equations; None where there are none (Gauss)."""
+    if not equations:
+        return _Graph(tuple(range(n)), {}, n)
+    reduced, rank = fmpq_mat([[*e.coefficients, e.constant] for e in equations]).rref()
+    pivots = [next(c for c in range(n + 1) if reduced[r, c] != 0) for r in range(rank)]
+    if n in pivots:
+        return None
+    free = tuple(c for c in range(n) if c not in set(pivots))
+    rows = {p: (*(-reduced[r, c] for c in free), -reduced[r, n]) for r, p in enumerate(pivots)}
+    return _Graph(free, rows, n)
+
+
+def _restricted(c: LinearCondition, graph: _Graph) -> LinearCondition:
+    """The condition in the free coordinates."""
+    total = [*(c.coefficients[j] for j in graph.free), c.constant]
+    for p, row in graph.rows.items():
+        if c.coefficients[p] != 0:
+            total = [a + c.coefficients[p] * b for a, b in zip(total, row, strict=True)]
+    return replace(c, coefficients=tuple(total[:-1]), constant=total[-1])
+
+
+def _alternative(conditions: Sequence[LinearCondition], n: int) -> Vector | Literal[False] | None:
+    """The theorem of alternatives for a_i . x + b_i >= 0, some of them > 0 [Motzkin1936].
+
+    Either there are l_i >= 0 and s >= 0 with sum l_i a_i = 0, sum l_i b_i + s = 0 and s + (the strict l_i) = 1, which
+    no x allows; or a linear function (y, u, v) is at most 0 on all columns (a_i, b_i, [i strict]) and on (0, 1, 1) and
+    has v > 0: then u < 0, and x = y / u is a solution.
+    """
+    columns = [(*c.coefficients, c.constant, ONE if c.sense == ">" else ZERO) for c in conditions]
+    weights, function = _phase_one([*columns, (*(ZERO for _ in range(n)), ONE, ONE)], n + 2)
+    if function is not None:
+        return tuple(y / function[n] for y in function[:n])
+    multipliers = weights[:-1]
+    cancelled = all(_dot(multipliers, [c[j] for c in columns]) == 0 for j in range(n))
+    number, strict = (_dot(multipliers, [c[k] for c in columns]) for k in (n, n + 1))
+    refuted = cancelled and all(m >= 0 for m in multipliers) and (number < 0 or (number == 0 and strict > 0))
+    return False if refuted else None
+
+
+def _phase_one(columns: Sequence[Vector], rows: int) -> tuple[list[fmpq], list[fmpq] | None]:
+    """Non-negative weights of the columns with the sum (0, ..., 0, 1).
+
+    Where there are none, also a linear function that is at most 0 on every column and positive on that sum. The column
+    of least cost enters first; past a number of steps the first of negative cost, which ends [Bland1977].
+    """
+    total = len(columns)
+    right = total + rows
+    table = [{j: c[r] for j, c in enumerate(columns) if c[r] != 0} | {total + r: ONE} for r in range(rows)]
+    table[-1][right] = ONE
+    costs: Row = {}
+    for row in table:
+        _add(costs, -ONE, {j: v for j, v in row.items() if j < total or j == right})
+    basis = list(range(total, right))
+    for step in count():
+        check()
+        below = [j for j, v in costs.items() if v < 0 and j < total]
+        if not below:
+            break
+        entering = min(below) if step > GREEDY * rows else min(below, key=lambda j: (costs[j], j))
+        allowed = [r for r in range(rows) if table[r].get(entering, ZERO) > 0]
+        leaving = min(allowed, key=lambda r: (table[r].get(right, ZERO) / table[r][entering], basis[r]))
+        _pivot(table, costs, leaving, entering)
+        basis[leaving] = entering
+    weights = [ZERO] * right
+    for r, j in enumerate(basis):
+        weights[j] = table[r].get(right, ZERO)
+    unmet = any(w != 0 for w in weights[total:])
+    return weights[:total], [ONE - costs.get(c, ZERO) for c in range(total, right)] if unmet else None
+
+
+def _pivot(table: list[Row], costs: Row, r: int, c: int) -> None:
+    """Make the column ``c`` a unit vector."""
+    below = table[r][c]
+    table[r] = {j: v / below for j, v in table[r].items()}
+    for k, row in enumerate(table):
+        if k != r and c in row:
+            _add(row, -row[c], table[r])
+    if c in costs:
+        _add(costs, -costs[c], table[r])
+
+
+def _add(row: Row, factor: fmpq, other: Row) -> None:
+    """Add a multiple of another row."""
+    for j, v in other.items():
+        total = row.get(j, ZERO) + factor * v
+        if total == 0:
+            row.pop(j, None)
+        else:
+            row[j] = total
