@@ -31,7 +31,7 @@ from dofkit.scene.scene import Scene
 
 BAD = ROOT / "tests/scenes/bad"
 #: Keys of `expect` whose lists are sets of names.
-NAMES = ("redundant", "conflicting", "generalized_coordinates")
+NAMES = ("redundant", "conflicting", "infeasible", "generalized_coordinates")
 ENTRY_NAMES = ("circuit",)
 #: Points at which two integrals are compared.
 POINTS = 3
