@@ -120,7 +120,7 @@ def flat(*constraints: str) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("constraints", "truth"),
     [
-        # y = 0 leaves SINE^3 (1 + ...) + COSINE^3 q0 = 0, which x = 0 solves near 0 alone: 1/9!^3 - x^3 q0/10!^3 + ... > 0
+        # y = 0 leaves SINE^3 (1 + ...) + COSINE^3 q0 = 0, or x^27 (1/9!^3 - x^3 q0/10!^3 + ...) = 0: near 0 x = 0
         (["y = 0", f"y = {SINE}^3*(1 + {SQUARES}) + {COSINE}^3*q0"], 70),
         (["y = 0", f"y = {COSINE}*(1 + {SQUARES})"], 70),
         (["y = 0", f"y = {SINE}^2*(2 + cos(q3))"], 70),
