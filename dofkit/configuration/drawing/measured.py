@@ -18,7 +18,7 @@ import numpy as np
 from dofkit.base.deadline import check
 from dofkit.configuration.drawing.measured_branches import branch_dimension
 from dofkit.configuration.drawing.measured_flexes import StressForms
-from dofkit.configuration.drawing.measured_paths import LONGEST, ON, follow, stride_of
+from dofkit.configuration.drawing.measured_paths import LONGEST, ON, follow, runs_through, stride_of
 from dofkit.configuration.drawing.measured_relations import (
     GREY,
     SLACK,
@@ -35,7 +35,7 @@ from dofkit.system import Coordinate
 #: from `LEVER` sizes on no motion is followed.
 CLOSE, LEVER = 2.0, 30.0
 #: Directions in which motions are followed.
-WAYS = 4
+WAYS = 3
 
 Decided = tuple[int | None, str]
 FOLLOWED = "the motion was followed for a finite step within the tolerance"
@@ -130,8 +130,9 @@ def _by_paths(drawing: MeasuredDrawing, first: int, rigid: int) -> Decided:
     left and the relations break along it, both ways, it is none [IsolatedZeros].
     """
     reach = stride_of(drawing.tolerance)
-    paths = [follow(drawing, d, reach * ON) for d in _directions(drawing.ways)]
-    if all(path.holds(reach) and path.rank() == drawing.rank for path in paths):
+    both = [(follow(drawing, d, reach * ON), follow(drawing, -d, reach * ON)) for d in _directions(drawing.ways)]
+    paths = [path for pair in both for path in pair]
+    if all(runs_through(*pair, reach) for pair in both):
         return first, FOLLOWED
     broken = [path.side() for path in paths if path.breaks]
     if len(drawing.stresses) == 1 and min(broken, default=0.0) < 0 < max(broken, default=0.0):
@@ -142,9 +143,9 @@ def _by_paths(drawing: MeasuredDrawing, first: int, rigid: int) -> Decided:
 
 
 def _directions(ways: Any) -> list[Any]:
-    """Both ways of one motion; of more, some at random."""
+    """Some motions at random, of one that one."""
     if len(ways) == 1:
-        return [ways[0], -ways[0]]
+        return [ways[0]]
     rng = np.random.default_rng(13)
     return [rng.standard_normal(len(ways)) @ ways for _ in range(WAYS)]
 

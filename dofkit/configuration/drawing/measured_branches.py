@@ -80,12 +80,11 @@ def _from(drawing: MeasuredDrawing, at: Place, rank: int, away: Any) -> int:
     """The dimension of the set at a point beside the drawing, followed on from there."""
     relations, stride = drawing.relations, stride_of(drawing.tolerance)
     there = MeasuredDrawing(relations, at, relations.system(at)[1], rank, drawing.tolerance)
-    path = follow(there, away, stride * HALF * ON)
-    if not path.holds(stride * HALF) or path.rank() != rank:
+    if not follow(there, away, stride * HALF * ON).goes_on(stride * HALF):
         return 0
     rng = np.random.default_rng(3)
     directions = [rng.standard_normal(len(there.ways)) @ there.ways for _ in range(WAYS)]
-    regular = rank == len(there.j) or all(follow(there, d, stride * HALF).holds(stride * HALF) for d in directions)
+    regular = rank == len(there.j) or all(follow(there, d, stride * HALF).goes_on(stride * HALF) for d in directions)
     return len(there.ways) if regular else 1
 
 

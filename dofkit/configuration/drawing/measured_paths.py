@@ -26,6 +26,10 @@ CLOSE = 1e-11
 #: Relations are broken that are met no better than the tolerance this many times, more so from half way by `STEEP`.
 BROKEN, STEEP = 300.0, 3.0
 HALF = 0.5
+#: Residuals beyond this part of the tolerance that grow by a higher power of the distance are those of a contact.
+SEEN, CONTACT = 0.1, 2.5
+#: A bend of the set less than this, by the size, is taken for none: that of a contact would have to be so small.
+PLAUSIBLE = 3e-3
 
 
 @dataclass(frozen=True)
@@ -49,15 +53,21 @@ class MeasuredPath:
     drawing: MeasuredDrawing
     stages: tuple[Stage, ...]
 
+    @property
+    def distance(self) -> float:
+        """How far it goes."""
+        return self.stages[-1].distance
+
     def holds(self, reach: float) -> bool:
         """Do the relations hold within the tolerance up to ``reach``, and beyond it as far as such errors grow?"""
         tolerance = self.drawing.tolerance
-        near = [s.residual for s in self.stages if s.distance <= reach]
-        return (
-            self.stages[-1].distance >= reach
-            and max(near) <= SLACK * tolerance
-            and all(s.residual <= GREY * tolerance for s in self.stages)
-        )
+        near = [s.residual for s in self.stages if s.distance <= reach * (1 + CLOSE)]
+        return max(near) <= SLACK * tolerance and all(s.residual <= GREY * tolerance for s in self.stages)
+
+    @property
+    def touches(self) -> bool:
+        """Do residuals look like those of a contact, of the second order or higher?"""
+        return 2 * self.stages[-1].residual > PLAUSIBLE * self.distance**2 or self.flat
 
     @property
     def breaks(self) -> bool:
@@ -65,6 +75,26 @@ class MeasuredPath:
         last = self.stages[-1]
         half = max((s.residual for s in self.stages if s.distance <= last.distance * HALF), default=0.0)
         return last.residual > BROKEN * self.drawing.tolerance and last.residual > STEEP * half
+
+    def goes_on(self, reach: float) -> bool:
+        """Is it a motion as far as ``reach``?"""
+        long = self.distance >= reach * (1 - CLOSE)
+        return long and self.holds(reach) and not self.touches and self.rank() == self.drawing.rank
+
+    @property
+    def flat(self) -> bool:
+        """Do residuals grow by a high power of the distance, as where a path only touches the set?
+
+        With what is measured they begin in proportion to it. Below `SEEN` of the tolerance nothing is said of them.
+        """
+        whole = self.stages[-1]
+        half, quarter = (self._before(whole.distance * part) for part in (HALF, HALF * HALF))
+        if whole.residual <= SEEN * self.drawing.tolerance or not quarter.distance > 0:
+            return False
+        return _power(quarter, half) > CONTACT and _power(half, whole) > CONTACT
+
+    def _before(self, distance: float) -> Stage:
+        return [s for s in self.stages if s.distance <= distance * (1 + CLOSE)][-1]
 
     def side(self) -> float:
         """The value at the end of the first combination of relations that is dependent at the drawing."""
@@ -74,6 +104,24 @@ class MeasuredPath:
         """The rank at the end."""
         relations = self.drawing.relations
         return clear_rank(relations.system(self.stages[-1].at, self.drawing.norms)[1], self.drawing.tolerance)
+
+
+def runs_through(one: MeasuredPath, other: MeasuredPath, reach: float) -> bool:
+    """Do two paths that leave the drawing in opposite directions make one motion, as long as ``reach`` in all?
+
+    What is 0 on one side is so on the other, though a path may end where motions branch.
+    """
+    longer = max(one, other, key=lambda path: path.distance)
+    long = one.distance + other.distance >= reach * (1 - CLOSE)
+    held = all(path.holds(reach) and not path.touches for path in (one, other))
+    return long and held and longer.rank() == longer.drawing.rank
+
+
+def _power(near: Stage, far: Stage) -> float:
+    """The power of the distance by which residuals grow from one stage to another."""
+    if not far.distance > near.distance:
+        return 0.0
+    return float(np.log(far.residual / max(near.residual, CLOSE**2)) / np.log(far.distance / near.distance))
 
 
 def stride_of(tolerance: float) -> float:
@@ -87,7 +135,7 @@ def follow(drawing: MeasuredDrawing, direction: Any, reach: float) -> MeasuredPa
     f, j = relations.system(drawing.at, drawing.norms)
     kept, at, distance = drawing.kept, drawing.at, 0.0
     stages = [Stage(0.0, at, f)]
-    ahead, step = direction / np.linalg.norm(direction), stride_of(tolerance) * STRIDE
+    ahead, step = direction / np.linalg.norm(direction), stride_of(tolerance) * STRIDE * HALF * HALF
     while distance < reach * (1 - CLOSE) and step > STEP * SHORTEST:
         tangent = _tangent(kept @ j, ahead)
         size = float(np.linalg.norm(tangent))
