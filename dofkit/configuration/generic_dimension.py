@@ -36,7 +36,7 @@ def variety_at(
     argument: ArgumentKey | None = "regular point"
     reasons: list[str] = []
     if rank < len(chart.nodes) and not _smooth(chart, samples[0], solver):
-        local = local_at(chart, samples[0], None, 0, chart.time)
+        local = local_at(chart, samples[0], None, 0, chart.time, drawn=False)
         if local.dimension is None or local.confined or local.dimension < columns - rank:
             bound = _free_dimension(chart, solver)
             exact = None if local.confined else local.dimension

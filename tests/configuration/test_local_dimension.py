@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import random
 from collections.abc import Sequence
 from typing import Any
@@ -261,3 +262,29 @@ def test_two_links_in_line_of_which_one_changes_its_length(law: str, consistent:
     }
     report = dofkit.classify(dofkit.load(scene))
     assert (report.consistent, report.dof) == (True, 0) if consistent else report.consistent is not True
+
+
+# Many motions
+
+
+def copied_polygon(n: int) -> dict[str, Any]:
+    """A polygon and two copies of it, each corner held to its copies by a triangle: all triangles turn as one."""
+    around = [(round(1000 * math.cos(a)), round(1000 * math.sin(a))) for a in np.arange(n) * 2 * math.pi / n]
+    aside = {"A": (0, 0), "B": (20, 3), "C": (5, 30)}
+    particles = [{"name": f"{k}{i}", "at": [x + dx, y + dy]} for i, (x, y) in enumerate(around)
+                 for k, (dx, dy) in aside.items()]  # fmt: skip
+    pairs = [(f"{a}{i}", f"{b}{i}") for i in range(n) for a, b in ("AB", "AC", "BC")]
+    pairs += [(f"{k}{i}", f"{k}{(i + 1) % n}") for k in aside for i in range(n)]
+    return {"dimension": 2, "particles": particles, "constraints": [{"type": "link", "between": [*p]} for p in pairs]}
+
+
+@pytest.mark.parametrize("n", [12, 66])
+def test_a_framework_with_many_motions_is_answered(n: int) -> None:
+    """2 n - n for the polygon, and 1 for the triangles."""
+    assert dofkit.classify(copied_polygon(n)).dof == n + 1
+
+
+def test_without_balls_what_is_flat_at_a_given_point_is_open() -> None:
+    field, _ = through(["x", "z", "z + x y^3"], (0, 0, 0))
+    assert local_dimension(field, None, 0).dimension is None
+    assert local_dimension(field, None, 0, distance=False).dimension == 1

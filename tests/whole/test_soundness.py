@@ -191,3 +191,37 @@ def test_a_measured_drawing_beside_a_form_is_open() -> None:
         }
     )
     assert (report.dof, report.verdict) in ((3, "numeric"), (None, "undecided"))
+
+
+# Flat contacts among many coordinates
+
+
+MANY = [f"q{i}" for i in range(70)]
+SQUARES = "+".join(f"{q}^2" for q in MANY)
+#: Flat at 0: x^9/9! - ..., and -x^10/10! + ...
+SINE = "(sin(x) - x + x^3/6 - x^5/120 + x^7/5040)"
+COSINE = "(cos(x) - 1 + x^2/2 - x^4/24 + x^6/720 - x^8/40320)"
+
+
+def flat(*constraints: str) -> dict[str, Any]:
+    """Relations on x, y and seventy more, drawn at 0."""
+    names = ["x", "y", *MANY]
+    return scene(" ".join(names), *constraints, configuration=dict.fromkeys(names, 0))
+
+
+@pytest.mark.parametrize(
+    ("constraints", "truth"),
+    [
+        # y = 0 leaves SINE^3 (1 + ...) + COSINE^3 q0 = 0, or x^27 (1/9!^3 - x^3 q0/10!^3 + ...) = 0: near 0 x = 0
+        (["y = 0", f"y = {SINE}^3*(1 + {SQUARES}) + {COSINE}^3*q0"], 70),
+        (["y = 0", f"y = {COSINE}*(1 + {SQUARES})"], 70),
+        (["y = 0", f"y = {SINE}^2*(2 + cos(q3))"], 70),
+        # the second follows: x and all others are free
+        (["y = 0", f"y*(2 + cos(x) + {SQUARES}) = y^3*sin(q0)"], 71),
+        (["y = sin(x)", f"y*(1 + {SQUARES}) = sin(x)*(1 + {SQUARES})"], 71),
+    ],
+)
+def test_flat_relations_among_many_coordinates(constraints: list[str], truth: int) -> None:
+    report = dofkit.classify(flat(*constraints))
+    assert report.dof in ((truth,) if truth == 71 else (truth, None))
+    assert (report.dof is None) == (report.verdict == "undecided")

@@ -16,7 +16,6 @@ from dofkit.configuration.generic_points import field_jacobian, on_variety, pose
 from dofkit.configuration.local.dimension import local_at, numeric_dimension
 from dofkit.configuration.local.first_order import INDEPENDENT, WHOLE
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
-from dofkit.configuration.reality import BALL_COLUMNS
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part, dependencies
@@ -102,24 +101,23 @@ def _by_field(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtRefere
         ball = ball_point(chart, known, point.rng) if "balls" in chart.engines else None
         local = LocalDimension(None, "undecided", "measured")
         return AtReference(n - rank_q, local, [], point.p, rank, rigid, ball)
-    few = len(chart.columns) - rank - timed - rigid <= BALL_COLUMNS
     together = timed or rank == n - rigid or "classes" not in chart.reductions
     apart = None if together else _by_parts(chart, known, matrix, point.p, rank)
     if apart is not None:
         local, looked = apart
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
     if rank < len(matrix) and not timed:
-        local, spared = _with_fewer(chart, known, point, fields, few)
+        local, spared = _with_fewer(chart, known, point, fields)
         looked = FollowedClasses(coordinates=n - spared, spared=spared)
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
-    if rank < len(matrix) and few and "balls" in chart.engines:
+    if rank < len(matrix) and "balls" in chart.engines:
         ball = ball_point(chart, known, point.rng)
     local = _at_fixed_time(local_at(chart, point, ball, rigid, chart.time), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball)
 
 
 def _with_fewer(
-    chart: Chart, known: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]], few: bool
+    chart: Chart, known: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]]
 ) -> tuple[LocalDimension, int]:
     """The local dimension by a chart with fewer coordinates, where there is one, and how many went.
 
@@ -134,7 +132,7 @@ def _with_fewer(
         return LocalDimension(free, "proved", EXPLICIT, argument="graph"), spared
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
-    ball = ball_point(small, known, here.rng) if few and "balls" in chart.engines else None
+    ball = ball_point(small, known, here.rng) if "balls" in chart.engines else None
     local = local_at(small, here, ball, rigid)
     return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
@@ -184,7 +182,7 @@ def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local
     rigid = rank_of(fields, point.p)
     if left == rigid:
         return LocalDimension(left, "proved", RIGID, argument="rigid to first order"), 0
-    local, spared = _with_fewer(chart, known, point, fields, left - rigid <= BALL_COLUMNS)
+    local, spared = _with_fewer(chart, known, point, fields)
     return (local if local.dimension == left else None), spared
 
 

@@ -15,14 +15,17 @@ from dofkit.relations.chart import Chart
 
 
 @raising_no_value
-def local_dimension(field: Manifold, ball: Manifold | None, rigid: int, time: int | None = None) -> LocalDimension:
+def local_dimension(
+    field: Manifold, ball: Manifold | None, rigid: int, time: int | None = None, distance: bool = True
+) -> LocalDimension:
     """The local dimension at the point; ``rigid`` is the dimension of the motions that move everything as one body.
 
     ``field`` is over GF(p), where a coefficient that is not 0 proves that the function is not; ``ball`` at the
-    same point decides signs. ``time`` is the number of its column, if it is one. Raises NoValueError.
+    same point decides signs. ``time`` is the number of its column, if it is one; ``distance``: must what is flat
+    at the point be looked at from a distance? Raises NoValueError.
     """
     with ctx.workprec(max(ctx.prec, precision())):
-        return decision(Germ(field, ball, rigid, time))[1]
+        return decision(Germ(field, ball, rigid, time, distance))[1]
 
 
 @raising_no_value
@@ -32,11 +35,12 @@ def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Lo
 
 
 def local_at(
-    chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None
+    chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None, drawn: bool = True
 ) -> LocalDimension:
     """The local dimension at a point of the variety, time counted where it is a column.
 
-    ``time``: the number of that column, where it matters whether time moves on.
+    ``time``: the number of that column, where it matters whether time moves on. A point that was ``drawn`` may be one
+    where a relation is flat: what is 0 along a curve is looked at from a distance, if balls may be asked.
     """
     frame = frame_at(chart, point)
     try:
@@ -44,7 +48,7 @@ def local_at(
         ball_manifold = None
         if ball is not None:
             ball_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
-        return local_dimension(field_manifold, ball_manifold, rigid, time)
+        return local_dimension(field_manifold, ball_manifold, rigid, time, drawn and "balls" in chart.engines)
     except NoValueError:
         return LocalDimension(
             None, "undecided", "the relations could not be followed along a curve through this configuration"

@@ -26,6 +26,8 @@ from dofkit.exact.ring.instructions import Scalar
 ORDER, LONG_ORDER = 8, 16
 #: Relations of this degree are not followed, over balls beyond the long order: their series may begin later.
 LONGEST = 64
+#: With more motions than this beside those of the whole, balls look at one random curve only.
+MANY_WAYS = 60
 #: The order to which they are followed on their critical set, and random directions in which a sign is looked at.
 CRITICAL_ORDER, DIRECTIONS = 12, 12
 
@@ -47,14 +49,19 @@ class Germ:
 
     A coefficient over GF(p) that is not 0 proves that the function is not; a ball decides signs. With balls alone what
     a tiny one contains 0 of is taken for 0. ``rigid`` is mu; ``time`` is the number of time's column, if it is one.
+    ``distance``: must what is flat at the point be looked at from a distance? ``afar``: over balls, for that; ``ball``
+    is the same where second orders are not too many.
     """
 
-    def __init__(self, field: Manifold | None, ball: Manifold | None, rigid: int, time: int | None = None) -> None:
+    def __init__(
+        self, field: Manifold | None, ball: Manifold | None, rigid: int, time: int | None = None, distance: bool = True
+    ) -> None:
         manifold = ball if field is None else field
         if manifold is None:
             raise ValueError("a germ needs a manifold")
-        self.manifold, self.field, self.ball = manifold, field, ball
-        self.rigid, self.time = rigid, time
+        self.manifold, self.field, self.afar = manifold, field, ball
+        self.ball = ball if manifold.dimension - rigid <= MANY_WAYS else None
+        self.rigid, self.time, self.distance = rigid, time, distance
 
     @property
     def exact(self) -> bool:
@@ -94,8 +101,13 @@ class Germ:
 
     @cached_property
     def vanishes_away(self) -> bool | None:
-        """Are they 0 at a distance too? None where the curve could not be followed that far."""
-        return True if self.ball is None else holds_away(self.ball, _ahead(self.ball, self.m), self.exact)
+        """Are they 0 at a distance too? None where no curve could be followed that far.
+
+        At a random point nothing is flat but what is 0 everywhere [SchwartzZippel]: there nothing more is asked.
+        """
+        if self.afar is None:
+            return None if self.distance else True
+        return holds_away(self.afar, _ahead(self.afar, self.m), self.exact)
 
     @cached_property
     def signs(self) -> list[Form]:

@@ -115,10 +115,10 @@ class Wide:
         return found
 
 
-def fails_afar(ball: Manifold, direction: Sequence[float]) -> bool:
-    """Is a dependent relation, some way along a curve on which the independent ones are 0, not 0 in floats?
+def holds_afar(ball: Manifold, direction: Sequence[float]) -> bool | None:
+    """Are the dependent relations 0 in floats some way along a curve on which the independent ones are?
 
-    False also where the curve could not be followed.
+    None where the curve could not be followed.
     """
     here = Wide(ball)
     ahead = np.zeros(len(here.place))
@@ -130,9 +130,9 @@ def fails_afar(ball: Manifold, direction: Sequence[float]) -> bool:
         u = _walk(here, ahead, reach)
         if u is not None:
             _, norms = here.slopes(np.zeros(len(u)), ball.others)
-            return bool(np.max(np.abs(here.values(u, ball.others, norms))) > ROUGH)
+            return bool(np.max(np.abs(here.values(u, ball.others, norms))) <= ROUGH)
         reach /= 4
-    return False
+    return None
 
 
 def _walk(here: Wide, ahead: np.ndarray, reach: float) -> np.ndarray | None:

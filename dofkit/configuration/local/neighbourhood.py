@@ -9,7 +9,7 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.configuration.local.critical_set import Split
-from dofkit.configuration.local.long_paths import fails_afar
+from dofkit.configuration.local.long_paths import holds_afar
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.ring.program import values
@@ -135,7 +135,7 @@ def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool |
     """
     try:
         if len(ball.rows) > MANY:
-            return not fails_afar(ball, direction)
+            return holds_afar(ball, direction)
         here = Neighbourhood(ball)
         reach = FAR
         while reach > NEAR:

@@ -10,6 +10,7 @@ import random
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations_with_replacement
+from typing import Any
 
 import numpy as np
 from flint import arb, nmod, nmod_mat
@@ -52,18 +53,27 @@ def _only_zero(forms: Sequence[Form], c: int, p: int) -> bool:
     rng = random.Random("dofkit cone")
     m = len(forms[0])
     basis = nmod_mat([[rng.randrange(p) for _ in range(c)] for _ in range(m)], p)
-    monomials = {exponents: i for i, exponents in enumerate(combinations_with_replacement(range(c), c + 1))}
-    rows = []
+    cuts = []
     for form in forms:
         check()
         cut = basis.transpose() * nmod_mat([[int(v) for v in row] for row in form], p) * basis
-        terms = [((i, j), int(cut[i, j]) * (1 + (i != j))) for i in range(c) for j in range(i, c)]
+        cuts.append([[int(cut[i, j]) for j in range(c)] for i in range(c)])
+    rows = [[v % p for v in row] for row in macaulay_matrix(cuts, c)]
+    return bool(nmod_mat(rows, p).rank() == len(rows[0]))
+
+
+def macaulay_matrix(forms: Sequence[Sequence[Sequence[Any]]], c: int) -> list[list[Any]]:
+    """The multiples of degree c + 1 of quadratic forms in c variables, by their coefficients [Macaulay1902]."""
+    monomials = {exponents: i for i, exponents in enumerate(combinations_with_replacement(range(c), c + 1))}
+    rows = []
+    for form in forms:
+        terms = [((i, j), form[i][j] * (1 + (i != j))) for i in range(c) for j in range(i, c)]
         for factor in combinations_with_replacement(range(c), c - 1):
-            row = [0] * len(monomials)
+            row: list[Any] = [0] * len(monomials)
             for pair, value in terms:
                 row[monomials[tuple(sorted((*factor, *pair)))]] += value
-            rows.append([v % p for v in row])
-    return bool(nmod_mat(rows, p).rank() == len(monomials))
+            rows.append(row)
+    return rows
 
 
 def definite_combination(forms: Sequence[Form], rank_wanted: int) -> bool:

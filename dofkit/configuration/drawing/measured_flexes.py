@@ -1,0 +1,123 @@
+"""The second order of measured drawings: stress forms on the first-order motions, with how far noise may change them.
+
+Let J be the Jacobian at the drawing, of rank r within the tolerance, and J_0 a matrix of rank r near it, that of an
+exact geometry within the tolerance. A stress l, with l J_0 = 0, and a motion v, with J_0 v = 0, have the number
+Q_l(v) = sum l_i (d^2 f_i)(v, v): the second order of the dependent relation l f on the manifold of the others. The
+spaces of J and of J_0 differ by |J - J_0| / s, s the least singular value that counts [Wedin1972], and the forms
+by as much times the second derivatives: their entries are balls, so that what they prove holds for all such
+geometries.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from dofkit.configuration.drawing.measured_relations import SLACK, MeasuredDrawing
+from dofkit.configuration.local.quadratic_cone import (
+    MAX_CUTS,
+    definite_combination,
+    macaulay_matrix,
+    signature_of,
+)
+
+#: Second derivatives are differences over so short a way, and right to within this part.
+WAY, ROUGH = 1e-5, 1e-6
+#: How many changes of the size |J - J_0| / s a form may take: of its stress and of both its motions, and as many again.
+CHANGES = 6.0
+#: Random subspaces on which forms without a common zero are looked for.
+TRIES = 3
+
+
+class StressForms:
+    """``forms`` (k x w x w) on a drawing's w motions across those of the whole; ``noise`` bounds their change."""
+
+    def __init__(self, drawing: MeasuredDrawing) -> None:
+        relations, ways = drawing.relations, drawing.ways
+        forms = np.zeros((len(drawing.stresses), len(ways), len(ways)))
+        bend = 0.0
+        for a, v in enumerate(ways):
+            ahead = relations.system(relations.moved(drawing.at, WAY * v), drawing.norms)[1]
+            back = relations.system(relations.moved(drawing.at, -WAY * v), drawing.norms)[1]
+            slope = (ahead - back) / (2 * WAY)
+            bend = max(bend, float(np.linalg.norm(slope, 2)))
+            forms[:, a, :] = drawing.stresses @ slope @ ways.T
+        self.forms = (forms + forms.transpose(0, 2, 1)) / 2
+        self.noise = (1 + bend) * (CHANGES * SLACK * drawing.tolerance * (1 + 1 / drawing.least) + ROUGH)
+        self.drawing = drawing
+
+    @property
+    def ways(self) -> int:
+        """w."""
+        return int(self.forms.shape[1])
+
+    @cached_property
+    def balls(self) -> list[list[list[arb]]]:
+        """The forms with their noise."""
+        return [[[arb(v, self.noise) for v in row] for row in form.tolist()] for form in self.forms]
+
+    @cached_property
+    def vanish(self) -> bool:
+        """Is none of them seen not to be 0?"""
+        return all(v.contains(0) for form in self.balls for row in form for v in row)
+
+    @property
+    def change_sign(self) -> bool:
+        """Is it one form, with squares of both signs?"""
+        return len(self.forms) == 1 and all(signature_of(self.balls[0]))
+
+    @property
+    def definite(self) -> bool:
+        """Is a combination of them definite?"""
+        return self.ways > 0 and definite_combination(self.balls, self.ways)
+
+    @cached_property
+    def cone(self) -> int:
+        """An upper bound of the dimension of their common zeros, across the motions of the whole."""
+        return _complex_bound(self.on(self.kernel), self.noise)
+
+    def on(self, subspace: Any) -> Any:
+        """The forms on a subspace, whose basis are the columns."""
+        return np.einsum("ia,kij,jb->kab", subspace, self.forms, subspace)
+
+    @cached_property
+    def kernel(self) -> Any:
+        """A subspace that holds all real common zeros: where a form is of one sign it is 0 on its kernel alone."""
+        kernel = np.eye(self.ways)
+        while True:
+            smaller = self._smaller(kernel)
+            if smaller is None:
+                return kernel
+            kernel = smaller
+
+    def _smaller(self, kernel: Any) -> Any:
+        """The kernel of a combination that is of one sign on a subspace, within it; None where none is found."""
+        inside = self.on(kernel)
+        flat = inside.reshape(len(inside), -1)
+        for weights in (*np.eye(len(inside)), *np.linalg.svd(flat)[0].T):
+            least, vectors = np.linalg.eigh(np.einsum("k,kab->ab", weights, inside))
+            noise = self.noise * float(np.sum(np.abs(weights)))
+            if np.sum(np.abs(least) > noise) and (np.all(least > -noise) or np.all(least < noise)):
+                return kernel @ vectors[:, np.abs(least) <= noise]
+        return None
+
+
+def _complex_bound(forms: Any, noise: float) -> int:
+    """The dimension of the forms' common complex zeros at the most, by matrices that are of full rank for all noise.
+
+    See `quadratic_cone.bound`.
+    """
+    w = int(forms.shape[1])
+    rng = np.random.default_rng(5)
+    for cuts in range(min(w, len(forms), MAX_CUTS), 0, -1):
+        for _ in range(TRIES):
+            basis = np.linalg.qr(rng.standard_normal((w, cuts)))[0]
+            rows = np.array(macaulay_matrix([(basis.T @ form @ basis).tolist() for form in forms], cuts), dtype=float)
+            change = 2 * noise * w * float(np.sqrt(np.count_nonzero(rows)))
+            singular = np.linalg.svd(rows, compute_uv=False)
+            if len(singular) == rows.shape[1] and singular[-1] > change:
+                return w - cuts
+    return w
