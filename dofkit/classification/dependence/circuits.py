@@ -10,17 +10,21 @@ import time
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import combinations
 
 import networkx as nx
 
-from dofkit.base.deadline import check
+from dofkit.base.deadline import check, limited, unless_late
+from dofkit.classification.dependence.sufficient_sets import Implication, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
 SEARCHED = 12
 #: Up to this many by giving one back where two can go for it, and seconds for that.
 EXCHANGED, EXCHANGE_SECONDS = 60, 1.0
+#: Seconds for one row's search for rows that imply it.
+SUFFICIENT_SECONDS = 2.0
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,7 @@ class OwnedRows:
 
     ``equations[i]`` is the number of the scalar equation that row i is of; -1 where it is not known.
     ``supports``: what each row depends on, of those before it, where something else than the matrix tells it.
+    ``implication`` tells what rows say of each other; without it what is dependent is taken to follow.
     """
 
     matrix: Sequence[SparseRow]
@@ -57,6 +62,7 @@ class OwnedRows:
     p: int
     equations: Sequence[int] = ()
     supports: Supports | None = None
+    implication: Implication | None = None
 
     def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
         """The rows that some constraints wrote."""
@@ -80,7 +86,9 @@ def analyse(parts: Sequence[OwnedRows]) -> Redundancies:
     for _, members in groups:
         redundant += _droppable(parts, [o for o in order if o in members], bases)
     rows_of = Counter(o for part in parts for o in part.owners)
-    circuits = {owner: _circuit(parts, order, owner, bases, rows_of[owner] == 1) for owner in redundant}
+    open_ = set[int]().union(*(b.open for b in bases))
+    known = [owner for owner in redundant if owner not in open_]
+    circuits = {owner: _circuit(parts, order, owner, bases, rows_of[owner] == 1) for owner in known}
     return Redundancies(independent, sorted(redundant), groups, circuits, equations=_equations(parts, bases))
 
 
@@ -105,10 +113,31 @@ class _Basis:
         self.owners = rows.owners
         known = self._by_elimination(rows) if rows.supports is None else self._known(rows, rows.supports)
         self.pivots, self.supports = known
+        #: Constraints of which it is not known what they follow from.
+        self.open: set[int] = set()
+        self.implication = rows.implication
+        if rows.implication is not None:
+            self._enlarge(SufficientSets(rows.implication, rows.owners, self.pivots))
         self.pivot_owners = {self.owners[i] for i in self.pivots}
         self.circuits: dict[int, set[int]] = {}
         for i, support in self.supports.items():
             self.circuits.setdefault(self.owners[i], set()).update(self.owners[j] for j in support)
+
+    def _enlarge(self, sets: SufficientSets) -> None:
+        """Every support made large enough to imply its row."""
+        for i, support in self.supports.items():
+            with limited(SUFFICIENT_SECONDS):
+                found = unless_late(partial(sets.enough, i, support), None)
+            if found is None:
+                self.open.add(self.owners[i])
+            else:
+                self.supports[i] = found
+
+    def implies(self, kept: set[int], owner: int) -> bool:
+        """Do the rows of some constraints that others depend on imply those of another one?"""
+        others = [i for i in self.pivots if self.owners[i] in kept]
+        told = self.implication
+        return told is None or all(told.follows(i, others) for i in self.supports if self.owners[i] == owner)
 
     @staticmethod
     def _known(rows: OwnedRows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
@@ -248,6 +277,7 @@ def _circuit(
     else:
         kept = [o for o in order if o != owner]
     for other in reversed(list(kept)):
-        if _spans(parts, set(kept) - {other}, (set(kept) - {other}) | {owner}):
+        fewer = set(kept) - {other}
+        if _spans(parts, fewer, fewer | {owner}) and all(b.implies(fewer, owner) for b in bases):
             kept.remove(other)
     return sorted(kept)

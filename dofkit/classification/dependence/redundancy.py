@@ -14,6 +14,7 @@ from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
 from dofkit.classification.dependence.by_leaving_out import by_leaving_out, owners_of
 from dofkit.classification.dependence.by_rank import analysed, at_a_point, everywhere, sharing, without_hidden
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, left_open
+from dofkit.classification.dependence.implications import implication_of
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.through_reference import through_reference
 from dofkit.relations.answer import Answer
@@ -120,7 +121,8 @@ def _of_block(
     else:
         finite = [isinstance(r.piece, Finite) for r in block.rows]
         equations = [numbered.get(id(r.piece), -1) for r in block.rows]
-        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports)
+        implied = None if a.supports is not None or nullity <= 0 else implication_of(block, a, setting)
+        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
 
 
 def _independent(counted: dict[int, int]) -> Redundancies:

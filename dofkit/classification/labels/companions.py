@@ -7,13 +7,16 @@ from dataclasses import dataclass, field, replace
 from itertools import chain, count, islice
 
 from dofkit.base.deadline import OutOfTimeError, check
+from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.block import answer
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.integrability.first_integrals import FirstIntegral, first_integrals, integral_by_row
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
-from dofkit.relations.normal.normal_form import Pfaffian
+from dofkit.relations.normal.normal_form import Normal, Pfaffian
 from dofkit.relations.setting import Setting
 
 #: Blocks up to this many constraints and coordinates are searched for companions and integrals.
@@ -55,6 +58,9 @@ class Companionship:
         try:
             kept = self._needed(constraint, block, owners)
             integral = self._integral(constraint, block, kept)
+            if integral is not None and len(kept) < len(owners) and not self._holds(integral, block):
+                kept = self._needed(constraint, block, owners, True)
+                integral = self._integral(constraint, block, owners)
         except (OutOfTimeError, ArithmeticError):
             return Together()
         companions = tuple(o for o in kept if o != constraint)
@@ -73,15 +79,32 @@ class Companionship:
             return Together()
         return Together() if integral is None else Together((), equation(integral, block), integral.identically)
 
-    def _needed(self, constraint: int, block: Block, owners: Sequence[int]) -> list[int]:
-        """A minimal set of constraints, ``constraint`` among them, in which it is holonomic; later ones go first."""
+    def _needed(self, constraint: int, block: Block, owners: Sequence[int], kept_true: bool = False) -> list[int]:
+        """A minimal set of constraints, ``constraint`` among them, in which it is holonomic; later ones go first.
+
+        ``kept_true``: with an integral that stands beside all the others too, where it has one.
+        """
         kept = list(owners)
         for other in reversed(owners):
             check()
             fewer = [o for o in kept if o != other]
-            if other != constraint and self._holonomic(constraint, _rows(block, fewer), block):
+            if other == constraint or not self._holonomic(constraint, _rows(block, fewer), block):
+                continue
+            integral = self._integral(constraint, block, fewer) if kept_true else None
+            if integral is None or self._holds(integral, block):
                 kept = fewer
         return kept
+
+    def _holds(self, f: FirstIntegral, block: Block) -> bool:
+        """Is f constant along every motion of the whole block?
+
+        What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
+        constant beside x = 0 alone.
+        """
+        moving = {str(s.args[1]): diff(f.expr, s) for s in f.expr.symbols if s.args[0] == "coordinate"}
+        form = Pfaffian({name: e for name, e in moving.items() if not e.is_zero}, diff(f.expr, ex.TIME))
+        plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
+        return follows(Normal(((form,),)), [Normal(((r.piece,),)) for r in block.rows], plain) is True
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
         plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
