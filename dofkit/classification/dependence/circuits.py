@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import partial
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import combinations
+from typing import Literal
 
 import networkx as nx
 
-from dofkit.base.deadline import check, limited, unless_late
+from dofkit.base.deadline import check
+from dofkit.base.verdicts import Verdict
 from dofkit.classification.dependence.sufficient_sets import Implication, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
 
@@ -23,8 +24,10 @@ from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_r
 SEARCHED = 12
 #: Up to this many by giving one back where two can go for it, and seconds for that.
 EXCHANGED, EXCHANGE_SECONDS = 60, 1.0
-#: Seconds for one row's search for rows that imply it.
-SUFFICIENT_SECONDS = 2.0
+
+
+#: Of which points something is said.
+About = Literal["reference", "component", "everywhere"]
 
 
 @dataclass(frozen=True)
@@ -32,6 +35,9 @@ class Redundancies:
     """What was found, constraints by their numbers; of those in ``undecided`` it is not known whether they can go.
 
     ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
+    ``uncounted``: constraints of which it is not known how many of their equations do. ``about``: of which points this
+    speaks: those near the ``reference``, near the point that was found (its ``component``), or ``everywhere``.
+    ``verdict``: how sure it is that what is redundant is, at the best.
     """
 
     independent: dict[int, int]
@@ -40,6 +46,20 @@ class Redundancies:
     circuits: dict[int, list[int]]
     undecided: tuple[int, ...] = ()
     equations: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
+    uncounted: tuple[int, ...] = ()
+    about: About = "everywhere"
+    verdict: Verdict = "proved"
+
+    @property
+    def needed(self) -> set[int]:
+        """The constraints that were looked at and cannot go, as far as is known."""
+        return {*self.independent, *self.undecided, *self.uncounted} - {*self.redundant}
+
+    def without(self, needed: set[int]) -> Redundancies:
+        """The same where some constraints cannot go, because of other equations of theirs."""
+        redundant = [i for i in self.redundant if i not in needed]
+        circuits = {i: c for i, c in self.circuits.items() if i not in needed}
+        return replace(self, redundant=redundant, circuits=circuits)
 
 
 def left_open(constraints: Iterable[int]) -> Redundancies:
@@ -73,8 +93,8 @@ class OwnedRows:
         ]
 
 
-def analyse(parts: Sequence[OwnedRows]) -> Redundancies:
-    """Redundant constraints, groups and circuits of blocks that share constraints."""
+def analyse(parts: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redundancies:
+    """Redundant constraints, groups and circuits of blocks that share constraints; those ``needed`` cannot go."""
     order = _order(parts)
     bases = [_Basis(part) for part in parts]
     kept = Counter(b.owners[i] for b in bases for i in b.pivots)
@@ -84,7 +104,7 @@ def analyse(parts: Sequence[OwnedRows]) -> Redundancies:
     groups = _groups(bases)
     redundant: list[int] = []
     for _, members in groups:
-        redundant += _droppable(parts, [o for o in order if o in members], bases)
+        redundant += _droppable(parts, [o for o in order if o in members and o not in needed], bases)
     rows_of = Counter(o for part in parts for o in part.owners)
     open_ = set[int]().union(*(b.open for b in bases))
     known = [owner for owner in redundant if owner not in open_]
@@ -126,8 +146,7 @@ class _Basis:
     def _enlarge(self, sets: SufficientSets) -> None:
         """Every support made large enough to imply its row."""
         for i, support in self.supports.items():
-            with limited(SUFFICIENT_SECONDS):
-                found = unless_late(partial(sets.enough, i, support), None)
+            found = sets.enough(i, support)
             if found is None:
                 self.open.add(self.owners[i])
             else:

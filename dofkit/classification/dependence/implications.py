@@ -8,6 +8,7 @@ from functools import cached_property
 
 from dofkit.classification.dependence.implication import follows
 from dofkit.configuration.drawing.implied_relations import ImpliedRelations
+from dofkit.exact.matrices.sparse import echelon
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
@@ -59,23 +60,67 @@ class NearDrawing(BlockImplication):
         told = self.linearly(row, others)
         return self._relations.follows(row, others) if told is None else told
 
+    def seems(self, row: int, others: Sequence[int]) -> bool:
+        """Does it vanish to some order near the drawing?"""
+        told = self.linearly(row, others)
+        return bool(self._relations.follows(row, others, False) if told is None else told)
+
+    def needed(self, row: int, others: Sequence[int]) -> list[int]:
+        """Those with a multiplier that is not 0 all along a curve of the set."""
+        return self._relations.needed(row, others)
+
+    def imply(self, others: Sequence[int], rows: Sequence[int], a: Answer) -> bool:
+        """Do some relations imply others near the drawing, as far as those that are independent there tell?"""
+        found = echelon([a.matrix[i] for i in others], a.modulus).independent
+        pivots = [others[k] for k in found]
+        return all(self.follows(i, pivots) for i in rows)
+
+    def seem_to_imply(self, others: Sequence[int], rows: Sequence[int]) -> bool:
+        """Do others hold at all points that are found near the drawing where some relations do?"""
+        return self._relations.seem_to_follow(rows, others)
+
+    def is_orbit(self, rows: Sequence[int], dof: int | None) -> bool:
+        """Is the set that some relations leave of ``dof`` dimensions one of motions of the whole, near the drawing?
+
+        It is a union of orbits of the whole, finitely many of that dimension, and all of them pass through the drawing.
+        """
+        return dof is not None and self._relations.rigid(rows) == dof
+
 
 class Everywhere(BlockImplication):
     """Of any rows: what holds at every state of motion that the others leave, on all parts of their set."""
 
     def follows(self, row: int, others: Sequence[int]) -> bool | None:
-        """Does what a row says hold wherever the others do?"""
+        """Does what a row says hold wherever the others do?
+
+        A row that depends on others at a generic point follows there, where no other row shares a coordinate with them.
+        """
         told = self.linearly(row, others)
         if told is not None:
             return told
+        if self.beside([row, *others]) <= {row, *others}:
+            return True
         return follows(_alone(self.block.rows[row]), [_alone(self.block.rows[i]) for i in others], self.setting)
+
+    def seems(self, row: int, others: Sequence[int]) -> bool:
+        """The same: there is no shorter way."""
+        return self.follows(row, others) is True
+
+    def needed(self, row: int, others: Sequence[int]) -> list[int]:
+        """All: which are needed is not seen at once."""
+        del row
+        return list(others)
 
 
 def _alone(row: Row) -> Normal:
     return Normal(((row.piece,),))
 
 
-def implication_of(block: Block, a: Answer, setting: Setting) -> BlockImplication:
+def implication_of(block: Block, a: Answer, setting: Setting) -> NearDrawing | Everywhere:
     """By what the block was answered: its drawing, or generic points."""
-    drawn = setting.reference is not None and a.instantaneous is not None and len(block.finite) == len(block.rows)
-    return NearDrawing(block, setting) if drawn else Everywhere(block, setting)
+    return NearDrawing(block, setting) if is_drawn(block, a, setting) else Everywhere(block, setting)
+
+
+def is_drawn(block: Block, a: Answer, setting: Setting) -> bool:
+    """Are all rows finite, and were they answered at the drawing?"""
+    return setting.reference is not None and a.instantaneous is not None and len(block.finite) == len(block.rows)

@@ -7,16 +7,13 @@ from dataclasses import dataclass, field, replace
 from itertools import chain, count, islice
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.block import answer
-from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
-from dofkit.integrability.first_integrals import FirstIntegral, first_integrals, integral_by_row
+from dofkit.integrability.first_integrals import FirstIntegral, first_integrals, integral_by_row, is_first_integral
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
-from dofkit.relations.normal.normal_form import Normal, Pfaffian
+from dofkit.relations.normal.normal_form import Pfaffian
 from dofkit.relations.setting import Setting
 
 #: Blocks up to this many constraints and coordinates are searched for companions and integrals.
@@ -58,8 +55,8 @@ class Companionship:
         try:
             kept = self._needed(constraint, block, owners)
             integral = self._integral(constraint, block, kept)
-            if integral is not None and len(kept) < len(owners) and not self._holds(integral, block):
-                kept = self._needed(constraint, block, owners, True)
+            if integral is not None and len(kept) < len(owners) and not self._holds(integral, block, a):
+                kept = self._needed(constraint, block, owners, a)
                 integral = self._integral(constraint, block, owners)
         except (OutOfTimeError, ArithmeticError):
             return Together()
@@ -79,10 +76,10 @@ class Companionship:
             return Together()
         return Together() if integral is None else Together((), equation(integral, block), integral.identically)
 
-    def _needed(self, constraint: int, block: Block, owners: Sequence[int], kept_true: bool = False) -> list[int]:
+    def _needed(self, constraint: int, block: Block, owners: Sequence[int], a: Answer | None = None) -> list[int]:
         """A minimal set of constraints, ``constraint`` among them, in which it is holonomic; later ones go first.
 
-        ``kept_true``: with an integral that stands beside all the others too, where it has one.
+        With the block's answer: and where its integral, if it has one, stands beside all the others too.
         """
         kept = list(owners)
         for other in reversed(owners):
@@ -90,21 +87,19 @@ class Companionship:
             fewer = [o for o in kept if o != other]
             if other == constraint or not self._holonomic(constraint, _rows(block, fewer), block):
                 continue
-            integral = self._integral(constraint, block, fewer) if kept_true else None
-            if integral is None or self._holds(integral, block):
+            integral = None if a is None else self._integral(constraint, block, fewer)
+            if a is None or integral is None or self._holds(integral, block, a):
                 kept = fewer
         return kept
 
-    def _holds(self, f: FirstIntegral, block: Block) -> bool:
+    def _holds(self, f: FirstIntegral, block: Block, a: Answer) -> bool:
         """Is f constant along every motion of the whole block?
 
         What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
         constant beside x = 0 alone.
         """
-        moving = {str(s.args[1]): diff(f.expr, s) for s in f.expr.symbols if s.args[0] == "coordinate"}
-        form = Pfaffian({name: e for name, e in moving.items() if not e.is_zero}, diff(f.expr, ex.TIME))
         plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
-        return follows(Normal(((form,),)), [Normal(((r.piece,),)) for r in block.rows], plain) is True
+        return is_first_integral(codistribution(block, plain, a.hidden, [f.expr]), f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
         plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)

@@ -13,20 +13,36 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+import numpy as np
+
+from dofkit.base.deadline import check
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.dependent_classes import chart_of
 from dofkit.configuration.drawing.fewer_coordinates import smaller
 from dofkit.configuration.drawing.measured import measure
-from dofkit.configuration.generic_points import on_variety, pose_point
+from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.configuration.local.dimension import vanish_near
+from dofkit.configuration.local.manifold import Manifold
+from dofkit.configuration.local.multipliers import needed_along
 from dofkit.configuration.reality import BALL_COLUMNS
 from dofkit.configuration.rigid_motions import rigid_motions
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.balls import FloatPoint, jacobian
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import Pivots, sparse_frame
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 from dofkit.relations.setting import Setting
+
+#: Points that are looked for beside a drawing, and how far they are begun, in the columns' scales.
+BESIDE, AWAY = 12, 0.05
+#: From where on a point is another one, and how near to a relation one is that satisfies it: half the digits.
+MOVED, TOGETHER, TINY = 1e-3, 1e-6, 1e-300
 
 
 @dataclass(frozen=True)
@@ -38,22 +54,86 @@ class ImpliedRelations:
     drawing: Mapping[Expr, Expr]
     _told: dict[tuple[int, ...], bool | None] = field(default_factory=dict)
 
-    def follows(self, row: int, others: Sequence[int]) -> bool | None:
+    def follows(self, row: int, others: Sequence[int], afar: bool = True) -> bool | None:
         """Does relation ``row`` vanish near the drawing where ``others`` do? Those are independent at the drawing.
 
-        None where it was not decided.
+        None where it was not decided. Not ``afar``: True says only that it vanishes to some order.
         """
-        key = (row, *sorted(others))
+        key = (int(afar), row, *sorted(others))
         if key not in self._told:
-            own = chart_of(self.chart, sorted(key))
-            look = _on_manifold if self.setting.tolerance is None else _within_tolerance
-            self._told[key] = look(own, self.setting, {**self.drawing, ex.TIME: ex.ZERO}, len(others))
+            own = chart_of(self.chart, sorted(key[1:]))
+            known = {**self.drawing, ex.TIME: ex.ZERO}
+            if self.setting.tolerance is None:
+                self._told[key] = _on_manifold(own, known, len(others), afar)
+            else:
+                self._told[key] = _within_tolerance(own, self.setting, known, len(others))
         return self._told[key]
 
+    def needed(self, row: int, others: Sequence[int]) -> list[int]:
+        """Which of others a relation needs that follows from them: those with a multiplier along a curve.
 
-def _on_manifold(chart: Chart, setting: Setting, known: Mapping[Expr, Expr], rank: int) -> bool | None:
+        All of them where that is not known.
+        """
+        numbers = sorted((row, *others))
+        own = chart_of(self.chart, numbers)
+        point = pose_point(own, {**self.drawing, ex.TIME: ex.ZERO}, 3)
+        if point is None or "field" not in own.engines or self.setting.tolerance is not None:
+            return list(others)
+        try:
+            frame = pivots_among(own, point, [k for k, i in enumerate(numbers) if i != row])
+            field = Manifold(own.ring, own.nodes, own.columns, frame, point)
+            return [numbers[k] for k in needed_along(field, own.nodes[numbers.index(row)])]
+        except (ArithmeticError, NoValueError):
+            return list(others)
+
+    def rigid(self, rows: Sequence[int]) -> int:
+        """The dimension of the motions of the whole that keep some relations, over the coordinates they mention.
+
+        0 where they mention not all, or the motions are not known.
+        """
+        own = chart_of(self.chart, rows)
+        point = pose_point(own, {**self.drawing, ex.TIME: ex.ZERO}, 3)
+        return 0 if point is None or len(own.symbols) < len(self.chart.symbols) else rigid_motions(own, point)
+
+    def seem_to_follow(self, rows: Sequence[int], others: Sequence[int]) -> bool:
+        """Do relations hold at every point that is found, from random starts, near the drawing where others hold?
+
+        Numbers, no proof: for sets that are singular all along, whose branches are found as their points are.
+        """
+        chart = self.chart
+        ball = ball_point(chart, {**self.drawing, ex.TIME: ex.ZERO}, random.Random("dofkit beside"))
+        if ball is None or "balls" not in chart.engines or self.setting.tolerance is not None:
+            return False
+        start = {s: float(v.mid()) for s, v in ball.symbols.items()}
+        search = RealSearch(chart.ring, [chart.nodes[i] for i in others], chart.unknowns, chart.positive)
+        seen = 0
+        for seed in range(BESIDE):
+            check()
+            there = search.start(seed, {})
+            for s, scale in zip(chart.symbols, chart.scales, strict=True):
+                there[s] = start[s] + AWAY * scale * there.get(s, 0.0)
+            there = {**start, **{s: there[s] for s in chart.symbols}}
+            if search.descend(there, seed) is None:
+                continue
+            if self._distance(there, rows) > TOGETHER:
+                return False
+            seen += any(abs(there[s] - start[s]) > MOVED * k for s, k in zip(chart.symbols, chart.scales, strict=True))
+        return seen >= BESIDE // 2
+
+    def _distance(self, symbols: Mapping[Expr, float], rows: Sequence[int]) -> float:
+        """How far, in the columns' scales, a point is from where some relations hold, to first order."""
+        chart, point = self.chart, FloatPoint(symbols, 0)
+        at = values(chart.ring, point)
+        columns = [c for c in chart.columns if c >= 0]
+        scales = np.array([k for c, k in zip(chart.columns, chart.scales, strict=True) if c >= 0])
+        nodes = [chart.nodes[i] for i in rows]
+        slopes = np.array(jacobian(chart.ring, at, point, nodes, columns, 0.0), dtype=float) * scales
+        sizes = np.linalg.norm(slopes, axis=1) + TINY
+        return float(np.max(np.abs([at[n] for n in nodes]) / sizes))
+
+
+def _on_manifold(chart: Chart, known: Mapping[Expr, Expr], rank: int, afar: bool) -> bool | None:
     """Do the relations cut out a manifold of codimension ``rank``, which is that of all but one of them?"""
-    del setting
     if "field" not in chart.engines:
         return None
     small, free = smaller(chart, known)
@@ -65,8 +145,15 @@ def _on_manifold(chart: Chart, setting: Setting, known: Mapping[Expr, Expr], ran
         return None
     rigid = rigid_motions(small, point)
     few = len(chart.columns) - rank - rigid <= BALL_COLUMNS
-    ball = ball_point(small, known, point.rng) if few and "balls" in chart.engines else None
+    ball = ball_point(small, known, point.rng) if afar and few and "balls" in chart.engines else None
     return vanish_near(small, point, ball, rigid, rank - gone)
+
+
+def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots:
+    """The frame of some rows that are independent at a point."""
+    matrix = field_jacobian(chart, point, [chart.nodes[r] for r in rows])
+    found = sparse_frame(matrix, len(chart.columns), point.p)
+    return replace(found, rows=tuple(rows[r] for r in found.rows))
 
 
 def _within_tolerance(chart: Chart, setting: Setting, known: Mapping[Expr, Expr], rank: int) -> bool | None:
