@@ -11,6 +11,7 @@ from flint import ctx
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limited, part, unless_late
 from dofkit.classification import report as fields
+from dofkit.classification.agreements import agreed
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special import special_cases
@@ -153,7 +154,7 @@ def report_of(study: Study, passes: Iterable[Pass] = PASSES) -> Report:
     told: dict[str, Any] = {}
     for row in passes:
         told.update(row.fill(study, told))
-    return _report(told)
+    return _report(agreed(told))
 
 
 def _report(told: Values) -> Report:
