@@ -173,6 +173,7 @@ class Report(ToldModel):
     ``dof`` is the dimension of the configuration space (hidden finite relations included),
     ``velocity_dof`` the number of independent velocities of finite motions,
     ``instantaneous_dof`` what the constraints allow to first order at the reference configuration.
+    ``redundant`` is None, never empty, where it was not decided.
     ``special_cases`` are apart: all other fields are the generic answer.
     ``generic`` is the count in general position beside that at the drawing (None without a drawing), ``mobility``
     Gruebler's and Kutzbach's beside the truth (None without bodies and joints).
@@ -203,7 +204,7 @@ class Report(ToldModel):
     scleronomic: bool | None
     count: Count
     redundant_equations: int | None
-    redundant: list[str]
+    redundant: list[str] | None
     redundancies: list[Redundancy]
     conflicting: list[str]
     generalized_coordinates: list[str] | None

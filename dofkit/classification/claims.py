@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from dofkit.base.verdicts import OPEN, VERDICTS, ArgumentKey, Claim, together
+from dofkit.base.verdicts import OPEN, VERDICTS, ArgumentKey, Claim, least, together
 from dofkit.classification.generalized_coordinates import regular_at_witness
 from dofkit.classification.study import Study
 from dofkit.integrability.growth_vector import is_free
@@ -133,7 +133,11 @@ def _dependence(study: Study, free: Claim, some: bool) -> Claim:
     if {study.names[i] for r in study.dependence.dependent for i in r.redundant} <= copied:
         return free
     settled = {a.argument for a in study.outcome.answers if a.velocity_dof is not None} <= SETTLED
-    return free if settled else together(free, ROWS, IMPLIED)
+    if settled:
+        return free
+    dependent = [r for r in study.dependence.dependent if r.redundant or r.groups]
+    about = least(*(r.about for r in dependent), free.about)
+    return replace(together(free, ROWS, IMPLIED), about=about)
 
 
 def _chosen(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:

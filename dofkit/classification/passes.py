@@ -12,6 +12,7 @@ from flint import ctx
 from dofkit.base.deadline import DEFAULT_SECONDS, limited, part, unless_late
 from dofkit.base.verdicts import weakest
 from dofkit.classification import report as fields
+from dofkit.classification.agreements import agreed
 from dofkit.classification.claims import claims
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.told import inequalities_together
@@ -175,7 +176,7 @@ def report_of(study: Study, passes: Iterable[Pass] = PASSES) -> Report:
     told: dict[str, Any] = {}
     for row in passes:
         told.update(row.fill(study, told))
-    return _report(told)
+    return _report(agreed(told))
 
 
 def _report(told: Values) -> Report:

@@ -55,9 +55,12 @@ def lecture_count(study: Study) -> Count:
     return count(study.system, CountedFacts(written, outcome.dof, outcome.consistent, hidden, 0, study.entries))
 
 
-def redundant(study: Study) -> list[str]:
-    """The names of what can be dropped together, in the scene's order."""
-    names = study.names
+def redundant(study: Study) -> list[str] | None:
+    """The names of what can be dropped together, in the scene's order; None where that was not decided."""
+    names, outcome = study.names, study.outcome
+    undecided = any(r.undecided for r in study.dependence.dependent)
+    if outcome.consistent is None or (outcome.consistent and (undecided or outcome.velocity_dof is None)):
+        return None
     return [names[i] for i in sorted({i for r in study.dependence.dependent for i in r.redundant})]
 
 

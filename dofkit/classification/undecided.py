@@ -100,7 +100,7 @@ def open_report(
         scleronomic=None,
         count=told,
         redundant_equations=None,
-        redundant=[],
+        redundant=None,
         redundancies=[],
         conflicting=[],
         generalized_coordinates=None,

@@ -56,6 +56,11 @@ def first_integrals(forms: Codistribution, number: int, seed: int = 0) -> list[F
     return found
 
 
+def is_first_integral(forms: Codistribution, f: Expr) -> bool:
+    """Is df in the span of the rows at random points, modulo several primes?"""
+    return IntegralSearch(forms, 0).holds(f)
+
+
 def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[int, FirstIntegral]:
     """An integral for every row that it can stand for: with the other rows it says what the row says.
 

@@ -225,3 +225,161 @@ def test_flat_relations_among_many_coordinates(constraints: list[str], truth: in
     report = dofkit.classify(flat(*constraints))
     assert report.dof in ((truth,) if truth == 71 else (truth, None))
     assert (report.dof is None) == (report.verdict == "undecided")
+
+
+# what depends on what
+
+
+def cranks(*order: str, measured: bool = False, more: int = 0) -> dict[str, Any]:
+    """Parallel cranks A D, B E, ... of one length, the pins D, E, ... on one line, ``order`` of the links."""
+    pivots = {name: [k, 0] for k, name in enumerate("ABCI"[: 3 + more])}
+    pins: dict[str, list[Any]] = {name: [f"{5 * k + 3}/5", "4/5"] for k, name in enumerate("DEFG"[: 3 + more])}
+    if measured:
+        pins = {"D": [0.333, 0.943], "E": [1.333, 0.943], "F": [2.3334, 0.9427]}
+    fixed = [{"type": "fixed", "point": p} for p in pivots]
+    links = [{"type": "link", "between": [*pair]} for pair in order]
+    particles = [{"name": name, "at": at} for name, at in {**pivots, **pins}.items()]
+    tolerance = {"tolerance": 1e-3} if measured else {}
+    return {"dimension": 2, "particles": particles, "constraints": [*fixed, *links], **tolerance}
+
+
+def before(number: int) -> list[str]:
+    """c1, ..., as many."""
+    return [f"c{k + 1}" for k in range(number)]
+
+
+#: What makes it hard, the scene, the constraint that follows, and the least set from which it does.
+CIRCUITS: list[tuple[str, dict[str, Any], str, list[str]]] = [
+    (
+        "D, E, F on a line have freedom 4 without DF and 3 with it: it takes the cranks",
+        cranks("AD", "BE", "CF", "DE", "EF", "DF"),
+        "c9",
+        before(8),
+    ),
+    ("the same measured", cranks("AD", "BE", "CF", "DE", "EF", "DF", measured=True), "c9", before(8)),
+    (
+        "four cranks, and a link over all pins",
+        cranks("AD", "BE", "CF", "IG", "DE", "EF", "FG", "DG", more=1),
+        "c12",
+        before(11),
+    ),
+    ("dx = y dz where y = 0", scene("x y z", "x = 0", "y = 0", "dx = y dz"), "c3", ["c1", "c2"]),
+    ("a coefficient u - 1 where u = 1", scene("u x z", "u = 1", "x = 0", "dx = (u - 1) dz"), "c3", ["c1", "c2"]),
+    ("two of them", scene("x y z w", "x = 0", "y = 0", "dx = y dz + y^2 dw"), "c3", ["c1", "c2"]),
+    (
+        "a knife edge along a circle whose tangent it keeps: x dx + y dy = 0 takes all three",
+        scene("x y a", "x^2 + y^2 = 1", "x cos(a) + y sin(a) = 0", "sin(a) dx - cos(a) dy = 0"),
+        "c3",
+        ["c1", "c2"],
+    ),
+]
+
+
+@pytest.mark.parametrize(("made", "name", "circuit"), [row[1:] for row in CIRCUITS], ids=[row[0] for row in CIRCUITS])
+def test_a_circuit_implies_what_it_is_of(made: dict[str, Any], name: str, circuit: list[str]) -> None:
+    report = dofkit.classify(made)
+    assert report.redundant == [name]
+    assert next(e.circuit for e in report.constraints if e.name == name) == circuit
+    assert [group.members for group in report.redundancies] == [[*circuit, name]]
+
+
+def test_an_integral_stands_beside_all_other_constraints() -> None:
+    """z is free where y = 0, though beside x = 0 alone dx = y dz makes it constant."""
+    entry = dofkit.classify(scene("x y z", "x = 0", "y = 0", "dx = y dz")).constraints[2]
+    assert entry.integral is None
+    assert entry.holonomic
+
+
+def hinges(*axes: list[Any], at: Any = None) -> dict[str, Any]:
+    """A closed loop of hinges in space, each through the origin or ``at`` so far along x."""
+    bodies = [f"b{k}" for k in range(len(axes) - 1)]
+    ends = ["ground", *bodies, "ground"]
+    places = [[0, 0, 0] for _ in axes] if at is None else [[x, 0, 0] for x in at]
+    joints = [
+        {"type": "revolute", "between": ends[k : k + 2], "at": place, "axis": axis}
+        for k, (axis, place) in enumerate(zip(axes, places, strict=True))
+    ]
+    return {"bodies": bodies, "constraints": joints}
+
+
+@pytest.mark.parametrize(
+    "axes",
+    [
+        [[1, 0, 0], [0, 1, 0], [-1, -1, 0]],
+        [[1, 0, 0], [3, 4, 0], [-1, 2, 0]],
+        [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]],
+        [[1, 0, 0], [3, 4, 0], [-1, 0, 0], [3, -4, 0]],
+    ],
+    ids=["three hinges", "three others", "a cross", "a flat vertex"],
+)
+def test_a_hinge_of_a_flat_spherical_loop_is_needed(axes: list[list[int]]) -> None:
+    """To first order one of their equations is too many, but without a hinge its two bodies are free to turn."""
+    report = dofkit.classify(hinges(*axes))
+    assert report.redundant == []
+    assert all(e.circuit is None for e in report.constraints)
+    for name in [e.name for e in report.constraints]:
+        left = hinges(*axes)
+        left["constraints"] = [c | {"name": f"c{k + 1}"} for k, c in enumerate(left["constraints"])]
+        left["constraints"] = [c for c in left["constraints"] if c["name"] != name]
+        assert report.dof is not None
+        assert (dofkit.classify(left).dof or 0) > report.dof
+
+
+Z = [0, 0, 1]
+
+
+@pytest.mark.parametrize(
+    "places", [(0, 1, 3, 2), (0, 2, 4, 2), (0, 3, 1, -2)], ids=["parallelogram", "kite", "crossed"]
+)
+def test_bars_in_line_on_parallel_hinges(places: tuple[int, ...]) -> None:
+    """Out of the plane 4 parallel hinges say 12 things of three bodies' 9; in the plane nothing is too many."""
+    report = dofkit.classify(hinges(Z, Z, Z, Z, at=places))
+    assert (report.dof, report.redundant_equations, report.redundant) == (1, 3, [])
+    assert [group.nullity for group in report.redundancies] == [3]
+    assert [e.independent for e in report.constraints] == [5, 5, 5, 2]
+
+
+def test_a_slider_crank_at_its_dead_point() -> None:
+    """Crank and rod of one length: the pin stands over the crank's pivot, and motions cross."""
+    made = hinges(Z, Z, Z, at=(0, 0, 0))
+    made["constraints"][1]["at"] = [0, 1, 0]
+    made["bodies"] = ["b0", "b1", "b2"]
+    made["constraints"][2]["between"] = ["b1", "b2"]
+    made["constraints"].append({"type": "prismatic", "between": ["b2", "ground"], "axis": [1, 0, 0]})
+    report = dofkit.classify(made)
+    assert (report.dof, report.redundant_equations, report.redundant) == (1, 3, [])
+    assert [group.nullity for group in report.redundancies] == [3]
+    assert sum(e.independent or 0 for e in report.constraints) == 17
+
+
+def test_where_a_singular_set_hides_how_many_equations_are_needed_it_is_said() -> None:
+    """Three bars as long as the ground: rigid, and the equations hold at one place only."""
+    report = dofkit.classify(hinges(Z, Z, Z, Z, at=(0, 1, 3, 6)))
+    assert (report.dof, report.redundant) == (0, [])
+    assert sum(g.nullity for g in report.redundancies) == report.redundant_equations or report.verdict == "undecided"
+
+
+def test_what_takes_no_freedom_away_has_no_independent_equation() -> None:
+    """sqrt(x^6) = x^3 holds where x >= 0."""
+    report = dofkit.classify(scene("x y", "sqrt(x^6) = x^3", "y = x"))
+    assert (report.dof, report.redundant) == (1, [])
+    assert [e.independent for e in report.constraints] == [0, 1]
+    assert [group.members for group in report.redundancies] == [["c1"]]
+
+
+#: y >= 0 follows from the first, or does not.
+REGIONS = [("y = abs(x)", ["c2"]), ("y = x^2", ["c2"]), ("y = exp(x)", ["c2"]), ("y = x^2 - 1", []), ("y = x", [])]
+
+
+@pytest.mark.parametrize(("first", "redundant"), REGIONS)
+def test_what_holds_on_a_region_is_redundant_where_the_others_keep_to_it(first: str, redundant: list[str]) -> None:
+    report = dofkit.classify(scene("x y", first, "abs(y) = y"))
+    assert (report.dof, report.redundant_equations, report.redundant) == (1, 1, redundant)
+    assert [group.nullity for group in report.redundancies] == [1]
+
+
+def test_redundancy_that_is_not_decided_is_not_called_none() -> None:
+    """Along y = 1/(C - x) the sign of y is set by the initial state, which nothing tells."""
+    report = dofkit.classify(scene("x y", "dy = y^2 dx", "abs(y) = y"))
+    assert report.redundant is None
+    assert report.verdict == "undecided"

@@ -8,6 +8,7 @@ from functools import partial
 from itertools import combinations
 
 from dofkit.base.deadline import unless_late
+from dofkit.base.verdicts import About
 from dofkit.classification.dependence.circuits import Redundancies, left_open
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.through_reference import all_of
@@ -50,7 +51,8 @@ def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Seque
     undecided = [i for i in unknown if i in kept]
     independent, more = _equation_by_equation(reduced, setting, numbers, kept)
     known = {i: n for i, n in independent.items() if i not in undecided}
-    return Redundancies(known, dropped, [*groups, *more], circuits, tuple(undecided))
+    about: About = "everywhere" if setting.reference is None else "reference"
+    return Redundancies(known, dropped, [*groups, *more], circuits, tuple(undecided), about=about)
 
 
 def _equation_by_equation(

@@ -1,42 +1,92 @@
-"""What can go without changing the freedom: constraints left out one by one, the last in the order first."""
+"""What can go without changing the set: constraints left out one by one, the last in the order first.
+
+Where leaving a constraint out gives freedom, it is needed. Where it gives none, what the constraint says must follow
+from what is left: the set may lose a part and keep its dimension.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import combinations
 
-from dofkit.base.deadline import check, limited
+from dofkit.base.deadline import OutOfTimeError, check, limited
+from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.by_implication import LEAVING_SECONDS
 from dofkit.classification.dependence.circuits import Redundancies
-from dofkit.classification.freedom.block import answer
+from dofkit.classification.dependence.equation_count import Freedoms, counted, freedoms
+from dofkit.classification.dependence.implications import Everywhere, NearDrawing, is_drawn
+from dofkit.classification.freedom.through_reference import all_of
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.normal_form import Finite, Still
 from dofkit.relations.setting import Setting
 
 
-def by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int) -> Redundancies:
-    """What can go, the last in the order first, without changing the freedom of the block."""
-    owners = list(dict.fromkeys(owners_of(block)))
+def by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int, numbered: Sequence[int]) -> Redundancies:
+    """What can go, the last in the order first, without changing the freedom of the block nor its set.
+
+    ``nullity``: rows too many by the freedom, where nothing else tells; ``numbered``: the equation each row is of.
+    """
     differential = {r.constraint for r in block.rows if not isinstance(r.piece, Finite)}
     integrated = {r.constraint for r in block.rows if _constant(r) is not None}
-    order = sorted(owners, key=lambda o: (o in differential) + (o in integrated))
-    kept = list(order)
+    owners = owners_of(block)
+    order = sorted(dict.fromkeys(owners), key=lambda o: (o in differential) + (o in integrated))
+    left = LeftOut(block, setting, a)
     with limited(LEAVING_SECONDS):
+        found = _dispensable(left, order)
+        circuits = _circuits(left, order, found.redundant)
+    nullity = max(nullity, sum(o in found.redundant for o in owners))
+    groups = [(nullity, sorted(order))] if found.redundant else []
+    told = replace(found, groups=groups, circuits=circuits, verdict=left.verdict)
+    count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
+    if count is not None:
+        groups = groups or count.groups
+        return replace(told, independent=count.independent, equations=count.equations, groups=groups)
+    independent = {o: 0 for o, circuit in circuits.items() if circuit and max(circuit) < o}
+    independent |= {o: 1 for o in order if owners.count(o) == 1 and o not in (*found.redundant, *found.undecided)}
+    uncounted = tuple(o for o in order if o not in independent and o not in found.undecided)
+    return replace(told, independent=independent, uncounted=uncounted)
+
+
+def _dispensable(left: LeftOut, order: Sequence[int]) -> Redundancies:
+    """As many constraints as can go together, the last in the order first, and those of which it is not known.
+
+    What can go together can go one by one. Of constraints that can go one by one as many are tried as could be more.
+    """
+    gone, single, open_ = list[int](), list[int](), list[int]()
+    try:
         for owner in reversed(order):
-            if len(kept) < 2:
+            alone = left.can_go([owner])
+            together = left.can_go([*gone, owner]) if alone else alone
+            single += [owner] if alone else []
+            gone += [owner] if together else []
+            open_ += [owner] if together is None else []
+        while len(gone) < len(single):
+            more = combinations(single, len(gone) + 1)
+            better = next((choice for choice in more if left.can_go(choice) is not False), None)
+            if better is None or left.can_go(better) is None:
+                open_ += better or ()
                 break
-            check()
-            fewer = [r for r in block.rows if r.constraint in kept and r.constraint != owner]
-            if _same_freedom(block, fewer, setting, a):
-                kept.remove(owner)
-    redundant = sorted(set(order) - set(kept))
-    nullity = max(nullity, sum(owners_of(block).count(o) for o in redundant))
-    members = sorted(order) if redundant else []
-    groups = [(nullity, members)] if redundant else []
-    independent = {o: 0 if o in redundant else owners_of(block).count(o) for o in order}
-    if sum(independent.values()) != len(block.rows) - nullity:
-        independent = {o: k for o, k in independent.items() if k < 2}
-    return Redundancies(independent, redundant, groups, {o: sorted(kept) for o in redundant})
+            gone = list(better)
+    except OutOfTimeError:
+        open_ += [o for o in order if o not in gone]
+    return Redundancies({}, sorted(gone), [], {}, tuple(sorted(set(open_) - set(gone))))
+
+
+def _circuits(left: LeftOut, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:
+    """For each constraint that can go a minimal set of those kept from which it follows; none where that is open."""
+    found = {}
+    for owner in redundant:
+        kept = [o for o in order if o not in redundant]
+        try:
+            for other in reversed(kept):
+                if left.can_go([owner], [o for o in kept if o != other]):
+                    kept = [o for o in kept if o != other]
+        except OutOfTimeError:
+            break
+        found[owner] = sorted(kept)
+    return found
 
 
 def owners_of(block: Block) -> list[int]:
@@ -44,17 +94,71 @@ def owners_of(block: Block) -> list[int]:
     return [r.constraint for r in block.rows]
 
 
-def _same_freedom(block: Block, rows: Sequence[Row], setting: Setting, a: Answer) -> bool:
-    gone = {_constant(r) for r in block.rows} - {_constant(r) for r in rows}
-    blocks, untouched = split([c for c in block.coordinates if c not in gone], rows)
-    answers = [answer(b, setting) for b in blocks]
-    if any(x.dof is None or x.velocity_dof is None for x in answers):
-        return False
-    dof = len(untouched) + sum(x.dof or 0 for x in answers)
-    velocity = len(untouched) + sum(x.velocity_dof or 0 for x in answers)
-    needed = {g for g in a.hidden if gone.isdisjoint(str(s.args[1]) for s in g.symbols)}
-    had_finite = {g for x in answers for g in x.hidden} >= needed
-    return dof == a.dof and velocity == a.velocity_dof and had_finite
+@dataclass
+class LeftOut:
+    """A block without some of its constraints; each choice is asked once. ``verdict``: of the weakest argument."""
+
+    block: Block
+    setting: Setting
+    whole: Answer
+    verdict: Verdict = "proved"
+    _told: dict[tuple[frozenset[int], frozenset[int]], bool | None] = field(default_factory=dict)
+    _freedom: dict[frozenset[int], Freedoms | None] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        a = self.whole
+        if a.dof is not None and a.velocity_dof is not None:
+            self._freedom[frozenset(owners_of(self.block))] = Freedoms(a.dof, a.velocity_dof, {*a.hidden})
+
+    def can_go(self, owners: Collection[int], others: Collection[int] | None = None) -> bool | None:
+        """Is the set that some constraints and ``others`` cut out the same without the former? None: not decided.
+
+        ``others``: where none are given, all other constraints of the block.
+        """
+        gone = frozenset(owners)
+        kept = frozenset(o for o in owners_of(self.block) if o not in gone) if others is None else frozenset(others)
+        if (gone, kept) not in self._told:
+            check()
+            same = self._same_freedom(gone, kept)
+            self._told[gone, kept] = self._same_set(gone, kept) if same else same
+        return self._told[gone, kept]
+
+    def _same_freedom(self, gone: frozenset[int], kept: frozenset[int]) -> bool | None:
+        """Are the freedoms the same, and are the hidden relations there too?"""
+        before, after = self._freedoms(gone | kept), self._freedoms(kept)
+        if before is None or after is None:
+            return None
+        needed = {g for g in before.hidden if not any(s.args[1] in self._constants(gone) for s in g.symbols)}
+        return (before.dof, before.velocity_dof) == (after.dof, after.velocity_dof) and after.hidden >= needed
+
+    def _freedoms(self, kept: frozenset[int]) -> Freedoms | None:
+        """The freedoms that some constraints leave, without the constants of integration of the others."""
+        if kept not in self._freedom:
+            gone = self._constants(frozenset(owners_of(self.block)) - kept)
+            names = [c for c in self.block.coordinates if c not in gone]
+            rows = [r for r in self.block.rows if r.constraint in kept]
+            self._freedom[kept] = freedoms(names, rows, self.setting)
+        return self._freedom[kept]
+
+    def _constants(self, owners: frozenset[int]) -> set[str | None]:
+        return {_constant(r) for r in self.block.rows if r.constraint in owners} - {None}
+
+    def _same_set(self, gone: frozenset[int], kept: frozenset[int]) -> bool | None:
+        """Does what is left out follow? It does near a drawing where nothing but motions of the whole is left there."""
+        rows, others = ([i for i, r in enumerate(self.block.rows) if r.constraint in own] for own in (gone, kept))
+        if not is_drawn(self.block, self.whole, self.setting):
+            everywhere = Everywhere(self.block, self.setting)
+            self.verdict = weakest(self.verdict, "probable")
+            return all_of(everywhere.follows(i, others) for i in rows)
+        near = NearDrawing(self.block, self.setting)
+        after = self._freedoms(kept)
+        if near.is_orbit(others, None if after is None else after.dof):
+            return True
+        if near.imply(others, rows, self.whole):
+            self.verdict = weakest(self.verdict, "probable")
+            return True
+        self.verdict = weakest(self.verdict, "numeric")
+        return near.seem_to_imply(others, rows) or None
 
 
 def _constant(row: Row) -> str | None:

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 import networkx as nx
 
 from dofkit.base.deadline import check
+from dofkit.base.verdicts import About, Verdict
+from dofkit.classification.dependence.sufficient_sets import Implication, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
@@ -28,6 +30,9 @@ class Redundancies:
     """What was found, constraints by their numbers; of those in ``undecided`` it is not known whether they can go.
 
     ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
+    ``uncounted``: constraints of which it is not known how many of their equations do. ``about``: of which points this
+    speaks: those near the ``reference``, near the point that was found (its ``component``), or ``everywhere``.
+    ``verdict``: how sure it is that what is redundant is, at the best.
     """
 
     independent: dict[int, int]
@@ -36,6 +41,20 @@ class Redundancies:
     circuits: dict[int, list[int]]
     undecided: tuple[int, ...] = ()
     equations: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
+    uncounted: tuple[int, ...] = ()
+    about: About = "everywhere"
+    verdict: Verdict = "proved"
+
+    @property
+    def needed(self) -> set[int]:
+        """The constraints that were looked at and cannot go, as far as is known."""
+        return {*self.independent, *self.undecided, *self.uncounted} - {*self.redundant}
+
+    def without(self, needed: set[int]) -> Redundancies:
+        """The same where some constraints cannot go, because of other equations of theirs."""
+        redundant = [i for i in self.redundant if i not in needed]
+        circuits = {i: c for i, c in self.circuits.items() if i not in needed}
+        return replace(self, redundant=redundant, circuits=circuits)
 
 
 def left_open(constraints: Iterable[int]) -> Redundancies:
@@ -49,6 +68,7 @@ class OwnedRows:
 
     ``equations[i]`` is the number of the scalar equation that row i is of; -1 where it is not known.
     ``supports``: what each row depends on, of those before it, where something else than the matrix tells it.
+    ``implication`` tells what rows say of each other; without it what is dependent is taken to follow.
     """
 
     matrix: Sequence[SparseRow]
@@ -57,6 +77,7 @@ class OwnedRows:
     p: int
     equations: Sequence[int] = ()
     supports: Supports | None = None
+    implication: Implication | None = None
 
     def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
         """The rows that some constraints wrote."""
@@ -67,8 +88,8 @@ class OwnedRows:
         ]
 
 
-def analyse(parts: Sequence[OwnedRows]) -> Redundancies:
-    """Redundant constraints, groups and circuits of blocks that share constraints."""
+def analyse(parts: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redundancies:
+    """Redundant constraints, groups and circuits of blocks that share constraints; those ``needed`` cannot go."""
     order = _order(parts)
     bases = [_Basis(part) for part in parts]
     kept = Counter(b.owners[i] for b in bases for i in b.pivots)
@@ -78,9 +99,11 @@ def analyse(parts: Sequence[OwnedRows]) -> Redundancies:
     groups = _groups(bases)
     redundant: list[int] = []
     for _, members in groups:
-        redundant += _droppable(parts, [o for o in order if o in members], bases)
+        redundant += _droppable(parts, [o for o in order if o in members and o not in needed], bases)
     rows_of = Counter(o for part in parts for o in part.owners)
-    circuits = {owner: _circuit(parts, order, owner, bases, rows_of[owner] == 1) for owner in redundant}
+    open_ = set[int]().union(*(b.open for b in bases))
+    known = [owner for owner in redundant if owner not in open_]
+    circuits = {owner: _circuit(parts, order, owner, bases, rows_of[owner] == 1) for owner in known}
     return Redundancies(independent, sorted(redundant), groups, circuits, equations=_equations(parts, bases))
 
 
@@ -105,10 +128,30 @@ class _Basis:
         self.owners = rows.owners
         known = self._by_elimination(rows) if rows.supports is None else self._known(rows, rows.supports)
         self.pivots, self.supports = known
+        #: Constraints of which it is not known what they follow from.
+        self.open: set[int] = set()
+        self.implication = rows.implication
+        if rows.implication is not None:
+            self._enlarge(SufficientSets(rows.implication, rows.owners, self.pivots))
         self.pivot_owners = {self.owners[i] for i in self.pivots}
         self.circuits: dict[int, set[int]] = {}
         for i, support in self.supports.items():
             self.circuits.setdefault(self.owners[i], set()).update(self.owners[j] for j in support)
+
+    def _enlarge(self, sets: SufficientSets) -> None:
+        """Every support made large enough to imply its row."""
+        for i, support in self.supports.items():
+            found = sets.enough(i, support)
+            if found is None:
+                self.open.add(self.owners[i])
+            else:
+                self.supports[i] = found
+
+    def implies(self, kept: set[int], owner: int) -> bool:
+        """Do the rows of some constraints that others depend on imply those of another one?"""
+        others = [i for i in self.pivots if self.owners[i] in kept]
+        told = self.implication
+        return told is None or all(told.follows(i, others) for i in self.supports if self.owners[i] == owner)
 
     @staticmethod
     def _known(rows: OwnedRows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
@@ -248,6 +291,7 @@ def _circuit(
     else:
         kept = [o for o in order if o != owner]
     for other in reversed(list(kept)):
-        if _spans(parts, set(kept) - {other}, (set(kept) - {other}) | {owner}):
+        fewer = set(kept) - {other}
+        if _spans(parts, fewer, fewer | {owner}) and all(b.implies(fewer, owner) for b in bases):
             kept.remove(other)
     return sorted(kept)

@@ -12,12 +12,16 @@ import networkx as nx
 from dofkit.base.deadline import unless_late
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
 from dofkit.classification.dependence.by_leaving_out import by_leaving_out, owners_of
-from dofkit.classification.dependence.by_rank import analysed, at_a_point, everywhere, sharing, without_hidden
+from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, sharing, without_hidden
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, left_open
+from dofkit.classification.dependence.implications import implication_of
+from dofkit.classification.dependence.regions import is_region, of_regions
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.through_reference import through_reference
+from dofkit.exact.matrices.sparse import echelon
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of
+from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -53,7 +57,8 @@ def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:
     """The constraints in use, those together that share coordinates."""
     graph: nx.Graph = nx.Graph()
     for i, r in enumerate(reduced):
-        pieces = [p for n in r.normals for p in n.pieces if not isinstance(p, Inequality)]
+        every = [p for n in r.normals for b in n.branches for p in b]
+        pieces = every if is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
         if pieces and i not in outcome.copies:
             graph.add_node(i)
             graph.add_edges_from((i, c) for p in pieces for c in coordinates_of(p))
@@ -61,6 +66,18 @@ def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:
 
 
 def _of_part(
+    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, numbers: Sequence[int]
+) -> list[Redundancies]:
+    """Of constraints that share coordinates: those that take freedom away, then those that hold on whole regions."""
+    regions = [i for i in numbers if is_region(reduced[i])]
+    others = [i for i in numbers if i not in regions]
+    found = _of_relations(reduced, setting, outcome, others) if others else []
+    gone = {i for r in found for i in r.redundant}
+    kept = [i for i in others if i not in gone]
+    return [*found, *unless_late(partial(of_regions, reduced, setting, regions, kept), [left_open(regions)])]
+
+
+def _of_relations(
     reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, numbers: Sequence[int]
 ) -> list[Redundancies]:
     """Of constraints that share coordinates: by implication where rank does not measure dependence, else by rank."""
@@ -74,23 +91,68 @@ def _of_part(
         normals = [n for i in numbers for n in reduced[i].normals]
         if _each_takes_one(normals, blocks):
             return [_independent({i: reduced[i].equations for i in numbers})]
-        return [implied(reduced, setting, numbers)]
+        return [_as_free(implied(reduced, setting, numbers), reduced, blocks)]
     numbered = _numbered(reduced[i] for i in numbers)
     answered = [
         a for block in blocks if block[1].velocity_dof is not None for a in _of_block(*block, setting, numbered)
     ]
     settled = [a for a in answered if isinstance(a, Redundancies)]
+    needed = set[int]().union(*(r.needed for r in settled))
     by_rank = [
-        unless_late(partial(analysed, group), left_open(o for rows in group for o in rows.owners))
+        unless_late(partial(analysed, group, needed), left_open(o for rows in group for o in rows.owners))
         for group in sharing([a for a in answered if isinstance(a, OwnedRows)])
     ]
     straight = all(a.linear for _, a in blocks)
-    holds = straight or unless_late(partial(everywhere, reduced, setting, numbers, by_rank), None)
-    if holds:
-        return settled + by_rank
-    if holds is False:
-        return [*settled, implied(reduced, setting, numbers)]
-    return [*settled, *map(at_a_point, by_rank)]
+    where = "everywhere" if straight else unless_late(partial(holds_where, reduced, setting, numbers, by_rank), None)
+    if where is False:
+        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
+    if where is None:
+        known = partial(at_a_point, reduced=reduced, setting=setting, numbers=numbers)
+        return _agreed([*settled, *map(known, by_rank)])
+    return [replace(r, about=where) for r in _agreed([*settled, *by_rank])]
+
+
+def _as_free(found: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
+    """What was counted, where no more equations are independent than take freedom away.
+
+    Else they are those whose rows are at the point where the freedom was told: none of what holds on a whole region.
+    """
+    counted = sum(found.independent.values())
+    if found.undecided or any(a.velocity_dof is None for _, a in blocks):
+        return found
+    taken = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
+    if counted <= taken:
+        return found
+    independent = _by_first_order(blocks)
+    if sum(independent.values()) != taken or not independent.keys() >= found.independent.keys():
+        return replace(found, independent={}, uncounted=tuple(found.independent))
+    alone = [
+        (k - independent[i], [i])
+        for i, k in found.independent.items()
+        if k > independent[i] and i not in found.redundant
+    ]
+    kept = {i: independent[i] for i in found.independent}
+    return replace(found, independent=kept, groups=[*found.groups, *alone], equations={})
+
+
+def _by_first_order(blocks: Sequence[tuple[Block, Answer]]) -> dict[int, int]:
+    """Equations of each constraint with rows independent of those before, at the points at which blocks were answered.
+
+    Empty where some block's rows are not known.
+    """
+    independent: Counter[int] = Counter()
+    for block, a in blocks:
+        if len(a.matrix) != len(block.rows):
+            return {}
+        owners = owners_of(block)
+        independent.update(dict.fromkeys(owners, 0))
+        independent.update(owners[i] for i in echelon(a.matrix, a.modulus).independent)
+    return dict(independent)
+
+
+def _agreed(found: Sequence[Redundancies]) -> list[Redundancies]:
+    """A constraint of several equations is redundant only where all of them are, whatever block they are in."""
+    return [r.without(set().union(*(other.needed for other in found))) for r in found]
 
 
 def _measured_by_rank(
@@ -111,17 +173,18 @@ def _of_block(
     """What is settled of a block at once, or its rows where their rank tells."""
     nullity = len(block.rows) - (len(block.coordinates) - (a.velocity_dof or 0))
     owners = owners_of(block)
+    equations = [numbered.get(id(r.piece), -1) for r in block.rows]
     matrix = without_hidden(block, a)
     if nullity <= 0 and a.hidden and not a.degenerate:
         yield _independent(dict(Counter(owners)))
     elif a.degenerate and "balls" not in setting.engines:
         yield left_open(owners)
     elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
-        yield unless_late(partial(by_leaving_out, block, setting, a, nullity), left_open(owners))
+        yield unless_late(partial(by_leaving_out, block, setting, a, nullity, equations), left_open(owners))
     else:
         finite = [isinstance(r.piece, Finite) for r in block.rows]
-        equations = [numbered.get(id(r.piece), -1) for r in block.rows]
-        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports)
+        implied = None if a.supports is not None or nullity <= 0 else implication_of(block, a, setting)
+        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
 
 
 def _independent(counted: dict[int, int]) -> Redundancies:

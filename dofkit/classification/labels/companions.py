@@ -9,7 +9,7 @@ from itertools import chain, count, islice
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.block import answer
 from dofkit.expressions.text import to_text
-from dofkit.integrability.first_integrals import FirstIntegral, first_integrals, integral_by_row
+from dofkit.integrability.first_integrals import FirstIntegral, first_integrals, integral_by_row, is_first_integral
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
@@ -55,6 +55,9 @@ class Companionship:
         try:
             kept = self._needed(constraint, block, owners)
             integral = self._integral(constraint, block, kept)
+            if integral is not None and len(kept) < len(owners) and not self._holds(integral, block, a):
+                kept = self._needed(constraint, block, owners, a)
+                integral = self._integral(constraint, block, owners)
         except (OutOfTimeError, ArithmeticError):
             return Together()
         companions = tuple(o for o in kept if o != constraint)
@@ -73,15 +76,30 @@ class Companionship:
             return Together()
         return Together() if integral is None else Together((), equation(integral, block), integral.identically)
 
-    def _needed(self, constraint: int, block: Block, owners: Sequence[int]) -> list[int]:
-        """A minimal set of constraints, ``constraint`` among them, in which it is holonomic; later ones go first."""
+    def _needed(self, constraint: int, block: Block, owners: Sequence[int], a: Answer | None = None) -> list[int]:
+        """A minimal set of constraints, ``constraint`` among them, in which it is holonomic; later ones go first.
+
+        With the block's answer: and where its integral, if it has one, stands beside all the others too.
+        """
         kept = list(owners)
         for other in reversed(owners):
             check()
             fewer = [o for o in kept if o != other]
-            if other != constraint and self._holonomic(constraint, _rows(block, fewer), block):
+            if other == constraint or not self._holonomic(constraint, _rows(block, fewer), block):
+                continue
+            integral = None if a is None else self._integral(constraint, block, fewer)
+            if a is None or integral is None or self._holds(integral, block, a):
                 kept = fewer
         return kept
+
+    def _holds(self, f: FirstIntegral, block: Block, a: Answer) -> bool:
+        """Is f constant along every motion of the whole block?
+
+        What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
+        constant beside x = 0 alone.
+        """
+        plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
+        return is_first_integral(codistribution(block, plain, a.hidden, [f.expr]), f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
         plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from functools import partial
+from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.base.verdicts import OPEN, Verdict
+from dofkit.base.verdicts import OPEN as UNDECIDED
+from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
@@ -28,6 +30,10 @@ from dofkit.report import ConstraintEntry, FieldVerdict
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.
 LISTED = 2000
+#: What is said of dependence that is open, or not on what was written before.
+OPEN = "Whether it follows from the others was not decided."
+UNCOUNTED = "How many of its equations are independent of those before was not decided."
+REDUNDANT = "It can be left out: the others, those written after it among them, leave the same motions."
 
 
 def entries_of(
@@ -39,13 +45,7 @@ def entries_of(
     company: Companionship,
 ) -> list[ConstraintEntry]:
     """An entry for every constraint, in order; one that there is no time for says so."""
-    independent: Counter[int] = Counter()
-    for found in dependent:
-        independent.update(found.independent)
-    known = {i for found in dependent for i in found.independent} - _unmeasured(outcome)
-    circuits = {i: c for found in dependent for i, c in found.circuits.items()}
-    left_open = {i for found in dependent for i in found.undecided}
-    following = _following(dependent)
+    known = _dependence(dependent, outcome)
     told = _labelled_rows(len(reduced), outcome, setting)
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
@@ -53,20 +53,59 @@ def entries_of(
     traits_of = _Remembered(setting).traits
     entries, consistent = [], outcome.consistent
     for i, r in enumerate(reduced):
-        number = independent[i] if i in known else None if told[i] else 0
-        circuit = None if i not in circuits else [names[j] for j in circuits[i]]
+        number = known.independent.get(i, None if told[i] else 0)
+        circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
             beside = partial(_with_others, i, told[i], company, names)
             alone = _by_itself(i, r, told[i], setting)
             copied = i in outcome.copies
             evidence = Evidence(told[i], alone, number, circuit, constants, traits_of, beside, copied)
-            made = entry(r, evidence, setting, consistent)
-            made = _with_open_dependence(made) if i in left_open else _with_equations(made, r, following.get(i))
-            entries.append(made)
+            entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, known))
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
+
+
+class _Dependence(NamedTuple):
+    """What is known of all constraints, by number: independent equations, circuits that were written before, what can
+    go and how surely, what is open, and which equations follow.
+    """
+
+    independent: Mapping[int, int]
+    circuits: Mapping[int, list[int]]
+    gone: Mapping[int, Verdict]
+    open: Mapping[int, str]
+    following: Mapping[int, set[int]]
+
+
+def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Dependence:
+    """What was found part by part, put together."""
+    independent: Counter[int] = Counter()
+    for found in dependent:
+        independent.update(found.independent)
+    uncounted = {i for found in dependent for i in found.uncounted}
+    known = {i for found in dependent for i in found.independent} - _unmeasured(outcome) - uncounted
+    return _Dependence(
+        {i: independent[i] for i in known},
+        {i: c for found in dependent for i, c in found.circuits.items() if all(j < i for j in c)},
+        {i: found.verdict for found in dependent for i in found.redundant},
+        dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for found in dependent for i in found.undecided},
+        _following(dependent),
+    )
+
+
+def _with_dependence(made: ConstraintEntry, i: int, r: Reduced, known: _Dependence) -> ConstraintEntry:
+    """An entry with what it says of dependence, where it can be left out or that is open."""
+    if i in known.gone:
+        reason = made.reason if i in known.circuits else f"{made.reason} {REDUNDANT}"
+        made = made.model_copy(update={"verdict": weakest(made.verdict, known.gone[i]), "reason": reason})
+    if i not in known.open:
+        return _with_equations(made, r, known.following.get(i))
+    reason = f"{made.reason} {known.open[i]}"
+    verdicts = {**made.verdicts, "independent": FieldVerdict.of(UNDECIDED)}
+    changed = {"verdict": "undecided", "verdicts": verdicts, "independent": None, "reason": reason}
+    return made.model_copy(update=changed)
 
 
 def labels_in_system(
@@ -99,14 +138,6 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
         many = "follows" if len(names) == 1 else "follow"
         reason += f" Of its {made.equations} equations {len(names)} {many} from those before: {'; '.join(names)}."
     return made.model_copy(update={"redundant_equations": names, "reason": reason})
-
-
-def _with_open_dependence(made: ConstraintEntry) -> ConstraintEntry:
-    """An entry of which it is not known whether it follows from the others."""
-    reason = f"{made.reason} Whether it follows from the others was not decided."
-    verdicts = {**made.verdicts, "independent": FieldVerdict.of(OPEN)}
-    changed = {"verdict": "undecided", "verdicts": verdicts, "independent": None, "reason": reason}
-    return made.model_copy(update=changed)
 
 
 def _unmeasured(outcome: Outcome) -> set[int]:

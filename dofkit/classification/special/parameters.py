@@ -143,7 +143,9 @@ def differences(generic: Report, special: Report, integrals: Sequence[str] = ())
     old, new = generic.growth_vector, special.growth_vector
     if old and new and old != new and not said:
         said.append(f"growth vector {tuple_of(new)} instead of {tuple_of(old)}")
-    more = [name for name in special.redundant if name not in generic.redundant and name not in _idle(generic, special)]
+    before, now = generic.redundant, special.redundant
+    idle = _idle(generic, special)
+    more = [] if before is None or now is None else [name for name in now if name not in before and name not in idle]
     if more and generic.dof is not None and special.dof is not None:
         said.append(f"{', '.join(more)} {_is(more)} redundant")
     return said

@@ -6,6 +6,7 @@ from flint import ctx
 
 from dofkit.configuration.generic_points import frame_at
 from dofkit.configuration.local.criteria import decision
+from dofkit.configuration.local.first_order import of_high_degree
 from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.exact.errors import NoValueError, raising_no_value
@@ -53,3 +54,32 @@ def local_at(
         return LocalDimension(
             None, "undecided", "the relations could not be followed along a curve through this configuration"
         )
+
+
+def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, rank: int) -> bool | None:
+    """Are the relations of a chart of no higher rank than ``rank`` at the point, and 0 on the manifold of that rank?
+
+    The dependent ones are 0 along a random curve of it [SchwartzZippel], or nothing but motions of the whole is left.
+    None where they are too high in degree, or could not be followed to a distance, which is asked of a ``ball``.
+    """
+    frame = frame_at(chart, point)
+    if len(frame.rows) != rank:
+        return False
+    try:
+        on_field = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
+        on_balls = None
+        if ball is not None:
+            on_balls = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
+        return _vanish(Germ(on_field, on_balls, rigid, distance=ball is not None))
+    except (ArithmeticError, NoValueError):
+        return None
+
+
+def _vanish(germ: Germ) -> bool | None:
+    """Are the dependent relations of a germ 0 on its manifold?"""
+    with ctx.workprec(max(ctx.prec, precision())):
+        if germ.dependent == 0 or germ.m == germ.rigid:
+            return True
+        if of_high_degree(germ):
+            return None
+        return germ.vanishes_away if germ.vanishes else False

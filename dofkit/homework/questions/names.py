@@ -59,13 +59,14 @@ class Redundant(QuestionBase):
         return [] if is_none(words) else chosen(words, list(key.constraints), "constraint")
 
     def solution(self, key: Key) -> str:
-        return f"For example: {', '.join(key.report.redundant) or 'none'}."
+        redundant = key.report.redundant
+        return "not decided" if redundant is None else f"For example: {', '.join(redundant) or 'none'}."
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         names, report = self._names(answer, key), key.report
         shown = ", ".join(names) or "none"
-        if report.dof is None or any(e.independent is None for e in report.constraints if e.bilateral):
+        if report.dof is None or report.redundant is None:
             return needs_review(shown, "dofkit does not know for certain what is redundant.")
         if set(names) == set(report.redundant):
             return right(shown)

@@ -212,7 +212,7 @@ def _built(
         energy,
         elimination,
         tuple(chosen),
-        tuple(study.report.redundant),
+        tuple(study.report.redundant or ()),
         tuple(notes),
     )
 

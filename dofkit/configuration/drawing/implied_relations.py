@@ -1,0 +1,166 @@
+"""Does a relation follow from others near the drawing?
+
+Let S be relations that are independent at the drawing P, and M the manifold that they cut out there
+[ImplicitFunctions]. A relation g follows from S near P if and only if it vanishes on M. That its row is a sum of the
+rows of S at P says less: of three points on a line two distances give the third to first order only. So g is followed
+along a random curve of M: what is not 0 there is a proof that it does not follow, what is 0 to an order above its
+degree, and at a distance, vanishes on M with high probability [SchwartzZippel].
+
+Measured geometry is followed for a finite step, within the tolerance.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from dofkit.base.deadline import check
+from dofkit.configuration.drawing.at_reference import ball_point
+from dofkit.configuration.drawing.dependent_classes import chart_of
+from dofkit.configuration.drawing.fewer_coordinates import smaller
+from dofkit.configuration.drawing.measured import measure
+from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.local.dimension import vanish_near
+from dofkit.configuration.local.manifold import Manifold
+from dofkit.configuration.local.multipliers import needed_along
+from dofkit.configuration.rigid_motions import rigid_motions
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.balls import FloatPoint, jacobian
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import Pivots, sparse_frame
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.program import values
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.chart import Chart
+from dofkit.relations.setting import Setting
+
+#: Points that are looked for beside a drawing, and how far they are begun, in the columns' scales.
+BESIDE, AWAY = 12, 0.05
+#: From where on a point is another one, and how near to a relation one is that satisfies it: half the digits.
+MOVED, TOGETHER, TINY = 1e-3, 1e-6, 1e-300
+
+
+@dataclass(frozen=True)
+class ImpliedRelations:
+    """What the relations of a chart imply of each other near the drawing, at t = 0; asked once each."""
+
+    chart: Chart
+    setting: Setting
+    drawing: Mapping[Expr, Expr]
+    _told: dict[tuple[int, ...], bool | None] = field(default_factory=dict)
+
+    def follows(self, row: int, others: Sequence[int], afar: bool = True) -> bool | None:
+        """Does relation ``row`` vanish near the drawing where ``others`` do? Those are independent at the drawing.
+
+        None where it was not decided. Not ``afar``: True says only that it vanishes to some order.
+        """
+        key = (int(afar), row, *sorted(others))
+        if key not in self._told:
+            own = chart_of(self.chart, sorted(key[1:]))
+            known = {**self.drawing, ex.TIME: ex.ZERO}
+            if self.setting.tolerance is None:
+                self._told[key] = _on_manifold(own, known, len(others), afar)
+            else:
+                self._told[key] = _within_tolerance(own, self.setting, known, len(others))
+        return self._told[key]
+
+    def needed(self, row: int, others: Sequence[int]) -> list[int]:
+        """Which of others a relation needs that follows from them: those with a multiplier along a curve.
+
+        All of them where that is not known.
+        """
+        numbers = sorted((row, *others))
+        own = chart_of(self.chart, numbers)
+        point = pose_point(own, {**self.drawing, ex.TIME: ex.ZERO}, 3)
+        if point is None or "field" not in own.engines or self.setting.tolerance is not None:
+            return list(others)
+        try:
+            frame = pivots_among(own, point, [k for k, i in enumerate(numbers) if i != row])
+            field = Manifold(own.ring, own.nodes, own.columns, frame, point)
+            return [numbers[k] for k in needed_along(field, own.nodes[numbers.index(row)])]
+        except (ArithmeticError, NoValueError):
+            return list(others)
+
+    def rigid(self, rows: Sequence[int]) -> int:
+        """The dimension of the motions of the whole that keep some relations, over the coordinates they mention.
+
+        0 where they mention not all, or the motions are not known.
+        """
+        own = chart_of(self.chart, rows)
+        point = pose_point(own, {**self.drawing, ex.TIME: ex.ZERO}, 3)
+        return 0 if point is None or len(own.symbols) < len(self.chart.symbols) else rigid_motions(own, point)
+
+    def seem_to_follow(self, rows: Sequence[int], others: Sequence[int]) -> bool:
+        """Do relations hold at every point that is found, from random starts, near the drawing where others hold?
+
+        Numbers, no proof: for sets that are singular all along, whose branches are found as their points are.
+        """
+        chart = self.chart
+        ball = ball_point(chart, {**self.drawing, ex.TIME: ex.ZERO}, random.Random("dofkit beside"))
+        if ball is None or "balls" not in chart.engines or self.setting.tolerance is not None:
+            return False
+        start = {s: float(v.mid()) for s, v in ball.symbols.items()}
+        search = RealSearch(chart.ring, [chart.nodes[i] for i in others], chart.unknowns, chart.positive)
+        seen = 0
+        for seed in range(BESIDE):
+            check()
+            there = search.start(seed, {})
+            for s, scale in zip(chart.symbols, chart.scales, strict=True):
+                there[s] = start[s] + AWAY * scale * there.get(s, 0.0)
+            there = {**start, **{s: there[s] for s in chart.symbols}}
+            if search.descend(there, seed) is None:
+                continue
+            if self._distance(there, rows) > TOGETHER:
+                return False
+            seen += any(abs(there[s] - start[s]) > MOVED * k for s, k in zip(chart.symbols, chart.scales, strict=True))
+        return seen >= BESIDE // 2
+
+    def _distance(self, symbols: Mapping[Expr, float], rows: Sequence[int]) -> float:
+        """How far, in the columns' scales, a point is from where some relations hold, to first order."""
+        chart, point = self.chart, FloatPoint(symbols, 0)
+        at = values(chart.ring, point)
+        columns = [c for c in chart.columns if c >= 0]
+        scales = np.array([k for c, k in zip(chart.columns, chart.scales, strict=True) if c >= 0])
+        nodes = [chart.nodes[i] for i in rows]
+        slopes = np.array(jacobian(chart.ring, at, point, nodes, columns, 0.0), dtype=float) * scales
+        sizes = np.linalg.norm(slopes, axis=1) + TINY
+        return float(np.max(np.abs([at[n] for n in nodes]) / sizes))
+
+
+def _on_manifold(chart: Chart, known: Mapping[Expr, Expr], rank: int, afar: bool) -> bool | None:
+    """Do the relations cut out a manifold of codimension ``rank``, which is that of all but one of them?"""
+    if "field" not in chart.engines:
+        return None
+    small, free = smaller(chart, known)
+    gone = len(chart.columns) - len(small.columns) - free
+    if not small.nodes:
+        return gone == rank
+    point = pose_point(small, known, 3)
+    if point is None or not on_variety(small, point):
+        return None
+    rigid = rigid_motions(small, point)
+    ball = ball_point(small, known, point.rng) if afar and "balls" in chart.engines else None
+    return vanish_near(small, point, ball, rigid, rank - gone)
+
+
+def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots:
+    """The frame of some rows that are independent at a point."""
+    matrix = field_jacobian(chart, point, [chart.nodes[r] for r in rows])
+    found = sparse_frame(matrix, len(chart.columns), point.p)
+    return replace(found, rows=tuple(rows[r] for r in found.rows))
+
+
+def _within_tolerance(chart: Chart, setting: Setting, known: Mapping[Expr, Expr], rank: int) -> bool | None:
+    """The same of measured relations: does what moves under all but one of them keep that one within the tolerance?"""
+    ball = ball_point(chart, known, random.Random("dofkit implied"))
+    point = pose_point(chart, known, 3)
+    if ball is None or point is None or "balls" not in chart.engines:
+        return None
+    at = {s: float(v.mid()) for s, v in ball.symbols.items()}
+    rigid = rigid_motions(chart, point)
+    told = measure(chart, at, setting.roles, float(setting.tolerance or 0), setting.size, rigid)
+    return None if told.dimension is None else told.dimension == chart.coordinates - rank
