@@ -1,0 +1,164 @@
+"""Closed loops of bodies in space at special positions: a joint of which some equations follow is not redundant."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+from .case import Case, truths
+from .draws import names, nonzero
+from .linear import eliminated
+
+
+def revolute(first: str, second: str, at: Sequence[Any], axis: Sequence[Any]) -> dict[str, Any]:
+    return {"type": "revolute", "between": [first, second], "at": [*map(str, at)], "axis": [*map(str, axis)]}
+
+
+def _loop(bodies: Sequence[str], joints: Sequence[tuple[Sequence[Any], Sequence[Any]]]) -> dict[str, Any]:
+    """The ground, the bodies in order, and the ground again, joined by hinges at places along axes."""
+    ring = ["ground", *bodies, "ground"]
+    made = [revolute(a, b, *joint) for a, b, joint in zip(ring, ring[1:], joints, strict=False)]
+    return {"bodies": [*bodies], "constraints": made}
+
+
+def signature(form: Sequence[Sequence[Fraction]]) -> tuple[int, int, int]:
+    """Positive, negative and zero squares of a symmetric matrix, by Lagrange's reduction."""
+    left = [list(row) for row in form]
+    found = [0, 0, 0]
+    while left:
+        n = len(left)
+        i = next((k for k in range(n) if left[k][k]), None)
+        if i is None:
+            pair = next(((a, b) for a, b in combinations(range(n), 2) if left[a][b]), None)
+            if pair is None:
+                return found[0], found[1], found[2] + n
+            i, j = pair
+            left[i] = [x + y for x, y in zip(left[i], left[j], strict=True)]
+            for row in left:
+                row[i] += row[j]
+        pivot = left[i]
+        found[0 if pivot[i] > 0 else 1] += 1
+        left = [
+            [row[c] - row[i] * pivot[c] / pivot[i] for c in range(n) if c != i] for k, row in enumerate(left) if k != i
+        ]
+    return found[0], found[1], found[2]
+
+
+def _kernel(rows: Sequence[Sequence[Fraction]]) -> list[list[Fraction]]:
+    """All that is mapped to 0, as rows."""
+    n = len(rows[0])
+    left: list[list[Fraction]] = [list(row) for row in rows]
+    pivots: dict[int, int] = {}
+    for c in range(n):
+        i = next((k for k, row in enumerate(left) if row[c] and k not in pivots.values()), None)
+        if i is None:
+            continue
+        pivots[c] = i
+        left[i] = [v / left[i][c] for v in left[i]]
+        left = [
+            row if k == i else [v - row[c] * p for v, p in zip(row, left[i], strict=True)] for k, row in enumerate(left)
+        ]
+    found = []
+    for c in set(range(n)) - set(pivots):
+        found.append([Fraction(k == c) - (left[pivots[k]][c] if k in pivots else 0) for k in range(n)])
+    return found
+
+
+def flat_vertex(rng: random.Random, size: int) -> Case:
+    """k hinges through a point with axes a_i in one plane, in this order round the loop: to first order sum r_i a_i
+    = 0, k - 2 freedoms; to second order the component across the plane is sum over i < j of r_i r_j det(a_i, a_j) =
+    0. Where that form is not degenerate there and has both signs, the set is a cone of dimension k - 3 (the third
+    equation is regular off the point); where it has one sign nothing moves. No hinge is redundant as a whole: an
+    open chain of k - 1 hinges has k - 1 freedoms."""
+    while True:
+        k = 3 + rng.randint(0, 1 + size // 2)
+        plane = [(Fraction(nonzero(rng, 3)), Fraction(rng.randint(-3, 3))) for _ in range(k)]
+        if eliminated([list(axis) for axis in plane]) < 2:
+            continue
+        kernel = _kernel([[a[0] for a in plane], [a[1] for a in plane]])
+        cross = [[Fraction(0)] * k for _ in range(k)]
+        for i, j in combinations(range(k), 2):
+            cross[i][j] = cross[j][i] = plane[i][0] * plane[j][1] - plane[i][1] * plane[j][0]
+        form = [
+            [sum((u[a] * cross[a][b] * v[b] for a in range(k) for b in range(k)), Fraction(0)) for v in kernel]
+            for u in kernel
+        ]
+        plus, minus, none = signature(form)
+        if not none:
+            break
+    dof = k - 3 if plus and minus else 0
+    bodies = names("b", k - 1)
+    tilt = rng.choice(((1, 0, 0), (0, 1, 1), (1, 2, 2)))
+    axes = [(a[0], a[1], 0) if tilt[1] == 0 else (a[0], a[1], a[1]) for a in plane]
+    at = rng.choice(([0, 0, 0], [rng.randint(-2, 2) for _ in range(3)]))
+    scene = {"dimension": 3, **_loop(bodies, [(at, axis) for axis in axes])}
+    known = truths(dof, instantaneous_dof=k - 2, singular=dof != k - 2, redundant=[])
+    return Case(scene, known | {"redundant_equations": 5 * k - (6 * (k - 1) - dof)})
+
+
+def coaxial(rng: random.Random, size: int) -> Case:
+    """A door on k hinges of one axis: 1 freedom, all but the first redundant."""
+    k, axis, at = (
+        2 + rng.randint(0, 1 + size),
+        [1, rng.randint(-2, 2), rng.randint(-2, 2)],
+        [rng.randint(-2, 2) for _ in range(3)],
+    )
+    steps = rng.sample(range(-4, 5), k)
+    joints = [revolute("ground", "door", [a + s * c for a, c in zip(at, axis, strict=True)], axis) for s in steps]
+    known = truths(
+        1,
+        instantaneous_dof=1,
+        singular=False,
+        redundant=[f"c{i}" for i in range(2, k + 1)],
+        redundant_equations=5 * (k - 1),
+    )
+    return Case({"dimension": 3, "bodies": ["door"], "constraints": joints}, known)
+
+
+def planar_loop(rng: random.Random, size: int) -> Case:
+    """k parallel hinges at the corners of a polygon: k - 3 freedoms, regular where the corners are not on one line.
+    On one line, to first order sum r_i = sum r_i x_i = 0, k - 2 freedoms, and to second order sum over i < j of r_i
+    r_j (x_j - x_i) = 0 across: one sign where a bar is as long as the others together, and then nothing moves."""
+    k, line = 4 + rng.randint(0, size // 2), rng.random() < 0.5
+    xs = sorted(rng.sample(range(0, 12), k)) if line else rng.sample(range(-5, 6), k)
+    places = [(x, 0 if line else x * x, 0) for x in xs]
+    dof = 0 if line else k - 3
+    scene = {"dimension": 3, **_loop(names("b", k - 1), [(place, (0, 0, 1)) for place in places])}
+    first = k - 2 if line else k - 3
+    known = truths(dof, instantaneous_dof=first, singular=line, redundant_equations=5 * k - (6 * (k - 1) - dof))
+    return Case(scene, known)
+
+
+def parallelogram_loop(rng: random.Random, size: int) -> Case:
+    """Four parallel hinges at the corners of a parallelogram, with a fifth body as a crank more: it moves, by 1."""
+    a, b = (rng.randint(1, 4), rng.randint(0, 3)), (rng.randint(-2, 2), rng.randint(1, 4))
+    more = size > 0
+    x, y = rng.randint(5, 9), rng.randint(-2, 2)
+    joints = [
+        revolute("ground", "b1", (0, 0, 0), (0, 0, 1)),
+        revolute("b1", "b2", (*b, 0), (0, 0, 1)),
+        revolute("b2", "b3", (a[0] + b[0], a[1] + b[1], 0), (0, 0, 1)),
+        revolute("b3", "ground", (*a, 0), (0, 0, 1)),
+    ]
+    if a[0] * b[1] == a[1] * b[0]:
+        return parallelogram_loop(rng, size)
+    if more:
+        joints += [
+            revolute("ground", "b4", (x, y, 0), (0, 0, 1)),
+            revolute("b4", "b2", (x + b[0], y + b[1], 0), (0, 0, 1)),
+        ]
+    bodies = ["b1", "b2", "b3", *(["b4"] if more else [])]
+    extra = 5 * len(joints) - (6 * len(bodies) - 1)
+    known = truths(1, instantaneous_dof=1, singular=False, redundant_equations=extra)
+    return Case({"dimension": 3, "bodies": bodies, "constraints": joints}, known)
+
+
+FAMILY = {
+    "flat-vertex": flat_vertex,
+    "coaxial": coaxial,
+    "planar-loop": planar_loop,
+    "parallelogram-loop": parallelogram_loop,
+}

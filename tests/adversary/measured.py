@@ -1,0 +1,87 @@
+"""Drawings rounded to some digits, with a tolerance, and with other relations attached: no less moves than in the
+exact one."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+from .case import Case, Scene, Truth
+from .circuits import bricard, dixon, parallel_cranks
+from .draws import decimal
+
+#: Exact drawings that move more than a count says.
+EXACT: tuple[Callable[[random.Random, int], Case], ...] = (parallel_cranks, dixon, bricard)
+COUNTED = ("consistent", "dof", "velocity_dof", "redundant_equations")
+
+
+def rounded(scene: Scene, digits: int, shift: int = 0) -> Scene:
+    """Every place with so many decimals, moved along all axes, and the tolerance that goes with them."""
+    particles = [
+        {
+            **p,
+            "at": [decimal(round(Fraction(x) + shift, digits)) for x in p["at"]],
+        }
+        for p in scene["particles"]
+    ]
+    return {**scene, "particles": particles, "tolerance": 10.0 ** (1 - digits)}
+
+
+def _exact(rng: random.Random, size: int) -> Case:
+    """A drawing whose freedom is known."""
+    while True:
+        case = rng.choice(EXACT)(rng, size)
+        if "dof" in case.truth:
+            return case
+
+
+def _with(scene: Scene, coordinates: list[str], constraints: list[Any]) -> Scene:
+    more = {"coordinates": coordinates} if coordinates else {}
+    return {**scene, **more, "constraints": [*scene["constraints"], *constraints]}
+
+
+def _counted(truth: Truth) -> dict[str, Any]:
+    return {key: truth[key] for key in COUNTED if key in truth}
+
+
+def alone(rng: random.Random, size: int) -> Case:
+    """The drawing rounded: the exact one is within the tolerance, and what moves there is what was meant."""
+    case, digits = _exact(rng, size), rng.randint(5, 9)
+    return Case(rounded(case.scene, digits, rng.choice((0, 0, 5))), _counted(case.truth))
+
+
+def attached(rng: random.Random, size: int) -> Case:
+    """The same with a form dr = x_P dq on two more coordinates, or r = x_P + q^2: the first adds 2 freedoms and 1
+    velocity, and is non-holonomic where x_P moves; the second adds 1 and 1."""
+    case, digits = _exact(rng, size), rng.randint(5, 9)
+    scene = rounded(case.scene, digits)
+    moving = scene["particles"][-1]["name"]
+    known = _counted(case.truth)
+    if rng.random() < 0.6:
+        scene, more = _with(scene, ["q", "r"], [f"rdot = x_{moving}*qdot"]), (2, 1)
+        known["holonomic"] = False
+    else:
+        scene, more = _with(scene, ["q", "r"], [f"r = x_{moving} + q^2"]), (1, 1)
+    known["dof"], known["velocity_dof"] = known["dof"] + more[0], known["velocity_dof"] + more[1]
+    return Case(scene, known)
+
+
+def unmeasured(rng: random.Random, size: int) -> Case:
+    """A generic framework of triangles, rounded: rigid but for the 3 motions of the plane, and a form that has
+    nothing to do with it: 3 more freedoms and 2 velocities."""
+    many = 3 + size
+    places = {f"P{k}": (Fraction(k), Fraction(k * k, 7) + Fraction(rng.randint(1, 9), 10)) for k in range(many)}
+    links = [(f"P{k}", f"P{k + j}") for k in range(many) for j in (1, 2) if k + j < many]
+    particles = [{"name": name, "at": [str(x) for x in place]} for name, place in places.items()]
+    scene: Scene = {
+        "dimension": 2,
+        "particles": particles,
+        "constraints": [{"type": "link", "between": [*pair]} for pair in links],
+    }
+    known = {"consistent": True, "dof": 6, "velocity_dof": 5, "holonomic": False, "redundant_equations": 0}
+    return Case(_with(rounded(scene, rng.randint(4, 8)), ["u", "v", "w"], ["du = v*dw"]), known)
+
+
+FAMILY = {"alone": alone, "attached": attached, "unmeasured": unmeasured}

@@ -1,0 +1,182 @@
+"""The standing adversary: its truths are confirmed, judge and shrinking are right, and a short run finds nothing.
+
+`python -m tests.adversary --minutes 30` goes on from here.
+"""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from adversary import findings, registry
+from adversary.case import Case, plain, truths
+from adversary.confirmation import confirmed
+from adversary.disguises import DISGUISES
+from adversary.findings import faults, outcome
+from adversary.hunt import Hunt
+from adversary.judgement import judged, overall
+from adversary.registry import KINDS, OPEN
+from adversary.running import Answer, answered, answered_apart
+from adversary.shrinking import length, shrunk
+from adversary.trial import Trial, made
+
+import dofkit
+
+FOLDER = Path(findings.__file__).parent
+FOUND = sorted(findings.FOUND.glob("*.json"))
+#: Seconds of processor time for a case of the short run: what takes longer is undecided.
+SECONDS = 3.0
+
+
+def test_every_family_is_listed() -> None:
+    families = {path.stem for path in FOLDER.glob("*.py") if "\nFAMILY = {" in path.read_text(encoding="utf-8")}
+    assert {kind.split("/")[0] for kind in KINDS} == families
+    assert all(made.__doc__ for made in KINDS.values())
+
+
+def test_what_is_open_is_there() -> None:
+    assert set(OPEN) <= {*KINDS, *(path.name for path in FOUND)}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_same_seed_draws_the_same_scene_and_it_is_one(kind: str) -> None:
+    for size in range(4):
+        first, again = (registry.drawn(kind, size, size) for _ in range(2))
+        assert first == again
+        assert first.truth
+        dofkit.load(dict(first.scene))
+
+
+CHARTED = [kind for kind in KINDS if any(registry.drawn(kind, seed, 0).chart for seed in range(4))]
+
+
+@pytest.mark.parametrize("kind", CHARTED)
+def test_the_chart_confirms_the_truth(kind: str) -> None:
+    """Put into the equations: they hold on it, it has as many dimensions as is said, and the forms leave so many."""
+    for seed in range(6):
+        case = registry.drawn(kind, seed, seed % 3)
+        if case.chart is not None:
+            found = confirmed(case, seed)
+            assert found.holds
+            assert (found.dimension, found.velocities) == (case.truth["dof"], case.truth["velocity_dof"])
+            assert found.regular >= found.dimension
+
+
+@pytest.mark.parametrize("disguise", ["reordered", "scaled", "combined"])
+@pytest.mark.parametrize("kind", CHARTED[::3])
+def test_the_chart_fits_what_is_written_in_another_way(kind: str, disguise: str) -> None:
+    case = registry.drawn(kind, 1, 1)
+    worn = DISGUISES[disguise](random.Random(1), case)
+    if worn is not None and worn.chart is not None:
+        found = confirmed(worn)
+        assert found.holds
+        assert (found.dimension, found.velocities) == (worn.truth["dof"], worn.truth["velocity_dof"])
+
+
+SIMPLE = Case(
+    plain("x y z", ["x^2 + y^2 = 25", "dz = 3*dx"], configuration={"x": "3", "y": "4", "z": "9"}),
+    truths(1, instantaneous_dof=1, singular=False, holonomic=True, redundant=[], redundant_equations=0),
+)
+DRAWN = replace(registry.drawn("hinges/coaxial", 1, 0), elsewhere={})
+
+
+@pytest.mark.parametrize("disguise", DISGUISES)
+def test_a_disguise_keeps_what_is_true(disguise: str) -> None:
+    """Of a simple system, whose answers are right in any disguise."""
+    case = DRAWN if disguise == "turned" else SIMPLE
+    for seed in range(6):
+        worn = DISGUISES[disguise](random.Random(seed), case)
+        assert worn is not None
+        assert worn.scene != case.scene
+        assert set(worn.truth) >= {"consistent", "dof", "velocity_dof", "instantaneous_dof"}
+        answer = answered(worn.scene)
+        assert outcome(worn, answer) == "right", faults(worn, answer)
+
+
+def told(**fields: Any) -> dict[str, Any]:
+    entry = {"name": "c1", "holonomic": True, "verdict": "proved", "circuit": ["a", "b"]}
+    return {"dof": 2, "holonomic": True, "redundant": ["b", "a"], "verdict": "proved", "constraints": [entry], **fields}
+
+
+@pytest.mark.parametrize(
+    ("report", "expected"),
+    [
+        (told(), "right"),
+        (told(dof=None), "undecided"),
+        (told(dof=3), "wrong"),
+        (told(dof=3, verdict="undecided"), "undecided"),
+        (told(dof=3, verdict="undecided", verdicts={"dof": {"verdict": "probable", "about": "everywhere"}}), "wrong"),
+        (told(dof=1, verdicts={"dof": {"verdict": "proved", "about": "component"}}), "right"),
+        (told(dof=1, verdicts={"dof": {"verdict": "proved", "about": "everywhere"}}), "wrong"),
+        (told(holonomic=1), "wrong"),
+        (told(redundant=["a"]), "wrong"),
+    ],
+)
+def test_a_report_is_held_against_the_truth(report: dict[str, Any], expected: str) -> None:
+    truth = {"dof": 2, "holonomic": True, "redundant": ["a", "b"], "c1.circuit": ["b", "a"], "c1.holonomic": True}
+    assert overall(judged(Case({}, truth, {"dof": [1]}), report)) == expected
+
+
+def test_no_report_is_a_finding() -> None:
+    assert answered({"coordinates": ["x"], "constraints": ["x = nothing"]}).end == "refused"
+    assert answered({"coordinates": ["x"], "constraints": [3]}).end in ("refused", "failed")
+    assert outcome(SIMPLE, Answer("late", None)) == "late"
+    assert faults(SIMPLE, Answer("killed", None, "9")) == {"killed": "9"}
+
+
+def test_a_process_of_its_own_answers_the_same() -> None:
+    assert answered_apart(SIMPLE.scene) == answered(SIMPLE.scene)
+
+
+def test_what_fails_is_shrunk_and_its_truth_is_made_anew() -> None:
+    """Whatever has three links or more fails here."""
+    trial = Trial("linear/positions", 7, 4, (("moved", 1), ("reordered", 2)))
+
+    def fails(other: Trial) -> bool:
+        return len(made(other).scene["constraints"]) >= 3
+
+    least = shrunk(trial, fails)
+    assert fails(least)
+    assert not least.disguises
+    assert length(made(least).scene) < length(made(trial).scene)
+
+
+def test_what_is_found_is_kept_and_read_again(tmp_path: Path) -> None:
+    trial = Trial("linear/positions", 3, 1)
+    kind, case = findings.read(findings.kept(trial, {"dof": "7 (proved)"}, tmp_path))
+    assert (kind, case.scene, case.truth) == (trial.kind, made(trial).scene, made(trial).truth)
+
+
+def test_the_hunt_counts_what_it_looks_at() -> None:
+    hunt = Hunt(["linear/positions", "rounding/decimals"], SECONDS, write=False)
+    for kind in hunt.kinds:
+        hunt.look(Trial(kind, 1, 0))
+    assert [counts["right"] for counts in hunt.counts.values()] == [1, 1]
+    assert "linear/positions" in hunt.summary()
+
+
+def short() -> list[Trial]:
+    """Two of every kind that is not open: as it is made, and in a disguise."""
+    worn = list(DISGUISES)
+    kinds = [(k, kind) for k, kind in enumerate(KINDS) if kind not in OPEN]
+    plainly = [Trial(kind, 1, 0) for _, kind in kinds]
+    return plainly + [Trial(kind, 2, 0, ((worn[k % len(worn)], k),)) for k, kind in kinds]
+
+
+@pytest.mark.parametrize("trial", short(), ids=str)
+def test_nothing_is_answered_wrongly(trial: Trial) -> None:
+    case = made(trial)
+    answer = answered(case.scene, SECONDS)
+    assert outcome(case, answer) in ("right", "undecided", "refused"), (case.scene, faults(case, answer), case.truth)
+
+
+@pytest.mark.parametrize("path", FOUND, ids=lambda path: path.stem)
+def test_what_was_found_is_not_answered_wrongly_again(path: Path) -> None:
+    kind, case = findings.read(path)
+    if kind in OPEN or path.name in OPEN:
+        pytest.skip(OPEN.get(kind) or OPEN[path.name])
+    answer = answered(case.scene, SECONDS)
+    assert outcome(case, answer) in ("right", "undecided", "refused"), (case.scene, faults(case, answer), case.truth)
