@@ -13,12 +13,11 @@ from dofkit.base.deadline import unless_late
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
 from dofkit.classification.dependence.by_leaving_out import by_leaving_out, owners_of
 from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, sharing, without_hidden
-from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, left_open
+from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, left_open
 from dofkit.classification.dependence.implications import implication_of
 from dofkit.classification.dependence.regions import is_region, of_regions
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.through_reference import through_reference
-from dofkit.exact.matrices.sparse import echelon
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
@@ -91,7 +90,7 @@ def _of_relations(
         normals = [n for i in numbers for n in reduced[i].normals]
         if _each_takes_one(normals, blocks):
             return [_independent({i: reduced[i].equations for i in numbers})]
-        return [_as_free(implied(reduced, setting, numbers), reduced, blocks)]
+        return [_as_free(implied(reduced, setting, numbers), blocks)]
     numbered = _numbered(reduced[i] for i in numbers)
     answered = [
         a for block in blocks if block[1].velocity_dof is not None for a in _of_block(*block, setting, numbered)
@@ -105,49 +104,36 @@ def _of_relations(
     straight = all(a.linear for _, a in blocks)
     where = "everywhere" if straight else unless_late(partial(holds_where, reduced, setting, numbers, by_rank), None)
     if where is False:
-        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
+        return [*settled, _as_free(implied(reduced, setting, numbers), blocks)]
     if where is None:
         known = partial(at_a_point, reduced=reduced, setting=setting, numbers=numbers)
         return _agreed([*settled, *map(known, by_rank)])
     return [replace(r, about=where) for r in _agreed([*settled, *by_rank])]
 
 
-def _as_free(found: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
+def _as_free(found: Redundancies, blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
     """What was counted, where no more equations are independent than take freedom away.
 
-    Else they are those whose rows are at the point where the freedom was told: none of what holds on a whole region.
+    Else they are those whose rows are, at the points where the freedom was told: none of what holds on a whole region;
+    of x z = 0 and z = 0 one, though neither follows from those before it.
     """
-    counted = sum(found.independent.values())
     if found.undecided or any(a.velocity_dof is None for _, a in blocks):
         return found
     taken = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
-    if counted <= taken:
+    if sum(found.independent.values()) <= taken:
         return found
-    independent = _by_first_order(blocks)
-    if sum(independent.values()) != taken or not independent.keys() >= found.independent.keys():
+    parts = [OwnedRows(a.matrix, owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
+    known = all(len(part.matrix) == len(part.owners) for part in parts)
+    by_rank = analyse(parts) if known else Redundancies({}, [], [], {})
+    members = {i for _, group in by_rank.groups for i in group}
+    if sum(by_rank.independent.values()) != taken or not members >= {*found.redundant}:
         return replace(found, independent={}, uncounted=tuple(found.independent))
-    alone = [
-        (k - independent[i], [i])
-        for i, k in found.independent.items()
-        if k > independent[i] and i not in found.redundant
-    ]
-    kept = {i: independent[i] for i in found.independent}
-    return replace(found, independent=kept, groups=[*found.groups, *alone], equations={})
+    independent = {i: by_rank.independent.get(i, 0) for i in found.independent}
+    return replace(found, independent=independent, groups=by_rank.groups, equations={})
 
 
-def _by_first_order(blocks: Sequence[tuple[Block, Answer]]) -> dict[int, int]:
-    """Equations of each constraint with rows independent of those before, at the points at which blocks were answered.
-
-    Empty where some block's rows are not known.
-    """
-    independent: Counter[int] = Counter()
-    for block, a in blocks:
-        if len(a.matrix) != len(block.rows):
-            return {}
-        owners = owners_of(block)
-        independent.update(dict.fromkeys(owners, 0))
-        independent.update(owners[i] for i in echelon(a.matrix, a.modulus).independent)
-    return dict(independent)
+def _finite_rows(block: Block) -> list[bool]:
+    return [isinstance(r.piece, Finite) for r in block.rows]
 
 
 def _agreed(found: Sequence[Redundancies]) -> list[Redundancies]:
@@ -182,7 +168,7 @@ def _of_block(
     elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
         yield unless_late(partial(by_leaving_out, block, setting, a, nullity, equations), left_open(owners))
     else:
-        finite = [isinstance(r.piece, Finite) for r in block.rows]
+        finite = _finite_rows(block)
         implied = None if a.supports is not None or nullity <= 0 else implication_of(block, a, setting)
         yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
 
