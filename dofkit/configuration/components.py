@@ -140,13 +140,27 @@ def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
     return replace(chart, ring=ring, nodes=nodes, columns=columns, relations=tuple(relations), kinds=kinds)
 
 
-def in_one_piece(chart: Chart) -> bool:
-    """Is the set known to be irreducible? What is generic on one part of it is so on all.
+def is_graph(chart: Chart) -> bool:
+    """Does every relation give a coordinate as a function of others, on one region of space? [ImplicitFunctions]."""
+    if len(chart.relations) > MAX_RELATIONS or _in_regions(chart):
+        return False
+    return not explicit_relations(chart.relations).left
 
-    So are a graph, and the zeros of one polynomial without factors: parts that it may have over larger numbers are
+
+def _in_regions(chart: Chart) -> bool:
+    """Do signs of what moves occur? On each side of their zeros other functions stand there."""
+    moving = frozenset(s for s in chart.symbols if s != ex.TIME)
+    ring = chart.ring
+    return any(v.kind == "sign" and not moving.isdisjoint(ring.var_expr[v.index].symbols) for v in ring.vars)
+
+
+def is_irreducible(chart: Chart) -> bool:
+    """Is the set known to have one part, so that what is generic somewhere is so everywhere, singular points apart?
+
+    So have a graph, and the zeros of one polynomial without factors: parts that it may have over larger numbers are
     conjugate, and as good as each other.
     """
-    if len(chart.relations) > MAX_RELATIONS:
+    if len(chart.relations) > MAX_RELATIONS or _in_regions(chart):
         return False
     left = explicit_relations(chart.relations).left
     if len(left) != 1:

@@ -52,8 +52,8 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         if drawn is not None:
             drawn.about, drawn.witness = "reference", of_reference(chart.symbols, setting.reference)
             return drawn
-        if setting.tolerance is not None:
-            return Answer(None, verdict="undecided", reasons=[MEASURED_OFF])
+    if setting.tolerance is not None and _is_drawn(chart):
+        return Answer(None, verdict="undecided", reasons=[MEASURED_OFF])
     found = find(chart, setting.pose)
     result = Answer(
         found.consistent, found.dimension, found.dimension, found.verdict, found.about, found.argument, gap=found.gap
@@ -72,6 +72,12 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         result.method = "real points with balls"
         _numeric_matrix(chart, found.real, result)
     return result
+
+
+def _is_drawn(chart: Chart) -> bool:
+    """Does a particle or a body take part, whose place was measured?"""
+    names = {str(s.args[1]) for s in chart.symbols if s != ex.TIME}
+    return any(c.owner is not None and c.name in names for c in chart.roles)
 
 
 def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:

@@ -17,6 +17,7 @@ from dofkit.relations.chart import Chart
 
 #: Blocks with more columns than this are not certified with balls.
 BALL_COLUMNS = 60
+NEARLY = "relations that are independent by little hold at a real point within its precision; a zero was not certified"
 ALLOWING = "for an unknown function that allows real configurations"
 
 
@@ -43,6 +44,9 @@ def with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
         return _without_reality(chart, found)
     if not real.certified or not real.consistent:
         return near_singular_point(chart, found)
+    if real.solved < real.rank:
+        found.verdict, found.gap = weakest(found.verdict, "numeric"), real.gap
+        found.reasons.append(NEARLY)
     if real.rank != rank:
         found.verdict, found.dimension = "undecided", None
         found.reasons.append("real points and points over GF(p) disagree about the rank: the set has several parts")

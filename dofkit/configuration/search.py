@@ -111,7 +111,7 @@ def _numerical(chart: Chart, seed: int, core: Sequence[int]) -> Variety:
         return Variety(None, None, "undecided", reasons=["no configuration was found that satisfies all of it"])
     columns = len(chart.columns)
     timed = columns - chart.coordinates
-    if real.certified and real.consistent and real.rank == len(core) == len(chart.nodes):
+    if real.certified and real.consistent and real.rank == real.solved == len(core) == len(chart.nodes):
         return Variety(True, columns - real.rank - timed, "proved", [], real, argument="regular point")
     if not real.certified or not real.consistent:
         return near_singular_point(chart, Variety(True, None, "proved", [], real))

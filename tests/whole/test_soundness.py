@@ -165,6 +165,40 @@ def test_a_drawn_place_with_a_prime_below_the_line(q: int) -> None:
     assert dofkit.classify({"dimension": 2, "particles": places, "constraints": [link]}).dof == 3
 
 
+def test_a_sign_is_that_at_the_reference() -> None:
+    """abs(x) = x near x = 4: there dz = 0."""
+    made = scene("x y z w", "zdot = (abs(x) - x)*y*wdot", configuration={"x": 4, "y": 4, "z": 0, "w": 1})
+    report = dofkit.classify(made)
+    assert (report.dof, report.holonomic) in ((3, True), (None, None))
+
+
+@pytest.mark.parametrize("power", [2, 6])
+def test_the_handle_of_an_umbrella(power: int) -> None:
+    """x^2 = y^2 z holds near (0, 0, -1) for x = y = 0 only, and dw = x du says dw = 0."""
+    start = {"x": 0, "y": 0, "z": -1, "w": 0, "u": 0}
+    made = scene("x y z w u", f"x^{power} = y^{power}*z", "wdot = x*udot", configuration=start)
+    report = dofkit.classify(made)
+    assert (report.dof, report.velocity_dof, report.holonomic) in ((2, 2, True), (None, None, None))
+
+
+def test_measured_links_with_a_relation_that_is_drawn_nowhere() -> None:
+    """Nine links of K(3,3) on two lines move; decimals that are right to 10^-4 contradict nothing."""
+    places = {"A0": (3, 0), "A1": (-6, 0), "A2": (5, 0), "B0": (0, -5), "B1": (0, -8), "B2": (0, -4)}
+    links = [{"type": "link", "between": [a, b]} for a in places for b in places if (a[0], b[0]) == ("A", "B")]
+    particles = [{"name": name, "at": [*at]} for name, at in places.items()]
+    report = dofkit.classify(
+        {
+            "dimension": 2,
+            "tolerance": 1e-4,
+            "particles": particles,
+            "coordinates": ["q", "r"],
+            "constraints": [*links, "r = x_B2 + q^2"],
+        }
+    )
+    assert report.consistent is not False
+    assert (report.dof, report.verdict) in ((5, "numeric"), (None, "undecided"))
+
+
 def test_a_quotient_that_is_rounded_excludes_no_solution() -> None:
     """w = 0 and u^2 = 7.4e-18 solve it exactly."""
     parts = ["z = 1/(6004799503160661/18014398509481984 + u^2)", "z - 3 = s", "s = 1/10^16 + w^2"]

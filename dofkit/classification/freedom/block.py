@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.agreement import agreed, numeric
-from dofkit.configuration.components import in_one_piece
+from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import confirmed, eliminated
@@ -141,7 +141,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
 
 def _points(forms: Codistribution, setting: Setting) -> Variety:
     """Points to look at the forms: of the reference's part where one is given, else generic ones."""
-    alike = in_one_piece(forms.chart)
+    alike = is_irreducible(forms.chart) if setting.reference is None else is_graph(forms.chart)
     if setting.reference is None or alike:
         found = find(forms.chart, setting.pose)
         return found if alike else replace(found, about="component")
