@@ -84,9 +84,9 @@ def _as_many_dependent(told: Values) -> bool | None:
 
 
 def _in_groups(told: Values) -> bool | None:
-    """Where the drawing is not singular: there what takes several freedoms away may stand for two equations."""
+    """Where the drawing is not singular; they may hold more, as finite relations are counted before forms."""
     dependent = _dependent_equations(told)
-    return None if dependent is None or told.get("singular") else _nullity(told["redundancies"]) == dependent
+    return None if dependent is None or told.get("singular") else _nullity(told["redundancies"]) >= dependent
 
 
 def _groups_for_all(told: Values) -> bool | None:

@@ -10,7 +10,8 @@ import numpy as np
 from dofkit.base.deadline import expired
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
 from dofkit.configuration.drawing.at_reference import ball_point
-from dofkit.configuration.generic_points import pose_point
+from dofkit.configuration.finite_blocks import dependent_names
+from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.configuration.local.neighbourhood import damped
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.engines import BOTH
@@ -51,7 +52,7 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return []
     turning = [r for r in rotations if r.chart == "gibbs" and set(r.names) & set(block.coordinates)]
     dependent = set(a.dependent)
-    direct = [c for c in block.coordinates if c not in dependent]
+    direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         chosen = _explicit(block, a.dof, setting)
         return direct if chosen is None or regular_at_witness(block.coordinates, a, chosen) is False else chosen
@@ -74,6 +75,25 @@ def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -
     return ball_part([[row[k] for k in columns] for row in a.real.matrix]).rank == len(names) - a.dof
 
 
+def _regular_at_reference(block: Block, a: Answer, setting: Setting) -> list[str] | None:
+    """Of a block with forms, none of which integrates: those for which its finite relations solve at the reference.
+
+    None where there is no reference, or the relations are dependent there.
+    """
+    if setting.reference is None or not block.forms or "field" not in setting.engines:
+        return None
+    chart = make_chart(block, setting, a.hidden)
+    point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
+    if point is None or not on_variety(chart, point):
+        return None
+    dependent = dependent_names(field_jacobian(chart, point), chart, point.p)
+    return (
+        [c for c in block.coordinates if c not in dependent]
+        if len(block.coordinates) - len(dependent) == a.dof
+        else None
+    )
+
+
 def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:
     """Those by which the relations give all others at once: an angle rather than what it makes of lengths.
 
@@ -90,6 +110,7 @@ def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation
     """From the tangent space at a regular point near the reference, or anywhere where there is none."""
     chart = make_chart(block, setting)
     start = _start(chart, setting)
+    drawn = _drawn_tangent(chart, start, setting, dof)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
     for seed, away in enumerate(AWAY):
         symbols = search.start(seed, {})
@@ -99,12 +120,44 @@ def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation
             continue
         tangent = _tangent(chart, symbols, turning, setting, dof)
         if tangent.shape[0] == dof:
-            return _columns(chart, tangent)
+            chosen = None if drawn is None else _regular_columns(chart, tangent, drawn, turning)
+            return _columns(chart, tangent) if chosen is None else chosen
         regular = len(chart.nodes) == len(block.coordinates) - dof
         secants = None if regular or tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
         if secants is not None:
             return _columns(chart, _in_angles(chart, symbols, secants, turning))
     return None
+
+
+def _drawn_tangent(chart: Chart, start: dict[Expr, float], setting: Setting, dof: int) -> Any:
+    """The tangent space at the reference over the chart's own coordinates; None where the set is not regular there."""
+    if not start:
+        return None
+    tangent = _tangent(chart, start, (), setting, dof)
+    return tangent if tangent.shape[0] == dof else None
+
+
+def _regular_columns(chart: Chart, near: Any, drawn: Any, turning: Sequence[Rotation]) -> list[str] | None:
+    """The first coordinates on which the tangent space projects regularly nearby and at the reference.
+
+    The angles of a body that turns are no coordinates where it is drawn; a body some of whose angles are chosen stands
+    there with all of its Gibbs vector. None where there is no such choice.
+    """
+    names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
+    whose = {name: k for k, r in enumerate(turning) for name in r.names}
+    chosen: list[int] = []
+    for c in range(len(names)):
+        lengths = [i for i in (*chosen, c) if names[i] not in whose]
+        if _rank(near, [*chosen, c]) > len(chosen) and _rank(drawn, lengths) == len(lengths):
+            chosen.append(c)
+    turned = {whose[names[i]] for i in chosen if names[i] in whose}
+    standing = [i for i, n in enumerate(names) if whose.get(n) in turned or (i in chosen and n not in whose)]
+    complete = len(chosen) == len(near) and _rank(drawn, standing) == len(drawn)
+    return [names[i] for i in chosen] if complete else None
+
+
+def _rank(tangent: Any, columns: Sequence[int]) -> int:
+    return int(np.linalg.matrix_rank(tangent[:, columns], tol=ROUGH)) if columns else 0
 
 
 def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: int) -> Any:
@@ -233,6 +286,6 @@ def _columns(chart: Chart, tangent: Any) -> list[str]:
     chosen: list[int] = []
     rank = int(np.linalg.matrix_rank(tangent, tol=ROUGH))
     for c in range(len(names)):
-        if len(chosen) < rank and np.linalg.matrix_rank(tangent[:, [*chosen, c]], tol=1e-5) > len(chosen):
+        if len(chosen) < rank and _rank(tangent, [*chosen, c]) > len(chosen):
             chosen.append(c)
     return [names[c] for c in chosen]

@@ -58,15 +58,17 @@ def confinements(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...
     return None if free else hidden_relation(forms.rows, n, found.real.point)
 
 
-def prolong(ways: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...]:
-    """The branches of hidden relations; none where they cannot hold."""
+def prolong(ways: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...] | None:
+    """The branches of hidden relations; none where they cannot hold, None where they have too many together."""
     if not ways:
         return ((),)
-    return tuple(dict.fromkeys(branch for way in ways for branch in _joint_branches(way, setting)))
+    found = [_joint_branches(way, setting) for way in ways]
+    every = [branches for branches in found if branches is not None]
+    return tuple(dict.fromkeys(b for branches in every for b in branches)) if len(every) == len(found) else None
 
 
-def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, ...]]:
-    """The branches on which all of some relations hold."""
+def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, ...]] | None:
+    """The branches on which all of some relations hold; None where they are too many."""
     options = []
     for relation in relations:
         if never_vanishes(relation, setting.positive):
@@ -76,7 +78,7 @@ def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[E
         variables = frozenset(s for s in relation.symbols if s.args[0] in ("coordinate", "time"))
         options.append(zero_set(relation, setting.positive, variables)[0])
     if math.prod(map(len, options)) > MAX_TOGETHER:
-        raise NoValueError("hidden relations have too many branches together")
+        return None
     together = cartesian(*options)
     return [tuple(dict.fromkeys(g for branch in choice for g in branch)) for choice in together]
 

@@ -23,7 +23,7 @@ BREAKS: dict[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
     "equations too many are equations less (coordinates less velocities)": ({"redundant_equations": 2}, {}),
     "as many equations follow as are too many": ({}, {"independent": 1}),
     "groups hold what is too many": ({"redundancies": []}, {}),
-    "groups hold the equations that follow": ({"redundancies": [Redundancy(nullity=2, members=["c1", "c3"])]}, {}),
+    "groups hold the equations that follow": ({"redundancies": [Redundancy(nullity=0, members=["c1", "c3"])]}, {}),
     "what can be dropped stands in groups": ({"redundant": ["c2"]}, {}),
     "a circuit is of what can be dropped, and was written before": ({"redundant": []}, {}),
     "as many equations are named as follow": ({}, {"redundant_equations": []}),

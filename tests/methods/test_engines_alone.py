@@ -35,9 +35,9 @@ KNOWN: dict[tuple[str, MethodName], tuple[tuple[str, ...], str]] = {
         "given, so only a real point, which the field alone does not look for, shows that the rod is straight",
     ),
     ("heureka-jitterbug", "balls"): (
-        ("redundant", "ball12.circuit"),
+        ("redundant",),
         "balls keep which equations depend on which, without the weights: of constraints of several equations each "
-        "they name fewer than can go, and a circuit may hold one too many",
+        "they name fewer than can go",
     ),
 }
 

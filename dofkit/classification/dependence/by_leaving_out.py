@@ -144,12 +144,15 @@ class LeftOut:
         return {_constant(r) for r in self.block.rows if r.constraint in owners} - {None}
 
     def _same_set(self, gone: frozenset[int], kept: frozenset[int]) -> bool | None:
-        """Does what is left out follow? It does near a drawing where nothing but motions of the whole is left there."""
+        """Does what is left out follow? It does near a drawing where nothing but motions of the whole is left there.
+
+        What holds for some constant of integration is told by the freedom, and the relations it hides, alone.
+        """
         rows, others = ([i for i, r in enumerate(self.block.rows) if r.constraint in own] for own in (gone, kept))
         if not is_drawn(self.block, self.whole, self.setting):
             everywhere = Everywhere(self.block, self.setting)
             self.verdict = weakest(self.verdict, "probable")
-            return all_of(everywhere.follows(i, others) for i in rows)
+            return True if self._constants(gone) else all_of(everywhere.follows(i, others) for i in rows)
         near = NearDrawing(self.block, self.setting)
         after = self._freedoms(kept)
         if near.is_orbit(others, None if after is None else after.dof):

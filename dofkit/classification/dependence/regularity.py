@@ -7,10 +7,15 @@ from dataclasses import dataclass
 from itertools import chain
 from itertools import product as cartesian
 
+from flint import arb
+
 from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.search import find
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.points.balls import jacobian
+from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.chart_of_block import make_chart
@@ -42,9 +47,9 @@ class Regularity:
             return True
         branches = list(cartesian(*(n.branches for n in (*self.others, *self.wanted) if n.branches)))
         regular = {self._as_regular(choice) for choice in branches[:MAX_BRANCHES]}
-        if None in regular or len(branches) > MAX_BRANCHES:
-            return None if any(n.notes for n in answer) else False
-        return False in regular
+        if False in regular:
+            return True
+        return None if None in regular or len(branches) > MAX_BRANCHES else False
 
     def _as_regular(self, choice: Sequence[Sequence[Piece]]) -> bool | None:
         """Do the gradients of the answer as written span as much as those that were asked for, on one branch?"""
@@ -65,14 +70,19 @@ class Regularity:
         whole = Block(tuple(n for n in self.coordinates if any(n in b.coordinates for b in blocks)), rows)
         chart = make_chart(whole, self.setting, more=list(chain(*sets)))
         found = find(chart, {}, 7)
-        if not found.samples:
-            return None
+        nodes = [[chart.ring.node(e) for e in s] for s in sets]
         try:
-            point = found.samples[0]
-            jacobians = [field_jacobian(chart, point, [chart.ring.node(e) for e in s]) for s in sets]
+            if found.samples:
+                point = found.samples[0]
+                return [rank_of_rows(field_jacobian(chart, point, some), point.p) for some in nodes]
+            if found.real is None or not found.real.certified:
+                return None
+            real, columns = found.real.point, [c for c in chart.columns if c >= 0]
+            at = values(chart.ring, real)
+            slopes = [jacobian(chart.ring, at, real, some, columns, arb(0)) for some in nodes]
         except NoValueError:
             return None
-        return [rank_of_rows(j, point.p) for j in jacobians]
+        return [ball_part(j).rank if j else 0 for j in slopes]
 
 
 def _lost(normals: Sequence[Normal]) -> bool:

@@ -120,14 +120,14 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
         if new is None:
             return replace(_with_spans(block, forms, found, extra, setting), doubt=result.doubt)
         outcome = prolong(new, setting)
+        if outcome is None or (len(outcome) > MAX_HIDDEN_BRANCHES and len(extra) < MAX_ROUNDS):
+            return Answer(None, verdict="undecided", hidden=extra, reasons=[MANY_BRANCHES])
         if not outcome:
             result.consistent, result.verdict, result.hidden = False, "probable", extra
             result.argument = "time fixed"
             result.reasons.append("the constraints leave no motion through an interval of time")
             return result
         if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
-            if len(outcome) > MAX_HIDDEN_BRANCHES:
-                return Answer(None, verdict="undecided", hidden=extra, reasons=[MANY_BRANCHES])
             ways = [_prolonged(block, setting, Answer(), [*extra, *branch]) for branch in outcome]
             return max(ways, key=_largest)
         fresh = [g for g in outcome[0] if g not in extra]
