@@ -160,6 +160,8 @@ def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answ
     result.argument, result.gap = "singular values", told.gap
     result.method = "singular values within the tolerance at the given configuration"
     result.instantaneous = told.instantaneous
+    if told.dimension is None and chart.time is not None:
+        result.consistent = None
     exact = "no singular value but 0 itself is taken for 0"
     gap = f"the gap between singular values is {told.gap:.1e}" if isfinite(told.gap) else exact
     result.reasons.append(f"{told.reason}; {gap}")

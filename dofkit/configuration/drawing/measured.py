@@ -10,8 +10,8 @@ the relations along it, excludes it beyond what the tolerance may hide. All else
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from dofkit.configuration.drawing.measured_relations import (
     SLACK,
     MeasuredDrawing,
     MeasuredRelations,
+    clear_rank,
     own_motions,
 )
 from dofkit.exact.matrices.singular_values import dependency_pattern, greedy_pivots
@@ -37,9 +38,16 @@ CLOSE, LEVER = 2.0, 30.0
 #: Directions in which motions are followed.
 WAYS = 3
 
-Decided = tuple[int | None, str]
 FOLLOWED = "the motion was followed for a finite step within the tolerance"
 OPEN = "some of the motions to first order are no finite motions; which was not decided"
+
+
+class Decided(NamedTuple):
+    """A dimension, None where it is open, and why; ``confined``: time, if it is a column, may be constant."""
+
+    dimension: int | None
+    reason: str
+    confined: bool = False
 
 
 @dataclass(frozen=True)
@@ -63,41 +71,65 @@ def measure(
     chart: Chart, at: Mapping[Expr, float], roles: Sequence[Coordinate], tolerance: float, size: float, rigid: int
 ) -> Measured:
     """The freedom at a measured configuration; ``rigid`` counts the motions of the whole."""
-    relations = MeasuredRelations(chart, roles, size)
-    n = len(relations.symbols)
+    relations = MeasuredRelations(chart, roles, size, at)
+    n = chart.coordinates
     if not chart.nodes:
         return Measured(n, n, [], (), float("inf"), "")
-    _, j = relations.system(at)
+    _, timed = relations.system(at)
+    j = timed[:, :n]
     singular = np.linalg.svd(j, compute_uv=False)
     rank = int(np.sum(singular > tolerance * SLACK))
     below = float(singular[rank]) if rank < len(singular) else 0.0
     gap = float(singular[rank - 1]) / below if rank and below > 0 else float("inf")
-    lever = relations.lever(j)
+    lever = relations.lever(timed)
     least = tolerance * SLACK / (lever * lever if lever > CLOSE else 1.0)
     if np.any((singular > least) & (singular < tolerance * GREY)):
         return Measured(None, None, [], (), gap, "a singular value near the tolerance leaves the rank undecided")
     pattern = dependency_pattern(j, independent_rows(j, rank, tolerance))
     columns = tuple(greedy_pivots(j.T, rank))
-    drawing = MeasuredDrawing(relations, at, j, rank, tolerance)
+    drawing = MeasuredDrawing(relations, at, timed, rank, tolerance)
     rigid = min(rigid, len(own_motions(relations.whole(at), tolerance)))
-    dimension, reason = _finite(drawing, rigid, lever > LEVER or relations.blurs(at) > tolerance)
-    return Measured(n - rank, dimension, pattern, columns, gap, reason)
+    found = _finite(drawing, rigid, lever > LEVER or relations.blurs(at) > tolerance)
+    if chart.time is not None:
+        found = _at_fixed_time(drawing, found)
+    return Measured(n - rank, found.dimension, pattern, columns, gap, found.reason)
+
+
+def _at_fixed_time(drawing: MeasuredDrawing, found: Decided) -> Decided:
+    """The dimension without that of time; open where time may stand still on the set, as far as the tolerance tells."""
+    rank, (full, columns) = clear_rank(drawing.j, drawing.tolerance), drawing.j.shape
+    if rank is not None and rank == full > drawing.rank and _time_moves(replace(drawing, rank=rank)):
+        return Decided(columns - full - 1, "all relations are independent within the tolerance, time counted")
+    if rank != drawing.rank or (found.dimension is not None and found.confined):
+        return Decided(None, "within the tolerance it is not decided whether a motion passes through this moment")
+    return found if found.dimension is None else found._replace(dimension=found.dimension - 1)
+
+
+def _time_moves(drawing: MeasuredDrawing) -> bool:
+    """Does time change beyond the tolerance along a random path of the manifold that all relations cut out?"""
+    if not len(drawing.ways):
+        return False
+    path = follow(drawing, _directions(drawing.ways)[-1], stride_of(drawing.tolerance))
+    ahead = drawing.relations.between(drawing.at, path.stages[-1].at)[-1]
+    return abs(float(ahead)) > GREY * drawing.tolerance
 
 
 def _finite(drawing: MeasuredDrawing, rigid: int, far: bool) -> Decided:
-    """(dimension of the finite motion, why); nothing is followed where that is ``far`` from the origin."""
+    """The dimension of the set, time counted; nothing is followed where that is ``far`` from the origin."""
     full, columns = drawing.j.shape
     first = columns - drawing.rank
     if drawing.rank == full:
-        return first, "all relations are independent within the tolerance"
+        return Decided(first, "all relations are independent within the tolerance")
     if first == rigid:
-        return first, "nothing but motions of the whole is possible to first order"
+        return Decided(first, "nothing but motions of the whole is possible to first order", confined=True)
     if far:
-        return None, "the drawing is too far from the origin, by its size, to follow a motion in floating point"
+        return Decided(
+            None, "the drawing is too far from the origin, by its size, to follow a motion in floating point"
+        )
     if stride_of(drawing.tolerance) > LONGEST:
-        return None, "the tolerance is too coarse to tell a motion from one of first order only"
+        return Decided(None, "the tolerance is too coarse to tell a motion from one of first order only")
     if len(drawing.ways) != first - rigid:
-        return None, "the motions of the whole are not told from others within the tolerance"
+        return Decided(None, "the motions of the whole are not told from others within the tolerance")
     forms = StressForms(drawing)
     if forms.vanish:
         return _by_paths(drawing, first, rigid)
@@ -112,15 +144,18 @@ def _by_second_order(forms: StressForms, first: int, rigid: int) -> Decided:
     there are none where the branch has the dimension of the cone [TangentCone].
     """
     if forms.change_sign:
-        return first - 1, "branches cross here: the second order is an indefinite form beyond the tolerance"
+        return Decided(first - 1, "branches cross here: the second order is an indefinite form beyond the tolerance")
     if forms.definite:
-        return rigid, "to second order a stress is definite beyond the tolerance: no finite motion"
+        return Decided(
+            rigid, "to second order a stress is definite beyond the tolerance: no finite motion", confined=True
+        )
     if forms.cone == 0:
-        return rigid, "no first-order motion satisfies the second order within the tolerance: no finite motion"
+        why = "no first-order motion satisfies the second order within the tolerance: no finite motion"
+        return Decided(rigid, why, confined=True)
     if branch_dimension(forms) == forms.cone:
         why = "a motion was followed away from here within the tolerance, and the second order allows no more"
-        return rigid + forms.cone, why
-    return None, OPEN
+        return Decided(rigid + forms.cone, why, confined=True)
+    return Decided(None, OPEN)
 
 
 def _by_paths(drawing: MeasuredDrawing, first: int, rigid: int) -> Decided:
@@ -133,13 +168,14 @@ def _by_paths(drawing: MeasuredDrawing, first: int, rigid: int) -> Decided:
     both = [(follow(drawing, d, reach * ON), follow(drawing, -d, reach * ON)) for d in _directions(drawing.ways)]
     paths = [path for pair in both for path in pair]
     if all(runs_through(*pair, reach) for pair in both):
-        return first, FOLLOWED
+        return Decided(first, FOLLOWED)
     broken = [path.side() for path in paths if path.breaks]
     if len(drawing.stresses) == 1 and min(broken, default=0.0) < 0 < max(broken, default=0.0):
-        return first - 1, "the one dependent relation changes sign beyond the tolerance: it holds between"
+        return Decided(first - 1, "the one dependent relation changes sign beyond the tolerance: it holds between")
     if first - rigid == 1 and all(path.breaks for path in paths):
-        return rigid, "the one motion left to first order breaks the relations beyond the tolerance"
-    return None, OPEN
+        why = "the one motion left to first order breaks the relations beyond the tolerance"
+        return Decided(rigid, why, confined=True)
+    return Decided(None, OPEN)
 
 
 def _directions(ways: Any) -> list[Any]:

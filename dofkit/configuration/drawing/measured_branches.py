@@ -12,13 +12,17 @@ from dofkit.configuration.drawing.measured_relations import SLACK, MeasuredDrawi
 from dofkit.configuration.local.neighbourhood import damped
 
 #: Attempts to find a common zero of the forms; directions in which a branch is followed.
-ATTEMPTS, WAYS = 8, 3
+ATTEMPTS, WAYS = 6, 3
 #: A branch must be found at the first of these distances and at one of the others, by the least way of a motion.
 NEAR, AWAY = 0.25, (1.0, 2.0)
 #: Rounds of damped steps.
 ROUNDS = 60
 #: What the ways to a branch's points may differ in: their cosine is more.
 ALONG = 0.8
+#: Corrections less than this part of the tolerance are enough, and residuals that leave no larger ones at squares.
+FINE = 1e-4
+#: Directions with a larger cosine are one, in which so many searches begin.
+ALIKE, AGAIN = 0.99, 2
 #: A search begins so much beside a common zero: there dependent relations have no gradient where they are squares.
 ASIDE = 0.03
 
@@ -29,12 +33,13 @@ def branch_dimension(forms: StressForms) -> int:
     A branch leaves along a common zero of the forms. Where its points are regular within the tolerance the rank there
     gives its dimension; where every one of them is singular, a path is one.
     """
-    best = 0
+    best, tried = 0, list[Any]()
     rng = np.random.default_rng(7)
     for _ in range(ATTEMPTS):
         v = _common_zero(forms, rng.standard_normal(forms.kernel.shape[1]))
-        if v is None:
+        if v is None or sum(abs(float(v @ u)) > ALIKE for u in tried) >= AGAIN:
             continue
+        tried.append(v)
         for sign in (1.0, -1.0):
             aside = ASIDE * rng.standard_normal(forms.ways)
             best = max(best, _along(forms.drawing, (sign * v + aside) @ forms.drawing.ways))
@@ -95,9 +100,11 @@ def _beside(drawing: MeasuredDrawing, step: Any) -> Place | None:
     size = float(np.linalg.norm(step))
     for _ in range(ROUNDS):
         f, j = relations.system(at, drawing.norms)
+        if float(np.max(np.abs(f))) < min(FINE, drawing.tolerance) * FINE * drawing.tolerance:
+            break
         correction = damped(j, f)
         at = relations.moved(at, correction)
-        if float(np.linalg.norm(correction)) < drawing.tolerance * 1e-4:
+        if float(np.linalg.norm(correction)) < drawing.tolerance * FINE:
             break
     residual = float(np.max(np.abs(relations.system(at, drawing.norms)[0])))
     moved = relations.between(drawing.at, at)

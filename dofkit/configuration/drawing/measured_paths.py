@@ -26,10 +26,8 @@ CLOSE = 1e-11
 #: Relations are broken that are met no better than the tolerance this many times, more so from half way by `STEEP`.
 BROKEN, STEEP = 300.0, 3.0
 HALF = 0.5
-#: Residuals beyond this part of the tolerance that grow by a higher power of the distance are those of a contact.
-SEEN, CONTACT = 0.1, 2.5
-#: A bend of the set less than this, by the size, is taken for none: that of a contact would have to be so small.
-PLAUSIBLE = 3e-3
+#: A contact is taken for one by chance only with a factor c of at least this.
+PLAUSIBLE = 1.5e-3
 
 
 @dataclass(frozen=True)
@@ -66,15 +64,22 @@ class MeasuredPath:
 
     @property
     def touches(self) -> bool:
-        """Do residuals look like those of a contact, of the second order or higher?"""
-        return 2 * self.stages[-1].residual > PLAUSIBLE * self.distance**2 or self.flat
+        """May the path only touch the set, as c s^k at the distance s, to the second order or a higher one?
+
+        What is measured wrongly is met by residuals that grow too, but a contact as slight would be no chance.
+        """
+        last = self.stages[-1]
+        return last.residual > PLAUSIBLE * float(min(1.0, last.distance) ** max(2.0, self._power))
 
     @property
-    def breaks(self) -> bool:
-        """Do the relations fail by far more than the tolerance, and ever more with the distance?"""
+    def _power(self) -> float:
+        """The power of the distance by which residuals grow, over the last half and the one before at the least."""
         last = self.stages[-1]
-        half = max((s.residual for s in self.stages if s.distance <= last.distance * HALF), default=0.0)
-        return last.residual > BROKEN * self.drawing.tolerance and last.residual > STEEP * half
+        half, quarter = (self._before(last.distance * part) for part in (HALF, HALF * HALF))
+        return min(_power(quarter, half), _power(half, last)) if quarter.distance > 0 else 0.0
+
+    def _before(self, distance: float) -> Stage:
+        return [s for s in self.stages if s.distance <= distance * (1 + CLOSE)][-1]
 
     def goes_on(self, reach: float) -> bool:
         """Is it a motion as far as ``reach``?"""
@@ -82,19 +87,11 @@ class MeasuredPath:
         return long and self.holds(reach) and not self.touches and self.rank() == self.drawing.rank
 
     @property
-    def flat(self) -> bool:
-        """Do residuals grow by a high power of the distance, as where a path only touches the set?
-
-        With what is measured they begin in proportion to it. Below `SEEN` of the tolerance nothing is said of them.
-        """
-        whole = self.stages[-1]
-        half, quarter = (self._before(whole.distance * part) for part in (HALF, HALF * HALF))
-        if whole.residual <= SEEN * self.drawing.tolerance or not quarter.distance > 0:
-            return False
-        return _power(quarter, half) > CONTACT and _power(half, whole) > CONTACT
-
-    def _before(self, distance: float) -> Stage:
-        return [s for s in self.stages if s.distance <= distance * (1 + CLOSE)][-1]
+    def breaks(self) -> bool:
+        """Do the relations fail by far more than the tolerance, and ever more with the distance?"""
+        last = self.stages[-1]
+        half = self._before(last.distance * HALF)
+        return last.residual > max(BROKEN * self.drawing.tolerance, STEEP * half.residual)
 
     def side(self) -> float:
         """The value at the end of the first combination of relations that is dependent at the drawing."""
@@ -118,8 +115,8 @@ def runs_through(one: MeasuredPath, other: MeasuredPath, reach: float) -> bool:
 
 
 def _power(near: Stage, far: Stage) -> float:
-    """The power of the distance by which residuals grow from one stage to another."""
-    if not far.distance > near.distance:
+    """The power of the distance by which residuals grow from one stage to another; 0 for rounding errors."""
+    if not far.distance > near.distance or far.residual < CLOSE:
         return 0.0
     return float(np.log(far.residual / max(near.residual, CLOSE**2)) / np.log(far.distance / near.distance))
 
@@ -135,13 +132,16 @@ def follow(drawing: MeasuredDrawing, direction: Any, reach: float) -> MeasuredPa
     f, j = relations.system(drawing.at, drawing.norms)
     kept, at, distance = drawing.kept, drawing.at, 0.0
     stages = [Stage(0.0, at, f)]
+    begun = stages[-1]
     ahead, step = direction / np.linalg.norm(direction), stride_of(tolerance) * STRIDE * HALF * HALF
     while distance < reach * (1 - CLOSE) and step > STEP * SHORTEST:
         tangent = _tangent(kept @ j, ahead)
         size = float(np.linalg.norm(tangent))
         moved = _corrected(drawing, kept, at, tangent * (step / size)) if size > STRAIGHT else None
         if moved is None:
-            step /= 2
+            again = _combinations(drawing, f, j) if stages[-1] is not begun else None
+            begun, step = stages[-1], step if again is not None else step / 2
+            kept = kept if again is None else again
             continue
         at, f, j = moved
         distance, ahead = distance + step, tangent / size
@@ -149,9 +149,16 @@ def follow(drawing: MeasuredDrawing, direction: Any, reach: float) -> MeasuredPa
         stages.append(Stage(distance, at, f))
         if stages[-1].residual > BROKEN * 10 * tolerance:
             break
-        if stages[-1].residual <= SLACK * tolerance and clear_rank(j, tolerance) == drawing.rank:
-            kept = np.linalg.svd(j)[0].T[: drawing.rank]
     return MeasuredPath(drawing, tuple(stages))
+
+
+def _combinations(drawing: MeasuredDrawing, f: Any, j: Any) -> Any:
+    """As many independent combinations at another place of the same rank; None where it is none, or not on the set."""
+    if float(np.max(np.abs(f), initial=0.0)) > SLACK * drawing.tolerance:
+        return None
+    if clear_rank(j, drawing.tolerance) != drawing.rank:
+        return None
+    return np.linalg.svd(j, full_matrices=False)[0].T[: drawing.rank]
 
 
 def _tangent(a: Any, ahead: Any) -> Any:

@@ -28,20 +28,27 @@ Place = Mapping[Expr, float]
 
 
 class MeasuredRelations:
-    """The relations of a chart at fixed time: columns of positions by the size, every row by its gradient."""
+    """The relations of a chart: columns of positions by the size, every row by its gradient in the coordinates.
 
-    def __init__(self, chart: Chart, roles: Sequence[Coordinate], size: float) -> None:
+    Time, where it is a column, is the last, in such a unit that no relation changes faster by it than by a shift.
+    """
+
+    def __init__(self, chart: Chart, roles: Sequence[Coordinate], size: float, at: Place) -> None:
         self.chart = chart
         lengths = {c.name for c in roles if c.role in ("x", "y", "z")}
-        self.symbols = [s for s in chart.symbols if s != ex.TIME]
-        self.lengths = np.array([str(s.args[1]) in lengths for s in self.symbols], dtype=bool)
+        self.symbols = list(chart.symbols)
+        self.coordinates = chart.coordinates
+        self.lengths = np.array([str(s.args[-1]) in lengths and s != ex.TIME for s in self.symbols], dtype=bool)
         self.scale = np.where(self.lengths, size, 1.0)
-        self.columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
+        if chart.time is not None and chart.nodes:
+            fastest = float(np.max(np.abs(self.system(at)[1][:, chart.time])))
+            self.scale[chart.time] = 1 / fastest if fastest > 0 else 1.0
 
     def lever(self, j: Any) -> float:
         """How many sizes from the origin the relations act: the largest effect of a turn by that of a shift."""
         shifts = self.lengths
-        both = np.abs(j[:, shifts]).max(axis=1, initial=0), np.abs(j[:, ~shifts]).max(axis=1, initial=0)
+        turns = ~shifts & (np.arange(len(shifts)) < self.coordinates)
+        both = np.abs(j[:, shifts]).max(axis=1, initial=0), np.abs(j[:, turns]).max(axis=1, initial=0)
         mixed = both[0] > 0
         return float(np.max(both[1][mixed] / both[0][mixed], initial=1.0))
 
@@ -54,20 +61,18 @@ class MeasuredRelations:
         """Displacements of everything as one body, in scaled coordinates."""
         variables = self.chart.ring.vars
         fields = displacements_real(self.chart, lambda i: at.get(variables[i].key, 0.0) if i >= 0 else 0.0)
-        timed = len(self.chart.symbols) - len(self.symbols)
-        fields = fields[:, : fields.shape[1] - timed] if fields.size and timed else fields
         return fields / self.scale if fields.size else fields
 
     def system(self, at: Place, norms: Any = None) -> tuple[Any, Any]:
         """(residuals as fractions of the size, Jacobian), rows by ``norms`` or by their own gradients."""
         f, j = self._unscaled(at)
         if norms is None:
-            norms = _lengths(j)
+            norms = self._lengths(j)
         return f / norms, j / norms[:, None]
 
     def norms(self, at: Place) -> Any:
         """The lengths of gradients, 1 for those that are 0."""
-        return _lengths(self._unscaled(at)[1])
+        return self._lengths(self._unscaled(at)[1])
 
     def _unscaled(self, at: Place) -> tuple[Any, Any]:
         """The relations, and their derivatives by scaled columns."""
@@ -75,8 +80,12 @@ class MeasuredRelations:
         point = FloatPoint(at, 0)
         out = values(self.chart.ring, point)
         f = np.array([out[n] for n in self.chart.nodes], dtype=float)
-        j = np.array(jacobian(self.chart.ring, out, point, self.chart.nodes, self.columns, 0.0), dtype=float)
+        j = np.array(jacobian(self.chart.ring, out, point, self.chart.nodes, self.chart.columns, 0.0), dtype=float)
         return f, j.reshape(len(f), len(self.symbols)) * self.scale
+
+    def _lengths(self, j: Any) -> Any:
+        norms = np.linalg.norm(j[:, : self.coordinates], axis=1)
+        return np.where(norms > 0, norms, 1.0)
 
     def moved(self, at: Place, step: Any) -> dict[Expr, float]:
         """The place a step away, in scaled coordinates."""
@@ -130,11 +139,6 @@ class MeasuredDrawing:
     def ways(self) -> Any:
         """An orthonormal basis of the first-order motions across those of the whole, w x n."""
         return without_the_whole(self.parts[2][self.rank :], self.relations.whole(self.at), self.tolerance)
-
-
-def _lengths(j: Any) -> Any:
-    norms = np.linalg.norm(j, axis=1)
-    return np.where(norms > 0, norms, 1.0)
 
 
 def clear_rank(j: Any, tolerance: float) -> int | None:
