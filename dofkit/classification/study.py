@@ -8,7 +8,7 @@ from functools import cached_property, partial
 from typing import NamedTuple
 
 from dofkit.base.deadline import part, unless_late
-from dofkit.classification.dependence.circuits import Redundancies, left_open
+from dofkit.classification.dependence.circuits import SCOPES, About, Redundancies, left_open
 from dofkit.classification.dependence.conflicts import conflict
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome, solve
@@ -31,6 +31,14 @@ class Dependence(NamedTuple):
 
     conflicting: list[int]
     dependent: list[Redundancies]
+
+    @property
+    def about(self) -> About:
+        """Of which points it is told that what is redundant can go: the narrowest of all parts with something that can.
+
+        That something is needed is told of every point near one, so of the whole.
+        """
+        return min((r.about for r in self.dependent if r.redundant), key=SCOPES.index, default=SCOPES[-1])
 
 
 @dataclass(frozen=True)
