@@ -135,9 +135,7 @@ def _dependence(study: Study, free: Claim, some: bool) -> Claim:
     settled = {a.argument for a in study.outcome.answers if a.velocity_dof is not None} <= SETTLED
     if settled:
         return free
-    dependent = [r for r in study.dependence.dependent if r.redundant or r.groups]
-    about = least(*(r.about for r in dependent), free.about)
-    return replace(together(free, ROWS, IMPLIED), about=about)
+    return replace(together(free, ROWS, IMPLIED), about=least(study.dependence.about, free.about))
 
 
 def _chosen(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:

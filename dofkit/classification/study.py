@@ -8,6 +8,7 @@ from functools import cached_property, partial
 from typing import NamedTuple
 
 from dofkit.base.deadline import part, unless_late
+from dofkit.base.verdicts import About, least
 from dofkit.classification.dependence.circuits import Redundancies, left_open
 from dofkit.classification.dependence.conflicts import Conflict, conflict
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
@@ -31,6 +32,14 @@ class Dependence(NamedTuple):
 
     conflicting: Conflict
     dependent: list[Redundancies]
+
+    @property
+    def about(self) -> About:
+        """Of which points it is told that what is redundant can go: the narrowest of all parts with something that can.
+
+        That something is needed is told of every point near one, so of the whole.
+        """
+        return least(*(r.about for r in self.dependent if r.redundant))
 
 
 @dataclass(frozen=True)

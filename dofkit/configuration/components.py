@@ -38,6 +38,7 @@ from dofkit.relations.reductions import ReductionName
 #: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases together.
 MAX_RELATIONS, MAX_NODES, MAX_TOGETHER = 200, 200, 16
 LARGER = "over the complex numbers the set has a part of larger dimension, and it was not decided what of it is real"
+NO_CASE = "no configuration satisfies the relations together: each case ends in a relation that holds nowhere"
 NEAR = "the freedom is that of the part of the configuration space near the witness: a larger part was not excluded"
 
 
@@ -103,6 +104,25 @@ def _is_regular(chart: Chart, found: Variety) -> bool:
     """Have the relations as large a rank there as the dimension says?"""
     rank = None if not found.samples else rank_of_rows(field_jacobian(chart, found.samples[0]), found.samples[0].p)
     return rank is not None and found.dimension == chart.coordinates - rank
+
+
+def by_cases(chart: Chart, found: Variety, look: Callable[[Chart], Variety]) -> Variety:
+    """What is known of a set on which no point was found: the first case with points, or that no case has any."""
+    if not 1 < len(chart.relations) <= MAX_RELATIONS:
+        return found
+    given, left = explicit_relations(chart.relations)
+    cases = [_cases(part, chart) for part in parts_of(left, [s for s in chart.symbols if s != ex.TIME])]
+    if [] in cases:
+        return Variety(False, None, "proved", reasons=[NO_CASE], argument="cases")
+    if None in cases:
+        return found
+    together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
+    for choice in together[:MAX_TOGETHER] if len(together) > 1 else ():
+        seen = _found(chart, [*given, *(g for case in choice for g in case.relations)], look)
+        samples = [p for p in seen.samples if on_variety(chart, p)]
+        if seen.consistent and samples:
+            return replace(seen, samples=samples)
+    return found
 
 
 def _by(found: Variety, argument: ArgumentKey) -> Variety:

@@ -8,9 +8,10 @@ agree the rank stands. A real point makes sure that there is a real configuratio
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.components import of_largest_part
+from dofkit.configuration.components import by_cases, of_largest_part
 from dofkit.configuration.generic_dimension import variety_at
 from dofkit.configuration.generic_points import on_variety, pose_samples, samples_for
 from dofkit.configuration.reality import near_singular_point, real_point
@@ -40,7 +41,10 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     looked = {"field", "balls"} <= chart.engines and found.consistent is not True and found.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
-    return of_largest_part(chart, found, lambda part: _variety(part, {}, seed))
+    look = partial(_variety, pose={}, seed=seed)
+    if found.consistent is None and found.dimension is None and "field" in chart.engines:
+        found = by_cases(chart, found, look)
+    return of_largest_part(chart, found, look)
 
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
@@ -87,6 +91,9 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
         return Variety(False, None, "probable", reasons=[why], argument="number left over")
     if not solver.plan.contradictory or _signed(chart.ring, solver.plan.witness):
         return None
+    if solver.plan.divided:
+        why = "eliminating the unknowns leaves a number that should be 0 and is not, but divides by what may be 0"
+        return Variety(None, None, "undecided", reasons=[why])
     if "balls" in chart.engines:
         certain = excludes_zero(chart.ring, solver.plan.witness, chart.positive)
     else:

@@ -7,7 +7,9 @@ from typing import Any
 import pytest
 
 import dofkit
+from dofkit.classification.study import study
 from dofkit.exact.points.field import prime_for
+from dofkit.scene.lowering import lower
 
 H = {"h": ["s"]}
 QUINTIC = "x^5 + 5*x^4*y + 10*x^3*y^2 + 10*x^2*y^3 + 5*x*y^4 + y^5"
@@ -417,3 +419,43 @@ def test_redundancy_that_is_not_decided_is_not_called_none() -> None:
     report = dofkit.classify(scene("x y", "dy = y^2 dx", "abs(y) = y"))
     assert report.redundant is None
     assert report.verdict == "undecided"
+
+
+def test_of_what_follows_only_with_what_is_written_later_less_is_told() -> None:
+    """DF before the cranks does not follow from DE and EF; that it can go is known, and of which equation it is not."""
+    report = dofkit.classify(cranks("DE", "EF", "DF", "AD", "BE", "CF"))
+    assert (report.dof, report.redundant_equations) == (1, 1)
+    assert len(report.redundant or ()) == 1
+    entry = report.constraints[5]
+    assert entry.independent in (1, None)
+    assert entry.circuit is None
+
+
+#: Sets on which an equation's row depends on others, though it does not follow from those before it; (dof, redundant).
+BRANCHED = [
+    (scene("x z", "x z = 0", "z = 0"), (1, ["c1"])),
+    (scene("x y z", "y = 1", "y = x^2", "x y = x^2", "y = x z"), (0, ["c2"])),
+]
+
+
+@pytest.mark.parametrize(("made", "truth"), BRANCHED)
+def test_independent_equations_are_as_many_as_take_freedom_away(
+    made: dict[str, Any], truth: tuple[int, list[str]]
+) -> None:
+    report = dofkit.classify(made)
+    assert (report.dof, report.redundant) == truth
+    assert sum(e.independent or 0 for e in report.constraints) == len(made["coordinates"]) - truth[0]
+    assert sum(group.nullity for group in report.redundancies) == report.redundant_equations == 1
+
+
+#: What can go, and of which points that is told.
+SCOPES = [
+    (scene("x y", "x = y", "x^2 = y^2"), "everywhere"),
+    (scene("x y", "x = y", "2 x = 2 y", configuration={"x": 1, "y": 1}), "everywhere"),
+    (cranks("AD", "BE", "CF", "DE", "EF", "DF"), "reference"),
+]
+
+
+@pytest.mark.parametrize(("made", "about"), SCOPES, ids=["branches", "a copy", "a drawing"])
+def test_it_is_known_of_which_points_redundancy_is_told(made: dict[str, Any], about: str) -> None:
+    assert study(lower(dofkit.load(made))).dependence.about == about

@@ -104,7 +104,9 @@ def analyse(parts: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redunda
     open_ = set[int]().union(*(b.open for b in bases))
     known = [owner for owner in redundant if owner not in open_]
     circuits = {owner: _circuit(parts, order, owner, bases, rows_of[owner] == 1) for owner in known}
-    return Redundancies(independent, sorted(redundant), groups, circuits, equations=_equations(parts, bases))
+    uncounted = tuple(sorted(set[int]().union(*(b.uncounted for b in bases))))
+    equations = {o: e for o, e in _equations(parts, bases).items() if o not in uncounted}
+    return Redundancies(independent, sorted(redundant), groups, circuits, equations=equations, uncounted=uncounted)
 
 
 def _equations(parts: Sequence[OwnedRows], bases: Sequence[_Basis]) -> dict[int, tuple[int, ...]]:
@@ -128,24 +130,30 @@ class _Basis:
         self.owners = rows.owners
         known = self._by_elimination(rows) if rows.supports is None else self._known(rows, rows.supports)
         self.pivots, self.supports = known
-        #: Constraints of which it is not known what they follow from.
+        #: Constraints of which it is not known what they follow from, or how many equations from those before.
         self.open: set[int] = set()
+        self.uncounted: set[int] = set()
         self.implication = rows.implication
         if rows.implication is not None:
-            self._enlarge(SufficientSets(rows.implication, rows.owners, self.pivots))
+            self._enlarge(SufficientSets(rows.implication, rows.owners, self.pivots), rows.finite)
         self.pivot_owners = {self.owners[i] for i in self.pivots}
         self.circuits: dict[int, set[int]] = {}
         for i, support in self.supports.items():
             self.circuits.setdefault(self.owners[i], set()).update(self.owners[j] for j in support)
 
-    def _enlarge(self, sets: SufficientSets) -> None:
-        """Every support made large enough to imply its row."""
+    def _enlarge(self, sets: SufficientSets, finite: Sequence[bool]) -> None:
+        """Every support made large enough to imply its row.
+
+        Where it takes what was written later, the row does not follow from those before it, but maybe a later one does.
+        """
         for i, support in self.supports.items():
             found = sets.enough(i, support)
             if found is None:
                 self.open.add(self.owners[i])
             else:
                 self.supports[i] = found
+                later = {o for k in found if (o := self.owners[k]) > self.owners[i] and finite[k] == finite[i]}
+                self.uncounted |= {self.owners[i], *later} if later else set()
 
     def implies(self, kept: set[int], owner: int) -> bool:
         """Do the rows of some constraints that others depend on imply those of another one?"""

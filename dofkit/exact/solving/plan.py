@@ -36,7 +36,8 @@ class Plan:
 
     ``contradictory``: elimination left a relation between no unknowns that does not hold.
     ``witness`` is that relation. ``special``: it left one between parameters only, which holds for special values.
-    ``stuck``: relations were left that cannot be solved one unknown at a time.
+    ``stuck``: relations were left that cannot be solved one unknown at a time. ``divided``: by a coefficient that may
+    be 0 where the relations hold, so that nothing is said of what holds there.
     """
 
     steps: list[tuple[int, Unit]] = field(default_factory=list)
@@ -45,6 +46,7 @@ class Plan:
     special: bool = False
     witness: int = -1
     stuck: bool = False
+    divided: bool = False
 
 
 class Degrees:
@@ -240,6 +242,7 @@ class Planner:
         if not choices:
             return None
         _, _, node, unit = min(choices)
+        self.plan.divided = self.plan.divided or self._may_be_zero(self._slope(node, unit))
         solution = self._solution(node, unit)
         others = [
             self.ring.replaced(other, {unit[1]: solution}) if unit in units_in(self.ring, other) else other
@@ -248,6 +251,16 @@ class Planner:
         ]
         others = [other for other in others if not self._vanishes(other)]
         return None if len(self.ring.code) > MAX_CODE else (node, unit, others)
+
+    def _slope(self, node: int, unit: Unit) -> int:
+        """The coefficient of an unknown in a relation that is linear in it."""
+        zero, one = (self.ring.emit(NUM, n) for n in (ZERO, ONE))
+        at_zero, at_one = (self.ring.replaced(node, {unit[1]: n}) for n in (zero, one))
+        return self.ring.emit(ADD, (at_one, self.ring.negative(at_zero)))
+
+    def _may_be_zero(self, node: int) -> bool:
+        """Does a coefficient hold unknowns, so that it may vanish where the relations hold?"""
+        return any(self.degrees.degree(node, u) and not self._is_parameter(u) for u in units_in(self.ring, node))
 
     def _solution(self, node: int, unit: Unit) -> int:
         """What an unknown is where a relation, linear in it, vanishes."""
