@@ -11,8 +11,11 @@ from dataclasses import dataclass, field
 from .findings import fails_alike, faults, kept, outcome
 from .registry import KINDS, OPEN
 from .running import answered_apart
-from .shrinking import length, shrunk
+from .shrinking import TRIES, length, shrunk
 from .trial import Trial, any_trial, made
+
+#: Cases that are tried at most to shrink one whose time was overrun: each may take as long.
+LATE_TRIES = 6
 
 
 @dataclass
@@ -53,7 +56,8 @@ class Hunt:
         self._shrink(trial, fields)
 
     def _shrink(self, trial: Trial, fields: frozenset[str]) -> None:
-        least = shrunk(trial, lambda other: fails_alike(other, fields, self.seconds))
+        tries = LATE_TRIES if "late" in fields else TRIES
+        least = shrunk(trial, lambda other: fails_alike(other, fields, self.seconds), tries)
         case = made(least)
         told = faults(case, answered_apart(case.scene, self.seconds))
         where = f", kept in {kept(least, told).name}" if self.write else ""

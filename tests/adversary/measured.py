@@ -8,7 +8,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from .case import Case, Scene, Truth
+from .case import Case, Scene, Truth, at
 from .circuits import bricard, dixon, parallel_cranks
 from .draws import decimal
 
@@ -54,18 +54,26 @@ def alone(rng: random.Random, size: int) -> Case:
 
 def attached(rng: random.Random, size: int) -> Case:
     """The same with a form dr = x_P dq on two more coordinates, or r = x_P + q^2: the first adds 2 freedoms and 1
-    velocity, and is non-holonomic where x_P moves; the second adds 1 and 1."""
+    velocity, and is non-holonomic where x_P moves; the second adds 1 and 1. Without a reference for q and r the
+    drawing is none for all: other assemblies of the same lengths, which are rigid, are parts of the set too."""
     case, digits = _exact(rng, size), rng.randint(5, 9)
-    scene = rounded(case.scene, digits)
-    moving = scene["particles"][-1]["name"]
-    known = _counted(case.truth)
-    if rng.random() < 0.6:
-        scene, more = _with(scene, ["q", "r"], [f"rdot = x_{moving}*qdot"]), (2, 1)
-        known["holonomic"] = False
-    else:
-        scene, more = _with(scene, ["q", "r"], [f"r = x_{moving} + q^2"]), (1, 1)
-    known["dof"], known["velocity_dof"] = known["dof"] + more[0], known["velocity_dof"] + more[1]
-    return Case(scene, known)
+    scene = rounded(case.scene, digits) if rng.random() < 0.8 else case.scene
+    point, formed = scene["particles"][-1], rng.random() < 0.6
+    text = f"rdot = x_{point['name']}*qdot" if formed else f"r = x_{point['name']} + q^2"
+    scene = _with(scene, ["q", "r"], [text])
+    counted, rigid = _counted(case.truth), case.truth["dof"] - 1
+    known = counted | _freedoms(case.truth["dof"], formed)
+    if rng.random() < 0.5:
+        return Case({**scene, "configuration": at({"q": 0, "r": point["at"][0]})}, known)
+    elsewhere = {key: [value] for key, value in _freedoms(rigid, formed).items()} | {"redundant_equations": [0]}
+    return Case(scene, known, elsewhere)
+
+
+def _freedoms(moving: int, formed: bool) -> dict[str, Any]:
+    """With the form, or the relation, beside a drawing of so many freedoms."""
+    if formed and moving:
+        return {"dof": moving + 2, "velocity_dof": moving + 1, "holonomic": False}
+    return {"dof": moving + 1, "velocity_dof": moving + 1, "holonomic": True}
 
 
 def unmeasured(rng: random.Random, size: int) -> Case:

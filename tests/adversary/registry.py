@@ -86,6 +86,10 @@ OPEN: Mapping[str, str] = {
     "regions/sided": _REGION,
     "vanishing/followed": _CIRCUIT,
     "vanishing/on-a-curve": _CIRCUIT,
+    "identities-vanishing-e91f448d.json": "two writings of a sum of powers are expanded differently and drawn apart",
+    "primes-solved-17fd7e82.json": "a point far away is taken for a solution though its residue is large",
+    "times-cancelled-311f4784.json": "a positive factor of several coordinates is not seen to be positive",
+    "times-homogeneous-8be442f4.json": "the time allowed is not looked at while a large power is expanded",
 }
 
 

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from functools import cache
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import dofkit
@@ -37,7 +38,8 @@ def answered(scene: Scene, seconds: float = SECONDS) -> Answer:
     except dofkit.SceneError as error:
         return Answer("refused", None, str(error))
     except Exception as error:
-        return Answer("failed", None, "".join(traceback.format_exception(error)[-3:]).strip())
+        where = traceback.extract_tb(error.__traceback__)[-1]
+        return Answer("failed", None, f"{type(error).__name__}: {error} ({Path(where.filename).stem}.{where.name})")
 
 
 def answered_apart(scene: Scene, seconds: float = SECONDS) -> Answer:
