@@ -18,8 +18,8 @@ class Setting:
 
     ``grows``: the growth vector; ``flag``: the derived flag.
     ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
-    that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the
-    constraints that weld.
+    that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the constraints that weld;
+    ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``.
     """
 
     positive: frozenset[Expr]
@@ -37,3 +37,4 @@ class Setting:
     links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)
     reductions: Reductions = ALL
     welds: frozenset[int] = frozenset()
+    geometric: frozenset[int] = frozenset()

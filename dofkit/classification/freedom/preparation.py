@@ -36,6 +36,7 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         links=_links(system),
         reductions=reductions,
         welds=frozenset(i for i, c in enumerate(system.constraints) if c.facts.welded),
+        geometric=frozenset(i for i, c in enumerate(system.constraints) if not c.facts.written or c.facts.contact),
     )
     return reduced, setting
 

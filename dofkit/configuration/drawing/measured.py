@@ -39,6 +39,7 @@ CLOSE, LEVER = 2.0, 30.0
 WAYS = 3
 
 FOLLOWED = "the motion was followed for a finite step within the tolerance"
+MISSED = "the relations do not hold at the measured drawing within the tolerance, and it says nothing elsewhere"
 OPEN = "some of the motions to first order are no finite motions; which was not decided"
 
 
@@ -75,7 +76,9 @@ def measure(
     n = chart.coordinates
     if not chart.nodes:
         return Measured(n, n, [], (), float("inf"), "")
-    _, timed = relations.system(at)
+    f, timed = relations.system(at)
+    if float(np.max(np.abs(f))) > tolerance * SLACK:
+        return Measured(None, None, [], (), float("inf"), MISSED)
     j = timed[:, :n]
     singular = np.linalg.svd(j, compute_uv=False)
     rank = int(np.sum(singular > tolerance * SLACK))

@@ -91,12 +91,13 @@ class MeasuredRelations:
         """The place a step away, in scaled coordinates."""
         found = dict(at)
         for s, d, scale in zip(self.symbols, step, self.scale, strict=True):
-            found[s] = found[s] + float(d) * float(scale)
+            found[s] = found.get(s, 0.0) + float(d) * float(scale)
         return found
 
     def between(self, start: Place, end: Place) -> Any:
         """The way from one place to another, in scaled coordinates."""
-        return np.array([(end[s] - start[s]) / k for s, k in zip(self.symbols, self.scale, strict=True)])
+        ways = [end.get(s, 0.0) - start.get(s, 0.0) for s in self.symbols]
+        return np.array(ways) / self.scale
 
 
 @dataclass(frozen=True)
