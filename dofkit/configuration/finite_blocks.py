@@ -133,7 +133,7 @@ def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answ
     """Measured geometry: the rank within the tolerance."""
     if "balls" not in setting.engines:
         return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
-    told = measure(chart, _floats(found), setting.roles, float(setting.tolerance or 0), setting.size, found.rigid)
+    told = measure(chart, _floats(found), setting, found.rigid)
     result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
     result.method = "singular values within the tolerance at the given configuration"
     result.instantaneous = told.instantaneous

@@ -108,7 +108,7 @@ def _tangents(block: Block, setting: Setting, dimension: int) -> _Tangents | Non
     at = None if drawing is None else measured_place(chart, drawing)
     if at is None:
         return None
-    relations = MeasuredRelations(chart, setting.roles, setting.size, at)
+    relations = MeasuredRelations(chart, setting, at)
     j = relations.system(at)[1]
     _, singular, right = np.linalg.svd(j)
     rank = len(block.coordinates) - dimension
