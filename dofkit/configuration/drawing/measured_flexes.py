@@ -21,7 +21,6 @@ from dofkit.configuration.local.quadratic_cone import (
     MAX_CUTS,
     definite_combination,
     macaulay_matrix,
-    signature_of,
 )
 
 #: Second derivatives are differences over so short a way, and right to within this part.
@@ -68,13 +67,20 @@ class StressForms:
 
     @property
     def change_sign(self) -> bool:
-        """Is it one form, with squares of both signs?"""
-        return len(self.forms) == 1 and all(signature_of(self.balls[0]))
+        """Is it one form, with squares of both signs? No eigenvalue changes by more than the noise."""
+        if len(self.forms) != 1:
+            return False
+        values = np.linalg.eigvalsh(self.forms[0])
+        return bool(values[0] < -self.noise and values[-1] > self.noise)
 
     @property
     def definite(self) -> bool:
         """Is a combination of them definite?"""
-        return self.ways > 0 and definite_combination(self.balls, self.ways)
+        if any(
+            np.all(values > self.noise) or np.all(values < -self.noise) for values in np.linalg.eigvalsh(self.forms)
+        ):
+            return True
+        return definite_combination(self.balls, self.ways)
 
     @cached_property
     def cone(self) -> int:
