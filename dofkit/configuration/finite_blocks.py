@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 
 from dofkit.configuration.drawing.at_reference import AtReference, at_reference, ball_matrix
-from dofkit.configuration.drawing.measured import measure
+from dofkit.configuration.drawing.measured import MISSED, measure
+from dofkit.configuration.drawing.measured_blocks import drawing_of_block, is_measured, is_tree
 from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
@@ -31,19 +32,29 @@ OFF_REFERENCE = (
     "the reference configuration does not satisfy all finite relations: the answer is for configurations that do, "
     "and nothing is said of the reference itself"
 )
+#: Measured numbers are not exact: away from where they were measured they prove nothing.
+NOT_DRAWN = "with a tolerance geometry is right near its drawing only, and not everything here is drawn"
 ONE_MOMENT = "at the reference configuration the relations hold at this moment only: no motion passes through it"
 
 
 def finite_answer(block: Block, setting: Setting) -> Answer:
     """The answer to a block of finite relations, at the reference where it satisfies them and else generically."""
     chart = make_chart(block, setting)
-    result = _finite_answer(chart, setting)
+    measured = is_measured(block, setting)
+    result = _within_tolerance(block, chart, setting) if measured else _finite_answer(chart, setting)
     result.doubt = doubt(chart.ring)
     return result
 
 
-#: Measured numbers are not exact: away from where they were measured they prove nothing.
-MEASURED_OFF = "the relations do not hold at the measured drawing within the tolerance, and it says nothing elsewhere"
+def _within_tolerance(block: Block, chart: Chart, setting: Setting) -> Answer:
+    """The answer where geometry is measured; generically where that cannot matter, as in a tree that is not drawn."""
+    drawing = drawing_of_block(chart, setting)
+    if drawing is None and is_tree(block, setting):
+        return _finite_answer(chart, setting)
+    found = None if drawing is None else at_reference(chart, drawing, exact=False)
+    if found is None:
+        return Answer(None, verdict="undecided", reasons=[NOT_DRAWN])
+    return _measured_answer(chart, setting, found)
 
 
 def _finite_answer(chart: Chart, setting: Setting) -> Answer:
@@ -52,8 +63,6 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         if drawn is not None:
             drawn.about, drawn.witness = "reference", of_reference(chart.symbols, setting.reference)
             return drawn
-    if setting.tolerance is not None and _is_drawn(chart):
-        return Answer(None, verdict="undecided", reasons=[MEASURED_OFF])
     found = find(chart, setting.pose)
     result = Answer(
         found.consistent, found.dimension, found.dimension, found.verdict, found.about, found.argument, gap=found.gap
@@ -72,12 +81,6 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         result.method = "real points with balls"
         _numeric_matrix(chart, found.real, result)
     return result
-
-
-def _is_drawn(chart: Chart) -> bool:
-    """Does a particle or a body take part, whose place was measured?"""
-    names = {str(s.args[1]) for s in chart.symbols if s != ex.TIME}
-    return any(c.owner is not None and c.name in names for c in chart.roles)
 
 
 def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
@@ -105,11 +108,9 @@ def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
 
 def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]) -> Answer | None:
     """At the reference configuration; None where the relations do not hold there."""
-    found = at_reference(chart, reference, exact=setting.tolerance is None)
+    found = at_reference(chart, reference)
     if found is None:
         return None
-    if setting.tolerance is not None:
-        return _measured_answer(chart, setting, found)
     result = Answer(True, found.local.dimension, found.local.dimension, found.local.verdict)
     result.argument, result.bits = found.local.argument, error_bits(chart.ring, chart.nodes, len(chart.columns))
     result.method = "rank over GF(p) at the given configuration"
@@ -154,13 +155,12 @@ def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answ
     """Measured geometry: the rank within the tolerance."""
     if "balls" not in setting.engines:
         return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
-    at = {s: float(v.mid()) for s, v in found.ball.symbols.items()} if found.ball is not None else {}
-    told = measure(chart, at, setting.roles, float(setting.tolerance or 0), setting.size, found.rigid)
+    told = measure(chart, _floats(found), setting, found.rigid)
     result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
-    result.argument, result.gap = "singular values", told.gap
+    result.argument, result.gap, result.about = "singular values", told.gap, "reference"
     result.method = "singular values within the tolerance at the given configuration"
     result.instantaneous = told.instantaneous
-    if told.dimension is None and chart.time is not None:
+    if told.dimension is None and (chart.time is not None or told.reason == MISSED):
         result.consistent = None
     exact = "no singular value but 0 itself is taken for 0"
     gap = f"the gap between singular values is {told.gap:.1e}" if isfinite(told.gap) else exact
@@ -169,6 +169,16 @@ def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answ
     result.dependent = tuple(str(chart.symbols[c].args[1]) for c in told.columns)
     result.degenerate = told.dimension != told.instantaneous
     return result
+
+
+def measured_place(chart: Chart, drawing: Mapping[Expr, Expr]) -> dict[Expr, float] | None:
+    """The drawing in floating point; None where it has no values."""
+    found = at_reference(chart, drawing, exact=False)
+    return None if found is None or found.ball is None else _floats(found)
+
+
+def _floats(found: AtReference) -> dict[Expr, float]:
+    return {s: float(v.mid()) for s, v in found.ball.symbols.items()} if found.ball is not None else {}
 
 
 def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:

@@ -5,11 +5,25 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Literal, NamedTuple
 
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.expressions.tree import Expr
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.system import Coordinate, Distance
+
+
+class TurnedBody(NamedTuple):
+    """A body's coordinates: of its origin, which is drawn at ``start``, and its angles, ``initial`` as drawn.
+
+    ``chart``: how the angles turn it, as in `system.Rotation`; in the plane there is one angle.
+    """
+
+    places: tuple[str, ...]
+    angles: tuple[str, ...]
+    chart: Literal["plane", "gibbs", "euler"]
+    start: tuple[float, ...]
+    initial: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -18,8 +32,9 @@ class Setting:
 
     ``grows``: the growth vector; ``flag``: the derived flag.
     ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
-    that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the
-    constraints that weld.
+    that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the constraints that weld;
+    ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``; then ``bodies``
+    and the ``centre`` of all that is drawn are told too.
     """
 
     positive: frozenset[Expr]
@@ -37,3 +52,6 @@ class Setting:
     links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)
     reductions: Reductions = ALL
     welds: frozenset[int] = frozenset()
+    geometric: frozenset[int] = frozenset()
+    bodies: tuple[TurnedBody, ...] = ()
+    centre: tuple[float, ...] = ()

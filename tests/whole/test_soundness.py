@@ -213,20 +213,105 @@ def test_an_exact_form_with_arguments_in_two_writings_is_not_called_inexact() ->
     assert entry.exact or entry.verdict == "undecided"
 
 
-def test_a_measured_drawing_beside_a_form_is_open() -> None:
-    """Without the form the same drawing moves: three cranks, measured."""
-    places = {"A": (0, 0), "B": (1, 0), "C": (2, 0), "D": (0.333, 0.943), "E": (1.333, 0.943), "F": (2.3334, 0.9427)}
+# Measured geometry with everything else attached
+
+#: Three cranks, parallel and of one length within 1e-3: they move, and one link is redundant.
+CRANKS = {"A": (0, 0), "B": (1, 0), "C": (2, 0), "D": (0.333, 0.943), "E": (1.333, 0.943), "F": (2.3334, 0.9427)}
+
+
+def cranks(coordinates: str, *constraints: str, **more: Any) -> dict[str, Any]:
+    """The cranks, and more."""
     links = [{"type": "link", "between": [*pair]} for pair in ("AD", "BE", "CF", "DE", "EF", "DF")]
-    report = dofkit.classify(
-        {
-            "dimension": 2,
-            "tolerance": 1e-3,
-            "particles": [{"name": name, "at": [*at]} for name, at in places.items()],
-            "coordinates": ["q", "r"],
-            "constraints": [*({"type": "fixed", "point": p} for p in "ABC"), *links, "rdot = x_D*qdot"],
-        }
-    )
-    assert (report.dof, report.verdict) in ((3, "numeric"), (None, "undecided"))
+    return {
+        "dimension": 2,
+        "tolerance": 1e-3,
+        "particles": [{"name": name, "at": [*at]} for name, at in CRANKS.items()],
+        "coordinates": coordinates.split(),
+        "constraints": [*({"type": "fixed", "point": p} for p in "ABC"), *links, *constraints],
+        **more,
+    }
+
+
+@pytest.mark.parametrize(
+    ("made", "dof", "velocity_dof"),
+    [
+        (cranks(""), 1, 1),
+        # dr - x_D dq on the turn of the cranks, q and r: d of it is -dx_D dq, and x_D turns
+        (cranks("q r", "rdot = x_D*qdot"), 3, 2),
+        (cranks("q r", "rdot = x_D*qdot", configuration={"q": 0, "r": 0}), 3, 2),
+        # along the one motion of the cranks everything integrates
+        (cranks("r", "rdot = x_D*ydot_D"), 1, 1),
+    ],
+)
+def test_measured_cranks_with_a_form(made: dict[str, Any], dof: int, velocity_dof: int) -> None:
+    report = dofkit.classify(made)
+    assert (report.dof, report.velocity_dof, report.verdict) == (dof, velocity_dof, "numeric")
+    assert report.holonomic == (dof == velocity_dof)
+    assert report.redundant is not None
+    assert "c9" in report.redundant
+
+
+@pytest.mark.parametrize(
+    ("made", "truth"),
+    [
+        # x_E - x_D is 1 on the cranks' motion, 1.0004 - 1e-4 ... as measured: r - q is constant, dof 2
+        (cranks("q r", "rdot = (x_E - x_D)*qdot"), 2),
+        # q is free, r is constant: A stands still
+        (cranks("q r", "rdot = x_A*qdot"), 2),
+        (cranks("q r", "rdot = h(x_D)*qdot", functions=H), 3),
+        (cranks("u", "u = x_D^2"), 1),
+    ],
+)
+def test_what_the_tolerance_may_hide_is_open(made: dict[str, Any], truth: int) -> None:
+    report = dofkit.classify(made)
+    assert (report.dof, report.verdict) in ((truth, "numeric"), (None, "undecided"))
+
+
+@pytest.mark.parametrize(
+    ("made", "dof", "velocity_dof"),
+    [
+        (cranks("u v", "u = v^2"), 2, 2),
+        (cranks("u v", "u = v^2", configuration={"u": 1, "v": 1}), 2, 2),
+        (cranks("u v", "u^2 + v^2 = 1", "2*u^2 + 2*v^2 = 2"), 2, 2),
+        (cranks("u v w", "udot = v*wdot"), 4, 3),
+    ],
+)
+def test_equations_beside_measured_geometry_stay_proved_and_it_stays_measured(
+    made: dict[str, Any], dof: int, velocity_dof: int
+) -> None:
+    """Once it was put to exact arithmetic, and said to be rigid, where other coordinates were given no values."""
+    report = dofkit.classify(made)
+    assert (report.dof, report.velocity_dof, report.verdict) == (dof, velocity_dof, "numeric")
+    own = [e for e in report.constraints if e.type == "equation"]
+    assert {e.verdict for e in own} == {"proved"}
+
+
+def test_relations_that_a_measured_drawing_does_not_meet_are_open() -> None:
+    report = dofkit.classify(cranks("", "x_E = x_D + 2"))
+    assert (report.dof, report.verdict) == (None, "undecided")
+    assert dofkit.classify(cranks("", "x_E = x_D + 1")).dof == 1
+
+
+def test_what_no_measured_number_enters_is_proved() -> None:
+    ball = {"bodies": ["ball"], "parameters": ["R"], "constraints": ["z_ball = R"], "tolerance": 1e-6}
+    report = dofkit.classify(ball)
+    assert (report.dof, report.verdict) == (5, "proved")
+    pendulum = {"dimension": 2, "particles": ["A"], "tolerance": 1e-3}
+    link = {"type": "link", "between": [[0, 0], "A"], "length": "0.333"}
+    assert dofkit.classify({**pendulum, "constraints": [link]}).dof == 1
+
+
+def test_three_and_three_on_two_lines_measured() -> None:
+    """(sqrt(a^2 + c), 0) and (0, sqrt(b^2 - c)) keep all nine lengths."""
+    places = {"A": (1, 0), "B": (3, 0), "C": (-5, 0), "D": (0, 2), "E": (0, 4), "F": (0, -3)}
+    made = {
+        "dimension": 2,
+        "tolerance": 1e-6,
+        "particles": [{"name": name, "at": [*at]} for name, at in places.items()],
+        "constraints": [{"type": "link", "between": [a, b]} for a in "ABC" for b in "DEF"],
+    }
+    report = dofkit.classify(made)
+    assert (report.dof, report.verdict) == (4, "numeric")
 
 
 # Flat contacts among many coordinates

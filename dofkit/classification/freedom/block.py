@@ -9,6 +9,7 @@ from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.agreement import agreed, numeric
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.distance_geometry import lengths_unmet
+from dofkit.configuration.drawing.measured_blocks import is_measured
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import confirmed, eliminated
 from dofkit.configuration.search import find
@@ -23,6 +24,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.labels_by_balls import ball_labels
 from dofkit.integrability.labels_by_field import field_labels
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, span_at
+from dofkit.integrability.measured_forms import measured_answer
 from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.prolongation import confinements, prolong
@@ -37,8 +39,6 @@ MAX_ROUNDS = 12
 #: Branches of one hidden relation that are followed.
 MAX_HIDDEN_BRANCHES = 12
 MANY_BRANCHES = f"hidden relations have more than {MAX_HIDDEN_BRANCHES} branches: which is the largest is not known"
-#: Decimals that were measured are no exact numbers, to which a form would have to be put.
-MEASURED_BESIDE = "measured relations stand beside differential ones: a tolerance is not carried through those"
 
 IRREGULAR = (
     "the reference is no regular point of the forms, and other configurations may lie on another part of the set that "
@@ -96,11 +96,12 @@ def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
 
 
 def _mixed_answer(block: Block, setting: Setting) -> Answer:
-    if setting.tolerance is not None and block.finite:
-        return Answer(None, verdict="undecided", reasons=[MEASURED_BESIDE])
+    if block.finite and is_measured(block, setting):
+        return measured_answer(block, setting)
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None:
         result.instantaneous, result.first_order_sure = first_order_freedom(block, setting, setting.reference)
+        result.verdict = weakest(result.verdict, "numeric" if is_measured(block, setting) else "proved")
     return result
 
 

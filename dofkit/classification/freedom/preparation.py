@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import chain, count
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.differentials import accelerations_of
+from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.accelerations import without_accelerations
 from dofkit.relations.normal.normal_form import Inequality, Normal, normalise, without_instants
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
-from dofkit.relations.setting import Setting
+from dofkit.relations.setting import Setting, TurnedBody
 from dofkit.system import System
 
 
@@ -36,8 +37,43 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         links=_links(system),
         reductions=reductions,
         welds=frozenset(i for i, c in enumerate(system.constraints) if c.facts.welded),
+        geometric=frozenset(i for i, c in enumerate(system.constraints) if not c.facts.written or c.facts.contact),
+        bodies=_turned(system) if system.tolerance else (),
+        centre=_centre(system) if system.tolerance else (),
     )
     return reduced, setting
+
+
+def _turned(system: System) -> tuple[TurnedBody, ...]:
+    """The bodies that turn, where they are drawn."""
+    roles = {body: [c for c in system.coordinates if c.owner == body] for body in system.bodies}
+    charts = {r.body: r for r in system.rotations}
+    found = []
+    for body, own in roles.items():
+        places = tuple(c.name for c in own if c.role in ("x", "y", "z"))
+        angles = tuple(c.name for c in own if c.role not in ("x", "y", "z"))
+        start = _numbers(system.starts.get(body, ()))
+        rotation = charts.get(body)
+        if rotation is None:
+            initial = _numbers([system.pose.get(ex.coordinate(name), ex.ZERO) for name in angles])
+        else:
+            initial = _numbers(rotation.initial)
+        if start is not None and initial is not None and angles:
+            chart = "plane" if rotation is None else rotation.chart
+            found.append(TurnedBody(places, angles, chart, start, initial))
+    return tuple(found)
+
+
+def _centre(system: System) -> tuple[float, ...]:
+    """The middle of the places at which constraints are drawn; () where there are none."""
+    drawn = [place for c in system.connections for place in (*c.places, *(p.at for p in c.points)) if place is not None]
+    numbers = [place for place in map(_numbers, drawn) if place is not None]
+    return tuple((min(xs) + max(xs)) / 2 for xs in zip(*numbers, strict=True))
+
+
+def _numbers(vector: Iterable[Expr]) -> tuple[float, ...] | None:
+    found = [approximate(e) for e in vector]
+    return tuple(x for x in found if x is not None) if None not in found else None
 
 
 def _links(system: System) -> dict[int, list[tuple[str, str]]]:

@@ -162,5 +162,5 @@ def _within_tolerance(chart: Chart, setting: Setting, known: Mapping[Expr, Expr]
         return None
     at = {s: float(v.mid()) for s, v in ball.symbols.items()}
     rigid = rigid_motions(chart, point)
-    told = measure(chart, at, setting.roles, float(setting.tolerance or 0), setting.size, rigid)
+    told = measure(chart, at, setting, rigid)
     return None if told.dimension is None else told.dimension == chart.coordinates - rank

@@ -9,7 +9,7 @@ the relations along it, excludes it beyond what the tolerance may hide. All else
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -30,7 +30,7 @@ from dofkit.configuration.drawing.measured_relations import (
 from dofkit.exact.matrices.singular_values import dependency_pattern, greedy_pivots
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
-from dofkit.system import Coordinate
+from dofkit.relations.setting import Setting
 
 #: From so many sizes from the origin singular values are smaller by the square of that, since turns are told about it;
 #: from `LEVER` sizes on no motion is followed.
@@ -39,6 +39,7 @@ CLOSE, LEVER = 2.0, 30.0
 WAYS = 3
 
 FOLLOWED = "the motion was followed for a finite step within the tolerance"
+MISSED = "the relations do not hold at the measured drawing within the tolerance, and it says nothing elsewhere"
 OPEN = "some of the motions to first order are no finite motions; which was not decided"
 
 
@@ -67,15 +68,15 @@ class Measured:
     reason: str
 
 
-def measure(
-    chart: Chart, at: Mapping[Expr, float], roles: Sequence[Coordinate], tolerance: float, size: float, rigid: int
-) -> Measured:
+def measure(chart: Chart, at: Mapping[Expr, float], setting: Setting, rigid: int) -> Measured:
     """The freedom at a measured configuration; ``rigid`` counts the motions of the whole."""
-    relations = MeasuredRelations(chart, roles, size, at)
+    relations, tolerance = MeasuredRelations(chart, setting, at), float(setting.tolerance or 0)
     n = chart.coordinates
     if not chart.nodes:
         return Measured(n, n, [], (), float("inf"), "")
-    _, timed = relations.system(at)
+    f, timed = relations.system(at)
+    if float(np.max(np.abs(f))) > tolerance * SLACK:
+        return Measured(None, None, [], (), float("inf"), MISSED)
     j = timed[:, :n]
     singular = np.linalg.svd(j, compute_uv=False)
     rank = int(np.sum(singular > tolerance * SLACK))

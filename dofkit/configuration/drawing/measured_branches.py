@@ -49,13 +49,13 @@ def branch_dimension(forms: StressForms) -> int:
 
 
 def _common_zero(forms: StressForms, start: Any) -> Any:
-    """A unit vector of the kernel near ``start`` on which no form is seen not to be 0; None where none is near."""
-    inside = forms.on(forms.kernel)
-    v = start / np.linalg.norm(start)
+    """A unit vector near one of the kernel on which no form is seen not to be 0; None where none is near."""
+    v = forms.kernel @ start
+    v = v / np.linalg.norm(v)
     for _ in range(ROUNDS):
-        slopes = inside @ v
+        slopes = forms.forms @ v
         if float(np.max(np.abs(slopes @ v))) <= forms.noise / 2:
-            return forms.kernel @ v
+            return v
         v = v + damped(np.vstack([2 * slopes, v]), np.append(slopes @ v, 0.0))
         v = v / np.linalg.norm(v)
     return None

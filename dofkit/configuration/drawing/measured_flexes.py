@@ -21,13 +21,14 @@ from dofkit.configuration.local.quadratic_cone import (
     MAX_CUTS,
     definite_combination,
     macaulay_matrix,
-    signature_of,
 )
 
 #: Second derivatives are differences over so short a way, and right to within this part.
 WAY, ROUGH = 1e-5, 1e-6
 #: How many changes of the size |J - J_0| / s a form may take: of its stress and of both its motions, and as many again.
 CHANGES = 6.0
+#: What is by so much less than the rest of a form is taken for 0: it would hardly be so small by chance.
+SLIGHT = 1e-2
 #: Random subspaces on which forms without a common zero are looked for.
 TRIES = 3
 
@@ -66,43 +67,63 @@ class StressForms:
 
     @property
     def change_sign(self) -> bool:
-        """Is it one form, with squares of both signs?"""
-        return len(self.forms) == 1 and all(signature_of(self.balls[0]))
+        """Is it one form, with squares of both signs? No eigenvalue changes by more than the noise."""
+        if len(self.forms) != 1:
+            return False
+        values = np.linalg.eigvalsh(self.forms[0])
+        return bool(values[0] < -self.noise and values[-1] > self.noise)
 
     @property
     def definite(self) -> bool:
         """Is a combination of them definite?"""
-        return self.ways > 0 and definite_combination(self.balls, self.ways)
+        if any(
+            np.all(values > self.noise) or np.all(values < -self.noise) for values in np.linalg.eigvalsh(self.forms)
+        ):
+            return True
+        return definite_combination(self.balls, self.ways)
 
     @cached_property
     def cone(self) -> int:
         """An upper bound of the dimension of their common zeros, across the motions of the whole."""
-        return _complex_bound(self.on(self.kernel), self.noise)
+        kernel, noise = self._kernel
+        return _complex_bound(self._on(kernel), noise)
 
-    def on(self, subspace: Any) -> Any:
-        """The forms on a subspace, whose basis are the columns."""
-        return np.einsum("ia,kij,jb->kab", subspace, self.forms, subspace)
+    @property
+    def kernel(self) -> Any:
+        """A subspace, by its basis as columns, near all real common zeros."""
+        return self._kernel[0]
 
     @cached_property
-    def kernel(self) -> Any:
-        """A subspace that holds all real common zeros: where a form is of one sign it is 0 on its kernel alone."""
-        kernel = np.eye(self.ways)
-        while True:
-            smaller = self._smaller(kernel)
-            if smaller is None:
-                return kernel
-            kernel = smaller
+    def _kernel(self) -> tuple[Any, float]:
+        """The kernels of forms of one sign, one within another, and the noise of all forms on the last.
 
-    def _smaller(self, kernel: Any) -> Any:
-        """The kernel of a combination that is of one sign on a subspace, within it; None where none is found."""
-        inside = self.on(kernel)
+        A form with values above s > 0 across a subspace, and between -e and e on it, is 0 within the angle
+        (2 e / s)^1/2 of the subspace only; there other forms differ by twice as much of their size.
+        """
+        kernel, noise = np.eye(self.ways), self.noise
+        while True:
+            smaller = self._smaller(kernel, noise)
+            if smaller is None:
+                return kernel, noise
+            kernel, angle = smaller
+            noise += 2 * angle * float(np.max(np.linalg.norm(self.forms, 2, axis=(1, 2))))
+
+    def _smaller(self, kernel: Any, noise: float) -> tuple[Any, float] | None:
+        """The kernel of a combination that is of one sign on a subspace, and the angle; None where none is found."""
+        inside = self._on(kernel)
         flat = inside.reshape(len(inside), -1)
         for weights in (*np.eye(len(inside)), *np.linalg.svd(flat)[0].T):
-            least, vectors = np.linalg.eigh(np.einsum("k,kab->ab", weights, inside))
-            noise = self.noise * float(np.sum(np.abs(weights)))
-            if np.sum(np.abs(least) > noise) and (np.all(least > -noise) or np.all(least < noise)):
-                return kernel @ vectors[:, np.abs(least) <= noise]
+            values, vectors = np.linalg.eigh(np.einsum("k,kab->ab", weights, inside))
+            hidden = noise * float(np.sum(np.abs(weights)))
+            small = np.abs(values) <= hidden
+            least = float(np.min(np.abs(values[~small]), initial=np.inf))
+            one_sign = np.all(values > -hidden) or np.all(values < hidden)
+            if not np.all(small) and one_sign and hidden < SLIGHT * least:
+                return kernel @ vectors[:, small], float(np.sqrt(2 * hidden / least))
         return None
+
+    def _on(self, subspace: Any) -> Any:
+        return np.einsum("ia,kij,jb->kab", subspace, self.forms, subspace)
 
 
 def _complex_bound(forms: Any, noise: float) -> int:

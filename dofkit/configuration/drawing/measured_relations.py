@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 
 from dofkit.base.deadline import check
+from dofkit.configuration.drawing.measured_frames import BodyFrame, frames_of, of_points, shifts, to_points
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
-from dofkit.system import Coordinate
+from dofkit.relations.setting import Setting
 
 #: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY nothing is decided.
 SLACK, GREY = 3.0, 30.0
@@ -33,13 +34,14 @@ class MeasuredRelations:
     Time, where it is a column, is the last, in such a unit that no relation changes faster by it than by a shift.
     """
 
-    def __init__(self, chart: Chart, roles: Sequence[Coordinate], size: float, at: Place) -> None:
+    def __init__(self, chart: Chart, setting: Setting, at: Place) -> None:
         self.chart = chart
-        lengths = {c.name for c in roles if c.role in ("x", "y", "z")}
+        lengths = {c.name for c in setting.roles if c.role in ("x", "y", "z")}
         self.symbols = list(chart.symbols)
+        self.frames = frames_of(setting.bodies, setting.centre, self.symbols)
         self.coordinates = chart.coordinates
         self.lengths = np.array([str(s.args[-1]) in lengths and s != ex.TIME for s in self.symbols], dtype=bool)
-        self.scale = np.where(self.lengths, size, 1.0)
+        self.scale = np.where(self.lengths, setting.size, 1.0)
         if chart.time is not None and chart.nodes:
             fastest = float(np.max(np.abs(self.system(at)[1][:, chart.time])))
             self.scale[chart.time] = 1 / fastest if fastest > 0 else 1.0
@@ -61,7 +63,7 @@ class MeasuredRelations:
         """Displacements of everything as one body, in scaled coordinates."""
         variables = self.chart.ring.vars
         fields = displacements_real(self.chart, lambda i: at.get(variables[i].key, 0.0) if i >= 0 else 0.0)
-        return fields / self.scale if fields.size else fields
+        return to_points(self.frames, fields, at, self.symbols) / self.scale if fields.size else fields
 
     def system(self, at: Place, norms: Any = None) -> tuple[Any, Any]:
         """(residuals as fractions of the size, Jacobian), rows by ``norms`` or by their own gradients."""
@@ -81,7 +83,8 @@ class MeasuredRelations:
         out = values(self.chart.ring, point)
         f = np.array([out[n] for n in self.chart.nodes], dtype=float)
         j = np.array(jacobian(self.chart.ring, out, point, self.chart.nodes, self.chart.columns, 0.0), dtype=float)
-        return f, j.reshape(len(f), len(self.symbols)) * self.scale
+        j = j.reshape(len(f), len(self.symbols))
+        return f, of_points(self.frames, j, at, self.symbols) * self.scale
 
     def _lengths(self, j: Any) -> Any:
         norms = np.linalg.norm(j[:, : self.coordinates], axis=1)
@@ -91,12 +94,23 @@ class MeasuredRelations:
         """The place a step away, in scaled coordinates."""
         found = dict(at)
         for s, d, scale in zip(self.symbols, step, self.scale, strict=True):
-            found[s] = found[s] + float(d) * float(scale)
+            found[s] = found.get(s, 0.0) + float(d) * float(scale)
+        for frame in self.frames:
+            for i, d in zip(frame.places, self._arm(frame, at) - self._arm(frame, found), strict=True):
+                found[self.symbols[i]] += float(d)
         return found
+
+    def _arm(self, frame: BodyFrame, at: Place) -> Any:
+        """From the body's origin to the point that it is told by."""
+        return shifts(frame, [at.get(self.symbols[i], 0.0) for i in frame.angles])[0]
 
     def between(self, start: Place, end: Place) -> Any:
         """The way from one place to another, in scaled coordinates."""
-        return np.array([(end[s] - start[s]) / k for s, k in zip(self.symbols, self.scale, strict=True)])
+        ways = [end.get(s, 0.0) - start.get(s, 0.0) for s in self.symbols]
+        found = np.array(ways)
+        for frame in self.frames:
+            found[frame.places] += self._arm(frame, end) - self._arm(frame, start)
+        return found / self.scale
 
 
 @dataclass(frozen=True)
