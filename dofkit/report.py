@@ -95,7 +95,7 @@ class ConstraintEntry(ToldModel):
     independent: int | None
     redundant_equations: list[str] | None = None
     verdict: Verdict
-    verdicts: dict[str, FieldVerdict]
+    verdicts: dict[str, FieldVerdict] = {}
     reason: str
 
 
@@ -216,7 +216,7 @@ class Report(ToldModel):
     forces: list[ForceEntry]
     special_cases: list[SpecialCase]
     verdict: Verdict
-    verdicts: dict[str, FieldVerdict]
+    verdicts: dict[str, FieldVerdict] = {}
     witness: dict[str, str] | None = None
     method: str
     modelled: str

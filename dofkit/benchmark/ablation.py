@@ -23,7 +23,17 @@ Mapped = dict[str, Any]
 #: Seconds after which no new part of an answer is begun; times below `BRIEF` are the least of `REPEATS`.
 SECONDS, BRIEF, REPEATS = 10.0, 0.3, 3
 #: What tells how an answer was found, and how sure it is, and not what it is; of coordinates, one choice of many.
-TOLD = ("verdict", "method", "modelled", "warnings", "reason", "generalized_coordinates")
+TOLD = (
+    "verdict",
+    "verdicts",
+    "witness",
+    "feasible_at",
+    "method",
+    "modelled",
+    "warnings",
+    "reason",
+    "generalized_coordinates",
+)
 #: What explains numbers: another sentence where one of them is open.
 SENTENCES = ("differs", "errs")
 #: What lists no more than was decided.

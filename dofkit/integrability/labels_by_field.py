@@ -124,7 +124,8 @@ def _set_freedom(known: SampledForms, result: Answer, setting: Setting) -> None:
     result.method = "Lie algebra along a curve over GF(p)"
     result.velocity_dof = forms.n - known.rank
     result.dof = forms.n - known.integrable
-    result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if setting.grows else None
+    asked = setting.grows and sampled.span.grows_at_once
+    result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if asked else None
     result.derived = derived_flag(forms.rows, sampled.frame, point, sampled.span) if setting.flag else None
 
 
@@ -155,7 +156,7 @@ def certificate(known: SampledForms, found: Variety) -> Certificate | None:
         return known.sampled.span, known.sampled.matrix
     if known.columns > CERTIFIED_COLUMNS:
         return None
-    return ball_span(known.forms, known.rank, real.point)
+    return ball_span(known.forms, known.rank, real.point, found.about == "reference")
 
 
 def _rank_verdict(known: SampledForms, proof_of: Certificate | None, setting: Setting) -> Verdict:

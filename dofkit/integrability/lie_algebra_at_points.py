@@ -27,18 +27,20 @@ class SampledSpan:
     frame: Pivots
 
 
-def span_at(forms: Codistribution, point: FieldPoint) -> SampledSpan | None:
-    """The Lie algebra at a point over GF(p); None where a form has no value there."""
+def span_at(forms: Codistribution, point: FieldPoint, drawn: bool = False) -> SampledSpan | None:
+    """The Lie algebra at a point over GF(p); None where a form has no value there. ``drawn``: see `lie_span`."""
     try:
         zero = point.number(ex.ZERO.args[0])
         matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
         frame = field_frame(matrix, len(forms.chart.symbols), point.p)
-        return SampledSpan(lie_span(forms.rows, frame, point), matrix, frame)
+        return SampledSpan(lie_span(forms.rows, frame, point, drawn), matrix, frame)
     except NoValueError:
         return None
 
 
-def ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span, list[list[arb]]] | None:
+def ball_span(
+    forms: Codistribution, rank: int, point: BallPoint, drawn: bool = False
+) -> tuple[Span, list[list[arb]]] | None:
     """The Lie algebra with balls; None where the point is no regular one, or has another rank than over GF(p)."""
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
@@ -47,6 +49,6 @@ def ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span,
             return None
         free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(part.columns))
         point.rng.seed("dofkit curve")
-        return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point), matrix
+        return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point, drawn), matrix
     except NoValueError:
         return None

@@ -35,11 +35,17 @@ from dofkit.integrability.pfaffian_system import Codistribution
 ORDER = 8
 
 
-def on_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> list[FieldPoint]:
-    """The reference configuration (t = 0) over GF(p), once for each sample; none where a relation is not 0 there."""
-    known = {**reference, ex.TIME: ex.ZERO}
-    points = [pose_point(forms.chart, known, 11 + k) for k in range(SAMPLES)]
-    found = [p for p in points if p is not None and on_variety(forms.chart, p)]
+def on_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> list[FieldPoint] | None:
+    """The reference configuration (t = 0) over GF(p), once for each sample; none where a relation is not 0 there.
+
+    None where it has no point over GF(p): numbers there may be related in a way that is not known.
+    """
+    place = {**reference, ex.TIME: ex.ZERO}
+    points = [pose_point(forms.chart, place, 11 + k) for k in range(SAMPLES)]
+    known = [p for p in points if p is not None]
+    if len(known) < SAMPLES:
+        return None
+    found = [p for p in known if on_variety(forms.chart, p)]
     return found if len(found) == SAMPLES else []
 
 

@@ -407,7 +407,7 @@ def test_what_is_rigid_is_one_body() -> None:
         "constraints": [{"type": "link", "between": list(pair)} for pair in pairs],
     }
     report = dofkit.classify(dofkit.load(scene))
-    assert (report.dof, report.verdict, report.redundant) == (4, "proved", ["c6"])
+    assert (report.dof, report.verdicts["dof"].verdict, report.redundant) == (4, "proved", ["c6"])
     assert "1 dependent set taken for one rigid body" in report.modelled
     assert "3 of 9 relations are in no dependent set" in report.modelled
 

@@ -219,7 +219,7 @@ def test_an_exact_form_with_arguments_in_two_writings_is_not_called_inexact() ->
 CRANKS = {"A": (0, 0), "B": (1, 0), "C": (2, 0), "D": (0.333, 0.943), "E": (1.333, 0.943), "F": (2.3334, 0.9427)}
 
 
-def cranks(coordinates: str, *constraints: str, **more: Any) -> dict[str, Any]:
+def three_cranks(coordinates: str, *constraints: str, **more: Any) -> dict[str, Any]:
     """The cranks, and more."""
     links = [{"type": "link", "between": [*pair]} for pair in ("AD", "BE", "CF", "DE", "EF", "DF")]
     return {
@@ -235,12 +235,12 @@ def cranks(coordinates: str, *constraints: str, **more: Any) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("made", "dof", "velocity_dof"),
     [
-        (cranks(""), 1, 1),
+        (three_cranks(""), 1, 1),
         # dr - x_D dq on the turn of the cranks, q and r: d of it is -dx_D dq, and x_D turns
-        (cranks("q r", "rdot = x_D*qdot"), 3, 2),
-        (cranks("q r", "rdot = x_D*qdot", configuration={"q": 0, "r": 0}), 3, 2),
+        (three_cranks("q r", "rdot = x_D*qdot"), 3, 2),
+        (three_cranks("q r", "rdot = x_D*qdot", configuration={"q": 0, "r": 0}), 3, 2),
         # along the one motion of the cranks everything integrates
-        (cranks("r", "rdot = x_D*ydot_D"), 1, 1),
+        (three_cranks("r", "rdot = x_D*ydot_D"), 1, 1),
     ],
 )
 def test_measured_cranks_with_a_form(made: dict[str, Any], dof: int, velocity_dof: int) -> None:
@@ -255,11 +255,11 @@ def test_measured_cranks_with_a_form(made: dict[str, Any], dof: int, velocity_do
     ("made", "truth"),
     [
         # x_E - x_D is 1 on the cranks' motion, 1.0004 - 1e-4 ... as measured: r - q is constant, dof 2
-        (cranks("q r", "rdot = (x_E - x_D)*qdot"), 2),
+        (three_cranks("q r", "rdot = (x_E - x_D)*qdot"), 2),
         # q is free, r is constant: A stands still
-        (cranks("q r", "rdot = x_A*qdot"), 2),
-        (cranks("q r", "rdot = h(x_D)*qdot", functions=H), 3),
-        (cranks("u", "u = x_D^2"), 1),
+        (three_cranks("q r", "rdot = x_A*qdot"), 2),
+        (three_cranks("q r", "rdot = h(x_D)*qdot", functions=H), 3),
+        (three_cranks("u", "u = x_D^2"), 1),
     ],
 )
 def test_what_the_tolerance_may_hide_is_open(made: dict[str, Any], truth: int) -> None:
@@ -270,10 +270,10 @@ def test_what_the_tolerance_may_hide_is_open(made: dict[str, Any], truth: int) -
 @pytest.mark.parametrize(
     ("made", "dof", "velocity_dof"),
     [
-        (cranks("u v", "u = v^2"), 2, 2),
-        (cranks("u v", "u = v^2", configuration={"u": 1, "v": 1}), 2, 2),
-        (cranks("u v", "u^2 + v^2 = 1", "2*u^2 + 2*v^2 = 2"), 2, 2),
-        (cranks("u v w", "udot = v*wdot"), 4, 3),
+        (three_cranks("u v", "u = v^2"), 2, 2),
+        (three_cranks("u v", "u = v^2", configuration={"u": 1, "v": 1}), 2, 2),
+        (three_cranks("u v", "u^2 + v^2 = 1", "2*u^2 + 2*v^2 = 2"), 2, 2),
+        (three_cranks("u v w", "udot = v*wdot"), 4, 3),
     ],
 )
 def test_equations_beside_measured_geometry_stay_proved_and_it_stays_measured(
@@ -287,9 +287,9 @@ def test_equations_beside_measured_geometry_stay_proved_and_it_stays_measured(
 
 
 def test_relations_that_a_measured_drawing_does_not_meet_are_open() -> None:
-    report = dofkit.classify(cranks("", "x_E = x_D + 2"))
+    report = dofkit.classify(three_cranks("", "x_E = x_D + 2"))
     assert (report.dof, report.verdict) == (None, "undecided")
-    assert dofkit.classify(cranks("", "x_E = x_D + 1")).dof == 1
+    assert dofkit.classify(three_cranks("", "x_E = x_D + 1")).dof == 1
 
 
 def test_what_no_measured_number_enters_is_proved() -> None:

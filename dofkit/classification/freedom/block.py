@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.agreement import agreed, numeric
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.distance_geometry import lengths_unmet
+from dofkit.configuration.drawing.at_reference import at_reference
 from dofkit.configuration.drawing.measured_blocks import is_measured
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import confirmed, eliminated
@@ -149,9 +150,19 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
     if "field" not in forms.chart.engines:
         return Variety(None, None, "undecided", reasons=[IRREGULAR])
     drawn = on_reference(forms, setting.reference)
+    if drawn is None:
+        return Variety(None, None, "undecided", reasons=[IRREGULAR])
+    if drawn and is_irreducible(forms.chart) and _as_large(forms, setting.reference):
+        return find(forms.chart, setting.pose)
     if not drawn:
         return replace(find(forms.chart, setting.pose), about="component")
     return regular_reference(forms, drawn, setting.reference) or Variety(None, None, "undecided", reasons=[IRREGULAR])
+
+
+def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
+    """Has an irreducible set its whole dimension near the reference too? Then its generic points are found there."""
+    here = at_reference(forms.chart, reference)
+    return here is not None and here.local.dimension == forms.n - forms.finite and here.local.verdict != "numeric"
 
 
 def _largest(a: Answer) -> tuple[int, int, int]:
@@ -184,7 +195,7 @@ def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Samp
     """The Lie algebra at every sample; at one, where it is all of the tangent space and nothing could raise it."""
     good = []
     for point in found.samples:
-        sampled = span_at(forms, point)
+        sampled = span_at(forms, point, found.about == "reference")
         if sampled is None:
             continue
         good.append((point, sampled))

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from itertools import combinations
 from typing import Any, Literal
 
-from flint import nmod_poly
+from flint import fmpq_mat, nmod_poly
 
 from dofkit.exact.errors import NoPointError, NoValueError
 from dofkit.exact.points.field import FieldPoint, field_point
+from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.instructions import VAR, Var, reachable
 from dofkit.exact.ring.program import value_of
 from dofkit.exact.ring.ring import Ring
@@ -18,6 +19,8 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 
 Doubt = Literal["numbers", "functions"]
+#: Entries of a matrix that tells whether arguments are independent.
+MOST_TERMS = 20_000
 INVERSE = ("asin", "atan", "atan2")
 
 
@@ -45,7 +48,31 @@ def independent_generators(ring: Ring) -> bool:
                 return False
         elif constant and var.kind in ("cos", "sin", "exp") and var.key[0] != ex.PI:
             return False
-    return roots < 2 and not ring.related
+    return roots < 2 and not ring.related and all(_independent_arguments(ring, kind) for kind in ("cos", "exp"))
+
+
+def _independent_arguments(ring: Ring, kind: str) -> bool:
+    """Are the arguments of all exponentials, or of all angles, linearly independent over Q modulo constants? [Ax1971].
+
+    They are put over one denominator L: then so are their numerators together with L. False where they grow too large.
+    """
+    moving = [v for v in ring.vars if v.kind == kind and ring.var_expr[v.index].symbols]
+    if len(moving) < 2 or all(isinstance(v.key[0], Expr) and v.key[0].op == "sym" for v in moving):
+        return True
+    canon = Canon(ring)
+    try:
+        pairs = [canon.quotient(v.args[0]) for v in moving]
+        below = canon.one
+        for _, bottom in pairs:
+            below = below * divided(bottom, below.gcd(bottom))
+        rows = [below, *(top * divided(below, bottom) for top, bottom in pairs)]
+    except NoValueError:
+        return False
+    terms = sorted({m for row in rows for m in row.to_dict()})
+    if len(rows) * len(terms) > MOST_TERMS:
+        return False
+    matrix = fmpq_mat([[row.to_dict().get(m, 0) for m in terms] for row in rows])
+    return bool(matrix.rref()[1] == len(rows))
 
 
 def _root_of_more(var: Var) -> bool:

@@ -65,10 +65,10 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
         u, below = canon.quotient(roots[0].args[0])
         if a == 0 or a * canon.gens[roots[0].index] + b != top:
             return None
-        norm = canon.reduce(a * a * u - b * b * below)
+        norm, sided = canon.reduce(a * a * u - b * b * below), canon.reduce(-a * b)
     except NoValueError:
         return None
-    return canon.to_expr(norm), DomainCondition(canon.to_expr(canon.reduce(-a * b)), ">=")
+    return canon.to_expr(norm), DomainCondition(canon.to_expr(sided), ">=")
 
 
 def _outside(ring: Ring, index: int) -> bool:
