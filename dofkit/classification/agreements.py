@@ -7,15 +7,14 @@ defect is logged.
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from dofkit.base.verdicts import OPEN
+from dofkit.relations.answer import DEFECTS
 from dofkit.report import ConstraintEntry, FieldVerdict, Redundancy
 
-LOGGER = logging.getLogger(__name__)
 #: The names under which the laws speak of a field of every entry.
 ENTRY = "constraints."
 INDEPENDENT, CIRCUIT, NAMED = f"{ENTRY}independent", f"{ENTRY}circuit", f"{ENTRY}redundant_equations"
@@ -214,7 +213,7 @@ def agreed(told: Values) -> dict[str, Any]:
     found = dict(told)
     for row in broken:
         names = ", ".join(row.fields) or "verdict"
-        LOGGER.error("defect in the report of %r: not true that %s (%s)", told.get("scene"), row.law, names)
+        DEFECTS.error("defect in the report of %r: not true that %s (%s)", told.get("scene"), row.law, names)
         found = _without(found, row)
     return found
 

@@ -162,7 +162,7 @@ def _growth(study: Study, free: Claim, growth: Sequence[int]) -> Claim:
     blocks = [
         (a.growth, a.trusted) for b, a in zip(study.outcome.blocks, study.outcome.answers, strict=True) if b.forms
     ]
-    if len(growth) <= 2:
+    if len(growth) == 1 or (len(growth) == 2 and all(trusted for _, trusted in blocks)):
         return _counted(free)
     if free.verdict == "proved" and all(trusted and own and is_free(own) for own, trusted in blocks):
         return replace(free, argument="free Lie algebra")

@@ -44,11 +44,15 @@ class ZeroCase:
 
 @dataclass(frozen=True)
 class BoundedCase:
-    """The relations of a case and a bound of the dimension of its points; ``counted``: the complex ones have it."""
+    """The relations of a case and a bound of the dimension of its points; ``counted``: the complex ones have it.
+
+    ``exact``: no parameters were given random numbers for that.
+    """
 
     relations: tuple[Expr, ...]
     most: int
     counted: bool
+    exact: bool = True
 
 
 def cases_of(
@@ -146,4 +150,6 @@ def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]
     whole = dimension_of(canon, [canon.quotient(node)[0] for node in nodes], moving)
     if whole is None:
         return BoundedCase(case.relations, most - 1, False)
-    return BoundedCase(case.relations, -1 if whole < 0 else most - len(moving) + whole, True)
+    known = {*unknowns}
+    exact = all(s in known for g in case.left for s in g.symbols)
+    return BoundedCase(case.relations, -1 if whole < 0 else most - len(moving) + whole, True, exact)

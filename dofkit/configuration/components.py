@@ -15,12 +15,13 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from itertools import product as cartesian
+from math import prod
 from typing import NamedTuple
 
 import networkx as nx
 
 from dofkit.base.deadline import check
-from dofkit.base.verdicts import ArgumentKey
+from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration.cases import BoundedCase, cases_of
 from dofkit.configuration.generic_points import field_jacobian, on_variety
 from dofkit.configuration.variety import Variety
@@ -35,8 +36,9 @@ from dofkit.relations.chart import Chart
 from dofkit.relations.normal.zero_set import never_vanishes
 from dofkit.relations.reductions import ReductionName
 
-#: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases together.
-MAX_RELATIONS, MAX_NODES, MAX_TOGETHER = 200, 200, 16
+#: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases of all parts
+#: together that are looked at, and that are listed.
+MAX_RELATIONS, MAX_NODES, MAX_TOGETHER, MAX_PRODUCTS = 200, 200, 16, 2000
 LARGER = "over the complex numbers the set has a part of larger dimension, and it was not decided what of it is real"
 NO_CASE = "no configuration satisfies the relations together: each case ends in a relation that holds nowhere"
 NEAR = "the freedom is that of the part of the configuration space near the witness: a larger part was not excluded"
@@ -63,15 +65,15 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
     """What is known of the set, for its largest part; ``look`` finds generic points of the set of another chart."""
     if found.dimension is None or not found.consistent:
         return found
+    if _in_regions(chart) or len(chart.relations) > MAX_RELATIONS:
+        return _near(found)
     if len(chart.relations) < 2:
         least = chart.coordinates - len(chart.relations)
         return _by(found, "one relation") if found.dimension >= least else _near(found)
-    if len(chart.relations) > MAX_RELATIONS:
-        return _near(found)
     given, left = explicit_relations(chart.relations)
     parts = parts_of(left, [s for s in chart.symbols if s != ex.TIME])
     cases = [_cases(part, chart) for part in parts]
-    if None in cases:
+    if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
         return _near(found)
     loose = chart.coordinates - len(given) - sum(len(part.unknowns) for part in parts)
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
@@ -89,7 +91,12 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
             open_.append(all(case.counted for case in choice))
     if any(open_) and regular:
         return replace(best, dimension=None, verdict="undecided", reasons=[*best.reasons, LARGER])
-    return _near(best) if open_ else _by(best, "cases" if parts else "graph")
+    if open_:
+        return _near(best)
+    fibres = all(_is_fibre(part, chart.positive) for part in parts)
+    best = _by(best, "graph" if not parts else "generic fibre" if fibres else "cases")
+    exact = all(case.exact for c in cases for case in c or ())
+    return best if exact else replace(best, verdict=weakest(best.verdict, "probable"))
 
 
 def _found(chart: Chart, relations: Sequence[Expr], look: Callable[[Chart], Variety]) -> Variety:
@@ -113,8 +120,9 @@ def by_cases(chart: Chart, found: Variety, look: Callable[[Chart], Variety]) -> 
     given, left = explicit_relations(chart.relations)
     cases = [_cases(part, chart) for part in parts_of(left, [s for s in chart.symbols if s != ex.TIME])]
     if [] in cases:
-        return Variety(False, None, "proved", reasons=[NO_CASE], argument="cases")
-    if None in cases:
+        own = [g for g in left if any(s.args[0] == "parameter" for s in g.symbols)]
+        return Variety(False, None, "probable" if own else "proved", reasons=[NO_CASE], argument="cases")
+    if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
         return found
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
     for choice in together[:MAX_TOGETHER] if len(together) > 1 else ():

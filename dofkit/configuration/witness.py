@@ -22,7 +22,7 @@ Witness = Mapping[Expr, str]
 
 def of_real_point(chart: Chart, real: RealPoint | None) -> Witness | None:
     """Coordinates, time and named parameters at a point whose ball holds a true zero; None without one."""
-    if real is None or not real.certified or not real.consistent:
+    if real is None or not real.certified or not real.consistent or real.solved < real.rank:
         return None
     known = {s: v for s, v in real.point.symbols.items() if not str(s.args[-1]).startswith("_")}
     return {**dict.fromkeys(chart.symbols, "0"), **{s: _text(v) for s, v in known.items()}}

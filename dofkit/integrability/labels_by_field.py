@@ -99,7 +99,7 @@ def field_labels(
         result.verdict = "undecided"
         result.reasons.append("the functions that occur may be related in a way that points over GF(p) do not show")
         return
-    result.trusted = known.trusted and not forms.finite
+    result.trusted = known.trusted and (not forms.finite or found.about == "everywhere")
     _set_freedom(known, result, setting)
     if found.dimension is None or found.dimension != forms.n - known.rank_finite:
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True

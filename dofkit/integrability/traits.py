@@ -106,7 +106,7 @@ def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engin
         return False, "proved"
     if "field" not in engines:
         return (True, "numeric") if real is not None and real.certified else (None, "undecided")
-    return (False, "probable") if point is not None and real is not None else (None, "undecided")
+    return (False, "numeric") if point is not None and real is not None else (None, "undecided")
 
 
 def _moves(g: Expr, positive: frozenset[Expr]) -> bool:

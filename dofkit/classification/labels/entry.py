@@ -176,7 +176,8 @@ def _claims(
     ground = Ground(form, [t.answer for t in rows], [t.label for t in rows if t.label is not None])
     claims = claims_of_labels(ground, FoundLabels(values, verdicts, by_themselves))
     if evidence.independent is not None:
-        claims["independent"] = claim_of_dependence(ground, evidence.circuit, evidence.copied)
+        all_needed = evidence.circuit is None and evidence.independent >= len(rows)
+        claims["independent"] = claim_of_dependence(ground, all_needed, evidence.copied)
     if evidence.circuit is not None:
         claims["circuit"] = claims.get("independent", OPEN)
     return claims

@@ -62,12 +62,12 @@ def _argument(ground: Ground, found: FoundLabels, name: str, value: Any) -> Argu
     return "line field" if ground.labels and line else "in the integrable part"
 
 
-def claim_of_dependence(ground: Ground, circuit: Sequence[str] | None, copied: bool) -> Claim:
+def claim_of_dependence(ground: Ground, all_needed: bool, copied: bool) -> Claim:
     """How sure it is how many equations are independent of those before, and of what the others follow."""
     own = together(*(a.claim for a in ground.answers))
     if not ground.answers or copied:
         return Claim("proved", "identity")
-    if own.verdict == "undecided" or circuit is None:
+    if own.verdict == "undecided" or all_needed:
         return own
     if own.argument in ("links in general position", "exact elimination"):
         return own

@@ -11,25 +11,38 @@ from dofkit.exact.ring.ring import Ring
 PRIME, RELATIONS = 60, 30
 
 
+#: The degrees of a numerator and of a denominator.
+Degrees = tuple[int, int]
+
+
 def degree_bound(ring: Ring, nodes: Sequence[int]) -> int:
     """A bound of the degrees of numerators and denominators, in symbols and independent values of functions.
 
-    Of a sum or product that of all parts together; sines and cosines are of the second degree in the tangent of half
-    the angle, a root is the power of another root.
+    Sines and cosines are functions on a curve of the second degree, a root is the power of another root.
     """
-    most: dict[int, int] = {}
+    most: dict[int, Degrees] = {}
     for i in reversed(reachable(ring, nodes, through_generators=False)):
         op, payload = ring.code[i]
         if op == NUM:
-            most[i] = 0
+            most[i] = (0, 0)
         elif op == VAR:
             var = ring.vars[payload]
-            most[i] = 2 if var.kind in ("cos", "sin") else max(1, var.degree)
-        elif op in (ADD, MUL):
-            most[i] = sum(most[j] for j in payload)
+            most[i] = (2 if var.kind in ("cos", "sin") else max(1, var.degree), 0)
+        elif op == ADD:
+            most[i] = _of_sum([most[j] for j in payload])
+        elif op == MUL:
+            most[i] = (sum(most[j][0] for j in payload), sum(most[j][1] for j in payload))
         elif op == POW:
-            most[i] = most[payload[0]] * abs(payload[1])
-    return max((most[node] for node in nodes), default=0)
+            top, bottom = most[payload[0]]
+            k = abs(payload[1])
+            most[i] = (top * k, bottom * k) if payload[1] > 0 else (bottom * k, top * k)
+    return max((max(most[node]) for node in nodes), default=0)
+
+
+def _of_sum(parts: Sequence[Degrees]) -> Degrees:
+    """Over the product of all denominators."""
+    below = sum(bottom for _, bottom in parts)
+    return max(top + below - bottom for top, bottom in parts), below
 
 
 def error_bits(ring: Ring, nodes: Sequence[int], size: int) -> int:

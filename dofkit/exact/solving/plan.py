@@ -260,7 +260,13 @@ class Planner:
 
     def _may_be_zero(self, node: int) -> bool:
         """Does a coefficient hold unknowns, so that it may vanish where the relations hold?"""
-        return any(self.degrees.degree(node, u) and not self._is_parameter(u) for u in units_in(self.ring, node))
+        moving = [u for u in units_in(self.ring, node) if not self._is_parameter(u)]
+        try:
+            return self.degrees.probe is None or any(
+                univariate(self.ring, node, u, self.degrees.probe).degree() > 0 for u in moving
+            )
+        except NoValueError:
+            return True
 
     def _solution(self, node: int, unit: Unit) -> int:
         """What an unknown is where a relation, linear in it, vanishes."""
