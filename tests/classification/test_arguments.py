@@ -10,6 +10,7 @@ from typing import Any, get_args
 
 import pytest
 from pydantic import ValidationError
+from shared.known_scenes import SCENES, few
 
 import dofkit
 from dofkit.base.verdicts import VERDICTS, ArgumentKey, Claim, together, weakest
@@ -17,7 +18,6 @@ from dofkit.classification.arguments import TABLE
 from dofkit.relations.answer import Answer
 from dofkit.report import FieldVerdict
 
-SCENES = sorted(path for path in (Path(__file__).parents[1] / "scenes").rglob("*.yaml") if "bad" not in path.parts)
 THEOREMS = (Path(dofkit.__file__).parent / "THEOREMS.md").read_text(encoding="utf-8")
 
 
@@ -72,7 +72,7 @@ def test_errors_add_up() -> None:
     assert together(one, Claim("numeric", "singular values", gap=1e4)).bound == "1.0e+04"
 
 
-@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", few("verdicts", SCENES, 6), ids=lambda path: path.stem)
 def test_every_field_of_a_report_says_how_sure_it_is(path: Path, caplog: pytest.LogCaptureFixture) -> None:
     """The verdict of the whole is the weakest; chances are powers of 2; what speaks of the witness has one."""
     with caplog.at_level(logging.ERROR, "dofkit.defects"):

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
-from shared.known_scenes import SCENES, few, report_of, scene_of
+from shared.known_scenes import SCENES, VARIED, few, report_of, scene_of
 from typer.testing import CliRunner
 
 import dofkit
@@ -79,9 +79,9 @@ def disagreements(told: Report, auto: Report) -> list[str]:
     return found
 
 
-#: Every method on one scene in four, each on others; on all of them where they are swept.
+#: Every method on one scene in twenty, each on others; on all of them where they are swept.
 BY_EACH = [pytest.param(method, *case.values, marks=case.marks, id=f"{method}-{case.values[0].stem}")
-           for method in ALONE for case in few(method, SCENES, 4)]  # fmt: skip
+           for method in ALONE for case in few(method, VARIED, 20)]  # fmt: skip
 by_each = pytest.mark.parametrize(("method", "path"), BY_EACH)
 
 

@@ -316,7 +316,7 @@ def test_larger_graphs(seed: int, d: int) -> None:
 
 
 @pytest.mark.xdist_group("compiled")
-@pytest.mark.parametrize("d", [1, 2])
+@pytest.mark.parametrize("d", [1, pytest.param(2, marks=pytest.mark.sweep)])
 def test_compiled_loops_give_the_same(d: int, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba")
     lists = [middling(seed, d) for seed in range(25)]

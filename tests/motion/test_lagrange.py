@@ -440,6 +440,7 @@ def parse_rates(names: Names) -> dict[Expr, Expr]:
     return {acceleration(n): parse_expression(text, names) for n, text in found.items()}
 
 
+@pytest.mark.sweep
 def test_equations_too_long_to_read_keep_a_multiplier() -> None:
     """Every text can be read back: the grammar takes at most 2000 characters."""
     steep = scene(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import combinations
-from math import prod
+from math import gcd, prod
 from typing import Any
 
 from flint import fmpz_mat, nmod, nmod_poly
@@ -61,13 +61,19 @@ class Character:
         return self._root(others if own > 0 else 1 / others, abs(own))
 
     def _root(self, value: Any, degree: int) -> Any:
-        """A root of a value: any is as good as the others. Raises NoPointError where there is none."""
-        if degree == 1:
-            return value
-        roots = nmod_poly([-value, *([0] * (degree - 1)), 1], self.p).roots()
-        if not roots:
+        """A root of a value: any is as good as the others. Raises NoPointError where there is none (Euler's criterion).
+
+        The group of p - 1 elements is cyclic: with g = gcd(d, p - 1) the d-th powers are the g-th ones, and w^g = v
+        gives (w^e)^d = v where d e = g modulo p - 1.
+        """
+        order = self.p - 1
+        shared = gcd(degree, order)
+        if value ** (order // shared) != 1:
             raise NoPointError("an argument is a fraction of others, and there is no root")
-        return min((root for root, _ in roots), key=int)
+        least = value
+        if shared > 1:
+            least = min((w for w, _ in nmod_poly([-value, *([0] * (shared - 1)), 1], self.p).roots()), key=int)
+        return least ** pow(degree // shared, -1, order // shared)
 
     def _reduced(self, u: int) -> dict[int, int] | None:
         """A short integer relation among the arguments and ``u``, by Lenstra, Lenstra and Lovasz's reduction."""
