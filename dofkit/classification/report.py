@@ -25,7 +25,7 @@ def instantaneous_dof(study: Study) -> int | None:
     outcome = study.outcome
     if study.system.reference is None or outcome.consistent is not True or outcome.kinked:
         return None
-    if outcome.first_order is not None:
+    if outcome.crossing:
         return outcome.first_order
     parts = [a.instantaneous for a in outcome.answers]
     if any(p is None for p in parts):

@@ -108,6 +108,8 @@ def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engin
         known = point is not None and independent_generators(ring)
         return (False, "probable") if known else (None, "undecided")
     real = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive).search()
+    if real is None:
+        real = RealSearch(ring, [node], sorted(g.symbols, key=repr), positive).search()
     if real is not None and real.certified and not values(ring, real.point)[rate].contains(0):
         return False, "proved"
     if "field" not in engines:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -48,3 +49,46 @@ def test_beside_a_form_a_circle_is_told_by_what_changes_along_it(at: list[Any], 
     )
     assert report.dof == 3
     assert report.generalized_coordinates == [free, "q", "r"]
+
+
+@pytest.mark.parametrize("size", [1, 10**7, Fraction(1, 10**7)], ids=["1", "10^7", "10^-7"])
+def test_the_unit_of_length_means_nothing(size: Fraction) -> None:
+    """Lengths and angles are compared in units of their own: a crank, a rod and a slider, of any size."""
+    at = [[0, 0], [3, 4], [12, 4]]
+    (a, b, c) = ([str(x * size) for x in place] for place in at)
+    mechanism = {
+        "dimension": 2,
+        "bodies": ["crank", "rod", "slider"],
+        "constraints": [
+            {"type": "revolute", "between": ["ground", "crank"], "at": a},
+            {"type": "revolute", "between": ["crank", "rod"], "at": b},
+            {"type": "revolute", "between": ["rod", "slider"], "at": c},
+            {"type": "prismatic", "between": ["ground", "slider"], "axis": [1, 0]},
+            {"type": "link", "between": [{"on": "slider", "at": c}, "weight"]},
+        ],
+        "particles": [{"name": "weight", "at": [str(x * size) for x in (12, -6)]}],
+    }
+    report = dofkit.classify(mechanism)
+    assert report.dof == 2
+    assert report.generalized_coordinates == ["x_weight", "theta_crank"]
+
+
+def test_first_order_freedom_by_balls_is_told_at_a_reference_on_the_set_only() -> None:
+    for x, told in (("3/5", 2), ("4/5", None)):
+        scene = {
+            "coordinates": ["x", "y", "z", "w"],
+            "constraints": ["x + y = 1", "zdot = y wdot"],
+            "configuration": {"x": x, "y": "2/5", "z": 0, "w": 0},
+        }
+        assert dofkit.classify(scene, method="balls").instantaneous_dof == told
+
+
+@pytest.mark.parametrize("method", ["auto", "field", "balls"])
+def test_a_reference_on_no_branch_of_a_relation_has_no_first_order(method: Any) -> None:
+    for place, told in ((1, 1), (2, None)):
+        scene = {
+            "coordinates": ["x", "y", "z"],
+            "constraints": ["x^2 = 1", "zdot = y xdot"],
+            "configuration": {"x": place, "y": 0, "z": 0},
+        }
+        assert dofkit.classify(scene, method=method).instantaneous_dof == told

@@ -17,7 +17,11 @@ OPEN: dict[tuple[str, str], tuple[int, str]] = {
     ("rounded, with tolerance", "three on a rod, space"): (
         len(DIGITS),
         "measured lengths do not tell a straight rod from one that is bent by a little less than their root",
-    )
+    ),
+    ("rounded, with tolerance", "third crank longer, 3 digits"): (
+        2,
+        "three parallel cranks that move within a thousandth: they are not followed far enough to tell that from shaking",
+    ),
 }
 
 

@@ -12,7 +12,7 @@ from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import alike, retold
-from dofkit.classification.freedom.through_reference import through_reference
+from dofkit.classification.freedom.through_reference import passes, through_reference
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -37,7 +37,8 @@ class Outcome:
     """The blocks of one choice of branches and their answers.
 
     ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows; ``impossible``:
-    constraints that hold nowhere, ``unsettled``: inequalities of which that is not known.
+    constraints that hold nowhere, ``unsettled``: inequalities of which that is not known. ``crossing``: a relation has
+    several branches at the reference, or none there; then ``first_order`` is what its gradient allows.
     """
 
     rows: list[Row]
@@ -46,6 +47,7 @@ class Outcome:
     untouched: list[str]
     impossible: list[int] = field(default_factory=list)
     first_order: int | None = None
+    crossing: bool = False
     kinked: bool = False
     copies: dict[int, int] = field(default_factory=dict)
     reduced: tuple[RewrittenRow, ...] = ()
@@ -129,7 +131,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     best.copies = copied if outcomes else {}
     best.unsettled = unsettled
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
-        best.first_order = _first_order(system, normals, setting, constants)
+        best.first_order, best.crossing = _first_order(system, normals, setting, constants), True
         best.kinked = any(normal.kinked for _, normal in normals)
     return best
 
@@ -172,7 +174,12 @@ def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
 def _first_order(
     system: System, normals: Sequence[tuple[int, Normal]], setting: Setting, constants: Mapping[str, Row]
 ) -> int | None:
-    """Velocities allowed to first order where branches cross: there the gradient of a product is 0."""
+    """Velocities allowed to first order where branches cross: there the gradient of a product is 0.
+
+    None where the reference is on no branch of a relation.
+    """
+    if not all(passes(n, setting) for _, n in normals if len(n.branches) > 1):
+        return None
     rows = [
         Row(i, p) for i, n in normals if len(n.branches) == 1 for p in n.branches[0] if not isinstance(p, Inequality)
     ]

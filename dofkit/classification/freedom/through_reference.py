@@ -34,6 +34,11 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
     return replace(normal, branches=kept) if kept else normal
 
 
+def passes(normal: Normal, setting: Setting) -> bool:
+    """Does one of the branches hold at the reference configuration?"""
+    return any(_holds(b, setting) for b in normal.branches)
+
+
 def _at_kinks(normal: Normal, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> Normal:
     """Finite relations told apart by the signs of what stands in abs() and vanishes at the reference."""
     branches: list[tuple[Piece, ...]] = []
