@@ -18,9 +18,9 @@ OPEN: dict[tuple[str, str], tuple[int, str]] = {
         len(DIGITS),
         "measured lengths do not tell a straight rod from one that is bent by a little less than their root",
     ),
-    ("rounded, with tolerance", "third crank longer, 3 digits"): (
+    ("rounded, with tolerance", "third crank"): (
         2,
-        "three parallel cranks that move within a thousandth: they are not followed far enough to tell that from shaking",
+        "cranks that move within a thousandth are not followed far enough to tell that from shaking",
     ),
 }
 
