@@ -54,12 +54,7 @@ KINDS: Mapping[str, Generator] = {
 }
 
 #: Kinds, and files of `found/`, whose answers are known to be wrong, with why: the short run leaves them out.
-OPEN: Mapping[str, str] = {
-    "agreements/logarithms": "a logarithm of an exponential whose argument holds what it gives",
-    "agreements-logarithms-cbc97c97.json": "a logarithm of an exponential whose argument holds what it gives",
-    "primes-solved-17fd7e82.json": "a difference below the precision of real points is taken for 0",
-    "times-homogeneous-8be442f4.json": "a high power of a sum of squares of speeds takes minutes",
-}
+OPEN: Mapping[str, str] = {}
 
 
 def drawn(kind: str, seed: int, size: int) -> Case:

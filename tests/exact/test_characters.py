@@ -44,3 +44,21 @@ def test_the_same_value_comes_of_arguments_in_either_order() -> None:
                 continue
         assert found
         assert all(found)
+
+
+def test_the_logarithm_of_a_product_of_powers_is_the_sum_of_the_arguments() -> None:
+    p = 2**61 - 1
+    rng = random.Random(11)
+    for powers, root in (([7], 1), ([200, -9], 1), ([3, -16], 2), ([2, -3, 16], 1), ([1, 5, -4, 2, 3], 3), ([], 1)):
+        exp = Character(p)
+        args = [rng.randrange(1, p) for _ in powers]
+        values = [exp.at(u, lambda: nmod(rng.randrange(1, p), p) ** 6) for u in args]
+        product = nmod(1, p)
+        for v, k in zip(values, powers, strict=True):
+            product *= v**k
+        value = Character(p)._root(product, root)
+        assert (
+            exp.argument_of(value)
+            == sum((nmod(u, p) * k for u, k in zip(args, powers, strict=True)), nmod(0, p)) / root
+        )
+        assert exp.argument_of(value * 12345) is None

@@ -7,7 +7,7 @@ looked for, and the values of related ones follow from each other. Everything el
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import combinations
 from math import gcd, prod
 from typing import Any
@@ -20,6 +20,8 @@ from dofkit.exact.errors import NoPointError
 MOST_REDUCED = 7
 #: A relation that is found is there by chance with a probability of 2 to the minus this.
 SURENESS = 30
+#: Up to which powers products of one, two, three ... values are looked through, and up to which root of them.
+POWERS, MOST_ROOTS = (512, 512, 16, 16, 5, 5, 2, 2, 1, 1, 1, 1), 4
 #: Roots are taken up to this degree.
 LARGEST = 512
 
@@ -49,6 +51,30 @@ class Character:
         """Take a value that was settled elsewhere. Raises NoPointError where another one is known."""
         if self.at(argument, lambda: value) != value:
             raise NoPointError("an exponential or an angle with two values at one place")
+
+    def argument_of(self, value: Any) -> Any | None:
+        """u where ``value`` is exp(u): a root of a product of powers of known values; None where none was found.
+
+        The products of one half of the values are listed, and those of the other half looked up among them.
+        """
+        known = [(nmod(u, self.p), v) for u, v in self.values.items()][: len(POWERS)]
+        half = (len(known) + 1) // 2
+        most = POWERS[max(len(known), 1) - 1]
+        listed, sought = self._products(known[:half], most), self._products(known[half:], most)
+        for root in range(1, MOST_ROOTS + 1):
+            wanted = value**root
+            for product, u in sought.items():
+                if wanted * product in listed:
+                    return (listed[wanted * product] - u) / root
+        return None
+
+    def _products(self, known: Sequence[tuple[Any, Any]], most: int) -> dict[Any, Any]:
+        """Products of powers of known values, each with its argument."""
+        found = {nmod(1, self.p): nmod(0, self.p)}
+        for u, v in known:
+            powers = [(k * u, v**k) for k in range(-most, most + 1)]
+            found = {w * power: at + times for w, at in found.items() for times, power in powers}
+        return found
 
     def _related(self, u: int) -> Any | None:
         if self.p - u in self.values:

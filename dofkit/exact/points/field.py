@@ -94,6 +94,7 @@ class FieldPoint:
         self._taken: dict[tuple[object, ...], Scalar] = {}
         self._exponentials, self._turns = Character(p), Character(p)
         self._agreed: set[tuple[str, object]] = set()
+        self._logarithms = False
         self._zeta: Scalar = None
         self._imaginary: Scalar = None
 
@@ -105,7 +106,7 @@ class FieldPoint:
         """A point with the same values so far; what is drawn later differs."""
         other = FieldPoint(self.p, self.rng, self.order)
         other.given = dict(self.given)
-        other._taken, other._agreed = dict(self._taken), set(self._agreed)
+        other._taken, other._agreed, other._logarithms = dict(self._taken), set(self._agreed), self._logarithms
         other._exponentials, other._turns = self._exponentials.copy(), self._turns.copy()
         other._zeta, other._imaginary = self._zeta, self._imaginary
         return other
@@ -141,6 +142,9 @@ class FieldPoint:
     def _agree(self, var: Var, args: Sequence[Scalar], value: Scalar) -> None:
         """Take the value that a generator was given. Raises NoPointError where its function has another one there."""
         if var.kind == "exp":
+            known = self._exponentials.argument_of(value) if self._logarithms else None
+            if known not in (None, args[0]):
+                raise NoPointError("a logarithm was drawn before the exponential whose argument it is")
             self._exponentials.agree(args[0], value)
         elif var.kind in ("cos", "sin"):
             if var.key[0] != ex.PI and ("sin" if var.kind == "cos" else "cos", var.key) in self.given:
@@ -183,14 +187,13 @@ class FieldPoint:
         return self.random()
 
     def _logarithm(self, value: Scalar) -> Scalar:
-        """u where v = exp(u) was taken before; else at random, and then exp(u) = v."""
-        if value == 1:
-            return nmod(0, self.p)
-        for u, v in self._exponentials.values.items():
-            if v == value:
-                return nmod(u, self.p)
+        """u where v = exp(u) follows from what was taken before; else at random, and then exp(u) = v."""
+        known = self._exponentials.argument_of(value)
+        if known is not None:
+            return known
         drawn = self.random()
         self._exponentials.agree(drawn, value)
+        self._logarithms = True
         return drawn
 
     def _draw_angle(self, var: Var, args: Sequence[Scalar]) -> None:

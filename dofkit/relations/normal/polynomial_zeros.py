@@ -52,15 +52,19 @@ def branches_of(branches: list[Conjunction], notes: list[str]) -> Zeros:
 
 
 def products_of(options: Iterable[Iterable[Conjunction]]) -> list[Conjunction]:
-    """What vanishes together, with one conjunction of each. Raises TooManyBranchesError."""
-    combined: list[Conjunction] = []
-    for choice in cartesian(*options):
-        together = tuple(dict.fromkeys(g for conjunction in choice for g in conjunction))
-        if together not in combined:
-            combined.append(together)
+    """What vanishes together, with one conjunction of each; none that holds another. Raises TooManyBranchesError."""
+    combined: list[Conjunction] = [()]
+    for option in options:
+        every = [tuple(dict.fromkeys((*some, *more))) for some, more in cartesian(combined, option)]
+        combined = [b for k, b in enumerate(every) if not any(_holds(a, b, j < k) for j, a in enumerate(every))]
         if len(combined) > MAX_BRANCHES:
             raise TooManyBranchesError
     return combined
+
+
+def _holds(less: Conjunction, more: Conjunction, before: bool) -> bool:
+    """Does all of ``less`` stand in ``more``, and is it shorter, or the same and written before?"""
+    return set(less) <= set(more) and (before or len(less) < len(more))
 
 
 def vanishes(constant: Expr, positive: frozenset[Expr]) -> bool:
