@@ -239,8 +239,9 @@ class Copy:
         scenes = [test for test in found if test.startswith(SCENES)]
         own = f"tests/{mutant.room}/"
         others = sorted((t for t in found if t not in scenes), key=lambda t: (not t.startswith(own), t))
-        chosen = {"scenes": scenes, "tests": others}.get(stage, [])
-        (self.folder / "chosen.txt").write_text("\n".join(["-m", "sweep or not sweep", *chosen]), encoding="utf-8")
+        chosen = scenes if stage == "scenes" else others
+        which = "sweep" if stage == "sweeps" else "not sweep"
+        (self.folder / "chosen.txt").write_text("\n".join(["-m", which, *chosen]), encoding="utf-8")
         return ["@chosen.txt"] if chosen else []
 
     def _failing(self, arguments: Sequence[str], seconds: int) -> str:
