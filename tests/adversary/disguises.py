@@ -17,8 +17,8 @@ from .draws import positive
 from .texts import substituted, words
 
 Disguise = Callable[[random.Random, Case], Case | None]
-#: What depends on the order of the constraints.
-ORDERED = ("redundant", "circuit", "independent", "conflicting")
+#: What depends on the order of the constraints: which of them are companions of another, so what it integrates to, too.
+ORDERED = ("redundant", "circuit", "independent", "conflicting", "integral")
 #: What one constraint alone says.
 ALONE = ("exact", "integral", "integrating_factor", "holonomic_alone", "form", "catastatic")
 #: Names that no family uses.

@@ -87,3 +87,10 @@ def test_every_field_of_a_report_says_how_sure_it_is(path: Path, caplog: pytest.
         assert value is None or name in report.verdicts
     about = report.verdicts["dof"].about if "dof" in report.verdicts else None
     assert (report.instantaneous_dof is not None) or about != "reference"
+
+
+def test_the_argument_that_is_told_is_the_one_that_decided() -> None:
+    """Two circles that touch: no rank says that they meet in a point only, a zero of one variable does."""
+    scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1", "(x - 3)^2 + y^2 = 4"]}
+    report = dofkit.classify(scene)
+    assert (report.dof, report.verdicts["dof"].argument) == (0, "isolated zero of one variable")
