@@ -92,3 +92,13 @@ def test_a_reference_on_no_branch_of_a_relation_has_no_first_order(method: Any) 
             "configuration": {"x": place, "y": 0, "z": 0},
         }
         assert dofkit.classify(scene, method=method).instantaneous_dof == told
+
+
+def test_of_a_rigid_framework_the_first_independent_places_are_chosen() -> None:
+    """Three points in line along x: B's x is A's, to first order, and B's y turns the whole."""
+    at = {"A": [0, 0], "B": [1, 0], "C": [2, 0], "D": [1, 1]}
+    links = [{"type": "link", "between": list(pair)} for pair in ("AB", "BC", "AC", "AD", "BD", "CD")]
+    points = [{"name": name, "at": place} for name, place in at.items()]
+    report = dofkit.classify({"dimension": 2, "particles": points, "constraints": links})
+    assert report.dof == 3
+    assert report.generalized_coordinates == ["x_A", "y_A", "y_B"]

@@ -426,3 +426,24 @@ def test_both_counts_and_why_they_err_are_shown() -> None:
     assert "with 5 for 6 the count is 5(6 - 1 - 6) + 6 = 1" in text
     assert "generic 0 degrees of freedom in general position" in text
     assert "1 follows from those before: no rotation about (0, 0, 1)" in text
+
+
+def slide(name: str, between: list[str], axis: list[int]) -> dict[str, Any]:
+    return {"name": name, "type": "prismatic", "between": between, "axis": axis}
+
+
+#: Two slides at a right angle.
+CROSSED = [slide("p", ["ground", "a"], [1, 0, 0]), slide("q", ["a", "b"], [0, 1, 0])]
+
+
+def test_three_slides_lie_in_a_plane_by_chance_and_two_always() -> None:
+    wedges = [*CROSSED, slide("r", ["b", "ground"], [1, 1, 0])]
+    report = dofkit.classify({"bodies": ["a", "b"], "constraints": wedges})
+    assert report.generic is not None
+    assert report.generic.differs is not None
+    assert report.generic.differs.endswith("p, q and r slide parallel to one plane")
+    bar = {"type": "link", "between": [{"on": "b", "at": [0, 0, 0]}, [0, 0, 3]]}
+    report = dofkit.classify({"bodies": ["a", "b"], "constraints": [*CROSSED, bar]})
+    assert report.generic is not None
+    assert report.generic.differs is not None
+    assert "plane" not in report.generic.differs

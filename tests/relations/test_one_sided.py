@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 
 import dofkit
+from dofkit.expressions import tree as ex
+from dofkit.relations.normal import one_sided
 from dofkit.report import Report
 
 
@@ -56,3 +58,9 @@ def test_what_holds_somewhere_is_consistent(text: str) -> None:
 def test_time_enters_where_a_point_shows_it(text: str, scleronomic: bool) -> None:
     entry = classified(text).constraints[0]
     assert entry.scleronomic is scleronomic
+
+
+def test_so_many_points_are_tried_as_are_told() -> None:
+    """The simple ones, then two kinds at each draw."""
+    tried = list(one_sided._points(ex.coordinate("x"), frozenset()))
+    assert len(tried) == len(one_sided._SIMPLE) + 2 * one_sided.POINTS
