@@ -1,0 +1,29 @@
+"""Relations in one combination of the velocities, solved for it; and where what is left out holds."""
+
+from __future__ import annotations
+
+import pytest
+
+import dofkit
+
+
+@pytest.mark.parametrize(
+    ("nonlinear", "linear", "other"),
+    [
+        ("exp(xdot - ydot - x) = 1", "xdot - ydot = x", "xdot - ydot = -x"),
+        ("(xdot - 2 ydot + 3)^3 = 8", "xdot - 2 ydot = -1", "xdot - 2 ydot = 5"),
+        ("sinh(3 xdot + ydot - t) = 0", "3 xdot + ydot = t", "3 xdot + ydot = -t"),
+    ],
+)
+def test_what_stands_beside_the_velocities_keeps_its_sign(nonlinear: str, linear: str, other: str) -> None:
+    same = dofkit.classify({"coordinates": ["x", "y"], "constraints": [nonlinear, linear]})
+    assert (same.consistent, same.redundant) == (True, ["c2"])
+    assert dofkit.classify({"coordinates": ["x", "y"], "constraints": [nonlinear, other]}).redundant != ["c2"]
+
+
+@pytest.mark.parametrize("more", ["x = 1", "x^2 = 1", "x = y + 1"])
+def test_a_denominator_may_have_any_value_but_zero(more: str) -> None:
+    """atan x + atan(1/x) = pi/2 sgn(x): y = 0, and x is 1 or -1."""
+    identity = "y + atan(x) + atan(1/x) - pi x/(2 abs(x)) = 0"
+    report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [identity, more]})
+    assert (report.consistent, report.dof) == (True, 1)
