@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from dofkit.exact.errors import PoleError
+from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError, PoleError
+
+
+#: Denominators past this degree are reduced; quotients past this one are given up.
+LOW, LARGEST = 48, 4096
 
 
 class Rational:
@@ -23,11 +28,11 @@ class Rational:
         b = self._pair(other)
         if self.bottom == b.bottom:
             return Rational(self.top + b.top, self.bottom)
-        return Rational(self.top * b.bottom + b.top * self.bottom, self.bottom * b.bottom)
+        return _lowest(self.top * b.bottom + b.top * self.bottom, self.bottom * b.bottom)
 
     def __mul__(self, other: Any) -> Rational:
         b = self._pair(other)
-        return Rational(self.top * b.top, self.bottom * b.bottom)
+        return _lowest(self.top * b.top, self.bottom * b.bottom)
 
     __radd__ = __add__
     __rmul__ = __mul__
@@ -46,3 +51,15 @@ class Rational:
     def numerator(self) -> Any:
         """In lowest terms."""
         return self.top // self.top.gcd(self.bottom) if self.top != 0 else self.top
+
+
+def _lowest(top: Any, bottom: Any) -> Rational:
+    """A quotient, in lowest terms where it is large. Raises NoValueError where it stays too large to go on with."""
+    if bottom.degree() <= LOW:
+        return Rational(top, bottom)
+    check()
+    common = top.gcd(bottom)
+    top, bottom = top // common, bottom // common
+    if max(top.degree(), bottom.degree()) > LARGEST:
+        raise NoValueError("a quotient of polynomials is too large")
+    return Rational(top, bottom)
