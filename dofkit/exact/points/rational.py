@@ -7,7 +7,6 @@ from typing import Any
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError, PoleError
 
-
 #: Denominators past this degree are reduced; quotients past this one are given up.
 LOW, LARGEST = 48, 4096
 
