@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -447,3 +448,25 @@ def test_three_slides_lie_in_a_plane_by_chance_and_two_always() -> None:
     assert report.generic is not None
     assert report.generic.differs is not None
     assert "plane" not in report.generic.differs
+
+
+@pytest.mark.parametrize(("height", "said"), [("1/10^6", True), ("1/10^3", False), ("1/2", False)])
+def test_bars_nearly_in_line_are_said_to_be(height: str, said: bool) -> None:
+    """Two bars at an angle of 4 h hold P up: their rows of length 1 have a singular value of 4 h/sqrt(2), less beside
+    a third bar; the other one is near sqrt(2)."""
+    points = {"P": ["1/2", height], "Q": [3, 3], "R": [5, 0]}
+    bars: list[list[Any]] = [[[0, 0], "P"], ["P", [1, 0]], ["P", "Q"], ["Q", "R"]]
+    report = dofkit.classify(
+        {
+            "dimension": 2,
+            "particles": [{"name": name, "at": at} for name, at in points.items()],
+            "constraints": [{"type": "link", "between": pair} for pair in bars],
+        }
+    )
+    assert (report.dof, report.instantaneous_dof) == (2, 2)
+    found = [
+        re.search(r"nearly dependent at the drawing \(singular values of (\S+) beside", w) for w in report.warnings
+    ]
+    values = [float(match[1]) for match in found if match]
+    assert bool(values) == said
+    assert all(1e-6 < v < 2.9e-6 for v in values)
