@@ -102,3 +102,10 @@ def test_of_a_rigid_framework_the_first_independent_places_are_chosen() -> None:
     report = dofkit.classify({"dimension": 2, "particles": points, "constraints": links})
     assert report.dof == 3
     assert report.generalized_coordinates == ["x_A", "y_A", "y_B"]
+
+
+def test_of_a_body_on_a_ball_joint_somewhere_not_all_places_are_chosen() -> None:
+    """They lie on a sphere."""
+    report = dofkit.classify({"bodies": ["b"], "constraints": [{"type": "spherical", "between": ["ground", "b"]}]})
+    assert report.dof == 3
+    assert report.generalized_coordinates == ["x_b", "y_b", "phi_b"]
