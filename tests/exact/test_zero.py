@@ -9,6 +9,8 @@ import pytest
 import dofkit
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import identity
+from dofkit.exact.zero.constants import proved_zero
+from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import coordinate
 
 #: Sums of arcs that are 0.
@@ -23,6 +25,13 @@ def test_arcs_that_nearly_close_do_not(arcs: str) -> None:
         assert report.consistent in (consistent, None), e
 
 
+@pytest.mark.parametrize("arcs", ARCS)
+def test_arcs_that_close_are_proved_to(arcs: str) -> None:
+    """The product of exp(i theta_k)^n_k is real, and the sum is small."""
+    for e, closed in (("0", True), ("1/(10^60*10^60)", False), ("-1/(10^60*10^60)", False)):
+        assert proved_zero(parse_expression(arcs.format(e=e), Names())) is closed
+
+
 def test_three_points_make_a_zero_probable(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn: list[Any] = []
     point = identity.field_point
@@ -31,3 +40,13 @@ def test_three_points_make_a_zero_probable(monkeypatch: pytest.MonkeyPatch) -> N
     ring = Ring([x])
     assert identity._zero_at_points(ring, ring.node(x - x)) is True
     assert len(drawn) == 3
+
+
+@pytest.mark.parametrize("arcs", ARCS)
+def test_a_form_with_a_coefficient_that_is_nearly_zero_does_not_integrate(arcs: str) -> None:
+    """dz + c y dx is a contact form wherever c is not 0, however small; and z = C where it is."""
+    for e, holonomic in (("0", True), ("1/(10^60*10^60)", False)):
+        form = f"dz + ({arcs.format(e=e)}) y dx = 0"
+        report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [form]})
+        assert report.constraints[0].holonomic is holonomic
+        assert report.dof == (2 if holonomic else 3)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 
 from dofkit.exact.errors import OutsideDomainError
 from dofkit.exact.points.smooth import smooth_function
@@ -19,8 +19,11 @@ from dofkit.exact.ring.program import gradient
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 
-PRECISION = 256
+#: Bits of a ball; numbers of more bits than the second ask for as many more, twice: what they differ by may be as small
+#: as they are long.
+PRECISION, SHORT = 256, 64
 _bits: ContextVar[int | None] = ContextVar("ball_bits", default=None)
+_more: ContextVar[int] = ContextVar("ball_bits_more", default=0)
 
 
 @contextmanager
@@ -35,7 +38,19 @@ def balls_of(bits: int | None) -> Iterator[None]:
 
 def precision() -> int:
     """The bits of a ball."""
-    return _bits.get() or PRECISION
+    return _bits.get() or PRECISION + _more.get()
+
+
+@contextmanager
+def precise_for(numbers: Iterable[Fraction]) -> Iterator[None]:
+    """Compute with balls that tell apart within what these numbers do."""
+    longest = max((max(abs(n.numerator), n.denominator).bit_length() for n in numbers), default=0)
+    token = _more.set(2 * max(0, longest - SHORT))
+    try:
+        with ctx.workprec(PRECISION + _more.get()):
+            yield
+    finally:
+        _more.reset(token)
 
 
 def fixed_bits() -> int | None:

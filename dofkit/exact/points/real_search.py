@@ -18,7 +18,7 @@ from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part
 from dofkit.exact.matrices.singular_values import independent_part
-from dofkit.exact.points.balls import BallPoint, FloatPoint, fixed_bits, jacobian, precision
+from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
@@ -30,8 +30,6 @@ HALVINGS = 8
 SINGULAR_TRIES = 4
 #: A Newton step smaller than the precision by so many bits ends the refinement.
 SPARE_BITS = 16
-#: Numbers of more bits than this ask for as many more, twice: what they differ by may be as small as they are large.
-SHORT = 64
 
 
 @dataclass(frozen=True)
@@ -86,7 +84,6 @@ class RealSearch:
         self.columns = [ring.var_index(u) or 0 for u in self.unknowns]
         self.positive = positive
         self.upto = len(ring.code)
-        self.bits = precision() + (2 * max(0, ring.longest - SHORT) if fixed_bits() is None else 0)
 
     def start(self, seed: int, given: Mapping[Expr, float]) -> dict[Expr, float]:
         """Random dyadic values, so that what is not solved for is an exact number."""
@@ -181,7 +178,7 @@ class RealSearch:
         """
         if any(symbols[p] <= 0 for p in self.positive if p in symbols):
             return None
-        with ctx.workprec(max(ctx.prec, self.bits)):
+        with ctx.workprec(max(ctx.prec, precision())):
             return self._precise(symbols, j, seed)
 
     def _precise(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
@@ -231,7 +228,7 @@ class RealSearch:
         nodes = [self.nodes[r] for r in rows]
         unknowns = [self.unknowns[c] for c in columns]
         indices = [self.columns[c] for c in columns]
-        tiny = arb(2) ** (SPARE_BITS - self.bits)
+        tiny = arb(2) ** (SPARE_BITS - precision())
         try:
             for _ in range(NEWTON_STEPS):
                 f, j = self._ball_system(exact, nodes, indices, seed)
@@ -240,7 +237,7 @@ class RealSearch:
                     exact[u] = (exact[u] - step[i, 0]).mid()
                 if all(abs(step[i, 0]) <= (1 + abs(exact[u])) * tiny for i, u in enumerate(unknowns)):
                     break
-            radius = arb(0, arb(2) ** -(self.bits // 2))
+            radius = arb(0, arb(2) ** -(precision() // 2))
             boxed = {**exact, **{u: exact[u] + radius for u in unknowns}}
             f, _ = self._ball_system(exact, nodes, indices, seed)
             _, j = self._ball_system(boxed, nodes, indices, seed)

@@ -59,12 +59,6 @@ class Instructions:
         self._interned: dict[tuple[int, Any], int] = {}
         self._var_of: dict[tuple[Any, ...], int] = {}
 
-    @property
-    def longest(self) -> int:
-        """Bits of the longest numerator or denominator of a number that is written."""
-        numbers = [payload for op, payload in self.code if op == NUM]
-        return max((max(abs(n.numerator), n.denominator).bit_length() for n in numbers), default=0)
-
     @cached_property
     def digest(self) -> str:
         """A hash of the program when it was first asked for: what is drawn by it is the same wherever it runs."""
