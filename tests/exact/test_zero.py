@@ -10,6 +10,7 @@ import dofkit
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import identity
 from dofkit.exact.zero.constants import proved_zero
+from dofkit.exact.zero.independence import doubt
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import coordinate
 
@@ -50,3 +51,20 @@ def test_a_form_with_a_coefficient_that_is_nearly_zero_does_not_integrate(arcs: 
         report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [form]})
         assert report.constraints[0].holonomic is holonomic
         assert report.dof == (2 if holonomic else 3)
+
+
+@pytest.mark.parametrize(
+    ("texts", "independent"),
+    [
+        (["sqrt(1 + x^2)", "sqrt(2 + y)", "sqrt(3 + z)"], True),
+        (["sqrt(1 + x)", "sqrt(2 + x)", "sqrt(3 + x + z)"], True),
+        (["sqrt(1 + x)", "sqrt(2 + y)", "sqrt(2 + 2 x + y + x y)"], False),
+        (["log(1 + x)", "log(2 + y)", "log(2 + 2 x + y + x y)"], False),
+    ],
+)
+def test_roots_of_coprime_arguments_are_independent(texts: list[str], independent: bool) -> None:
+    names = Names(coordinates=frozenset("xyz"))
+    relations = [parse_expression(text, names) for text in texts]
+    ring = Ring(relations)
+    assert all(ring.node(e) is not None for e in relations)
+    assert doubt(ring) == (None if independent else "functions")
