@@ -147,6 +147,8 @@ def combined(rng: random.Random, case: Case) -> Case | None:
     written[j] = f"{_difference(written[j])} + {factor}*({_difference(written[i])}) = 0"
     constraints = named(scene, written)
     truth = without(without(case.truth, *ORDERED, "scleronomic"), *ALONE, "holonomic", of=constraints[j]["name"])
+    if any("t" in words(text) for text in written):  # a factor of time is a factor no longer
+        truth = without(truth, "growth_vector")
     return replace(case, scene={**scene, "constraints": constraints}, truth=truth)
 
 
