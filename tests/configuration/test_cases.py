@@ -14,9 +14,7 @@ def test_a_coordinate_is_not_put_into_a_long_relation() -> None:
     names = Names(coordinates=frozenset("xy"))
     short = parse_expression("y - x", names)
     other = parse_expression("y^2 x^2 - 1", names)
-    long = parse_expression(
-        " + ".join(f"(x^2 + {k}*y^2)^3" for k in range(1, MAX_NODES // 3)), names
-    )
+    long = parse_expression(" + ".join(f"(x^2 + {k}*y^2)^3" for k in range(1, MAX_NODES // 3)), names)
     moving = frozenset({X, Y})
     assert {(g, s) for _, g, s, _ in _linear([short, other], moving)} == {(short, X), (short, Y)}
     assert list(_linear([short, long], moving)) == []
