@@ -68,15 +68,15 @@ JOINED: Mapping[type[ast.AST], tuple[str, str]] = {
 #: The file, the line as it is and as it is changed: why no answer is another one.
 SAME: Mapping[tuple[str, str, str], str] = {
     (
+        "dofkit/classification/dependence/equation_count.py",
+        "bent = False",
+        "bent = True",
+    ): "that one such row takes freedom follows from the count at the end",
+    (
         "dofkit/classification/dependence/equivalence.py",
         "new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=True) if not sound]",
         "new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=False) if not sound]",
     ): "the two are of one length",
-    (
-        "dofkit/configuration/drawing/implied_relations.py",
-        "return seen >= BESIDE // 2",
-        "return seen > BESIDE // 2",
-    ): "an even number is halved",
     (
         "dofkit/configuration/drawing/measured_branches.py",
         "directions = [rng.standard_normal(len(there.ways)) @ there.ways for _ in range(WAYS)]",
