@@ -98,11 +98,6 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "if float(np.max(np.abs(step))) <= 1e-12:",
     ): "a floating point number does not meet a bound exactly",
     (
-        "dofkit/exact/matrices/rational_rows.py",
-        "if i % LOOK == 0:",
-        "if i % LOOK != 0:",
-    ): "only how often the time is looked at",
-    (
         "dofkit/relations/normal/extremes.py",
         "return [(index, -1 if (weight > 0) == (constant > 0) else 1) for index, weight in weights.items()]",
         "return [(index, -1 if (weight > 0) == (constant >= 0) else 1) for index, weight in weights.items()]",

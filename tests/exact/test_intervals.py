@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import pytest
 from hypothesis import example, given
 from hypothesis import strategies as s
 
+from dofkit.exact.boxes import functions
 from dofkit.exact.boxes.intervals import INF, inverse
 
 FINITE = s.floats(min_value=1e-300, max_value=1e300, allow_nan=False)
@@ -33,3 +35,12 @@ def test_ends_of_one_over_a_rounded_fraction() -> None:
         x = 1.0 / n
         ((below, above),) = inverse((x, x))
         assert Fraction(below) <= 1 / Fraction(x) <= Fraction(above)
+
+
+@pytest.mark.parametrize("name", ["sin", "cos"])
+def test_of_angles_too_large_to_reduce_nothing_is_told(name: str) -> None:
+    """Nor of intervals longer than a turn."""
+    far = 2 * functions.MAX_ANGLE
+    assert functions._circular(name, (far, far + 0.1)) == (-1.0, 1.0)
+    assert functions._circular(name, (-far - 0.1, -far)) == (-1.0, 1.0)
+    assert functions._circular(name, (0.0, 7.0)) == (-1.0, 1.0)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import random
 
+import pytest
 from flint import fmpq, fmpq_mat
 
+from dofkit.exact.matrices import rational_rows
 from dofkit.exact.matrices.rational_rows import dependences
 
 
@@ -43,3 +45,10 @@ def test_a_long_cycle() -> None:
     assert list(found) == [n - 1]
     assert set(found[n - 1].values()) == {fmpq(-1)}
     assert len(found[n - 1]) == n - 1
+
+
+def test_the_time_is_looked_at_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
+    looked: list[None] = []
+    monkeypatch.setattr(rational_rows, "check", lambda: looked.append(None))
+    rational_rows.dependences([{0: fmpq(1)} for _ in range(3 * rational_rows.LOOK)])
+    assert len(looked) == 3

@@ -13,11 +13,14 @@ import pytest
 from shared.known_scenes import SCENES, report_of, scene_of, stem
 
 import dofkit
+from dofkit.classification.labels import companions
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.tree import Expr
+from dofkit.integrability.first_integrals import FirstIntegral
+from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.normal.normal_form import linear_form
 from dofkit.scene.lowering import lower
 
@@ -200,3 +203,23 @@ def test_the_largest_integrable_part(
 
 def test_finite_relations_alone_have_no_integrable_part_to_find() -> None:
     assert classified("x y z", "x = y").integrable_part is None
+
+
+@pytest.mark.parametrize(
+    ("constraints", "many"),
+    [(["dy = x dx", "dz = y dx"], 2), (["dz = y dx", "y = 2"], 1), (["dz = y dx", "x^2 + y^2 = 1"], 1)],
+)
+def test_as_many_integrals_are_sought_as_there_are(
+    constraints: list[str], many: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Three coordinates less the freedom, 1, and the finite relations."""
+    sought: list[int] = []
+    search = companions.first_integrals
+
+    def counted(forms: Codistribution, wanted: int) -> list[FirstIntegral]:
+        sought.append(wanted)
+        return search(forms, wanted)
+
+    monkeypatch.setattr(companions, "first_integrals", counted)
+    assert dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": constraints}).dof == 1
+    assert set(sought) == {many}

@@ -22,6 +22,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import Expr
+from dofkit.integrability.integrals import antiderivative
+from dofkit.integrability.integrals.algebra import Algebra
 from dofkit.integrability.integrals.search import Integral, integrate
 from dofkit.relations.normal.normal_form import Pfaffian, cleared, in_velocities, linear_form
 
@@ -350,3 +352,20 @@ def test_the_law_for_any_potential_and_factor(f: Expr, mu: Expr) -> None:
     if moving and not any(n.op == "fn" for n in ex.nodes(f)):
         simple = integrate(closed, frozenset())
         assert simple is not None
+
+
+def test_each_step_by_parts_goes_deeper(monkeypatch: pytest.MonkeyPatch) -> None:
+    """log(x)/x + 1: the logarithm's coefficient, and what is left, are integrated two steps further in."""
+    depths: list[int] = []
+    integrate = antiderivative.antiderivative
+
+    def recorded(work: Algebra, e: Expr, x: Expr, depth: int = 0) -> Expr | None:
+        depths.append(depth)
+        return integrate(work, e, x, depth)
+
+    monkeypatch.setattr(antiderivative, "antiderivative", recorded)
+    x = ex.coordinate("x")
+    e = ex.fn("log", x) * x + ex.ONE
+    assert antiderivative._sum_by_parts(Algebra(frozenset()), e, x, 1) is not None
+    assert depths[0] == 3
+    assert min(depths) > 1

@@ -470,3 +470,18 @@ def test_bars_nearly_in_line_are_said_to_be(height: str, said: bool) -> None:
     values = [float(match[1]) for match in found if match]
     assert bool(values) == said
     assert all(1e-6 < v < 2.9e-6 for v in values)
+
+
+def test_a_body_that_is_fixed_keeps_its_origin_and_its_turn() -> None:
+    """v at the point that its coordinates tell, wherever that stands, and w."""
+    scene = {
+        "dimension": 2,
+        "bodies": ["b"],
+        "constraints": [{"type": "fixed", "body": "b"}],
+        "configuration": {"x_b": 3, "y_b": 4},
+    }
+    placement = drawn_placement(lower(dofkit.load(scene)), frozenset())
+    assert placement is not None
+    rows = rows_of(placement.located[0])
+    assert rows is not None
+    assert [{c: v for c, v in row.items() if v != 0} for row in rows] == [{0: 1}, {1: 1}, {2: 1}]
