@@ -10,7 +10,7 @@ from dofkit.configuration.singular_points import numeric_local
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
-from dofkit.exact.zero.independence import independent_generators
+from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
@@ -72,7 +72,7 @@ def _outside_calls(e: Expr) -> Iterator[Expr]:
 
 def _by_field_alone(chart: Chart, found: Variety) -> Variety:
     """Without balls a rank stands only where no relation between functions can have been missed."""
-    if independent_generators(chart.ring):
+    if independent_on_set(chart.ring, chart.nodes):
         found.verdict = weakest(found.verdict, "probable")
         return found
     found.consistent, found.dimension, found.verdict = None, None, "undecided"

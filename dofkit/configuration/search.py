@@ -20,7 +20,7 @@ from dofkit.exact.ring.instructions import VAR, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import excludes_zero
-from dofkit.exact.zero.independence import independent_generators
+from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions.tree import Expr
 from dofkit.relations.ambient import free_point
 from dofkit.relations.chart import Chart
@@ -97,7 +97,7 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
     if "balls" in chart.engines:
         certain = excludes_zero(chart.ring, solver.plan.witness, chart.positive)
     else:
-        certain = independent_generators(chart.ring)
+        certain = independent_on_set(chart.ring, chart.nodes)
     if not certain:
         why = "eliminating the unknowns leaves a number of which it is not known whether it is 0"
         return Variety(None, None, "undecided", reasons=[why])

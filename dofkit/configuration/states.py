@@ -23,7 +23,7 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.solving.unknowns import Unit, unit_of
-from dofkit.exact.zero.independence import independent_generators
+from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.beside_others import form_rate, rate
@@ -89,7 +89,7 @@ class States:
     @property
     def independent(self) -> bool:
         """Is what is not 0 over GF(p) certainly not 0?"""
-        return independent_generators(self.ring)
+        return independent_on_set(self.ring, self.finite)
 
     @property
     def chosen(self) -> bool:

@@ -17,7 +17,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.ring.degree import error_bits
 from dofkit.exact.ring.instructions import Scalar
-from dofkit.exact.zero.independence import independent_generators
+from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.integrability.growth_vector import derived_flag, growth
 from dofkit.integrability.lie_algebra import Span
@@ -94,7 +94,7 @@ def field_labels(
     setting: Setting,
 ) -> None:
     """Freedom and labels from points over GF(p), held against a ball where there is one."""
-    known = SampledForms(block, forms, good, independent_generators(forms.chart.ring))
+    known = SampledForms(block, forms, good, independent_on_set(forms.chart.ring, forms.chart.nodes))
     if not known.trusted and "balls" not in setting.engines:
         result.verdict = "undecided"
         result.reasons.append("the functions that occur may be related in a way that points over GF(p) do not show")
@@ -106,6 +106,10 @@ def field_labels(
         result.reasons.append("the finite relations are singular where they hold; the rest was not decided there")
         return
     proof_of = certificate(known, found)
+    if not known.trusted and (proof_of is None or proof_of[0].dimension != known.sampled.span.dimension):
+        result.dof, result.velocity_dof, result.growth, result.verdict = None, None, None, "undecided"
+        result.reasons.append("functions that occur may be related on the set, and no ball tells what is not 0 there")
+        return
     result.verdict = weakest(found.verdict, _rank_verdict(known, proof_of, setting))
     result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
     nodes = [node for row in forms.rows.entries for node in row.values()]

@@ -26,7 +26,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.ring.instructions import VAR, Scalar, reachable
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.independence import independent_generators
+from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import Span
@@ -151,7 +151,7 @@ def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setti
     rank = len(good[0][1].frame.rows) if good else None
     if any(not v.contains(0) for v in _real_values(forms, found, rank, node)):
         return HolonomyLabel(False, "proved")
-    certain = _rational(ring, node) and independent_generators(ring)
+    certain = _rational(ring, node) and independent_on_set(ring, forms.chart.nodes)
     if not seen or not certain:
         return HolonomyLabel(None, "undecided", NO_VELOCITY)
     return HolonomyLabel(False, "probable" if forms.finite else "proved")

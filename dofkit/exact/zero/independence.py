@@ -9,6 +9,7 @@ from typing import Any, Literal
 from flint import fmpq_mat, nmod_poly
 
 from dofkit.exact.errors import NoPointError, NoValueError
+from dofkit.exact.points.characters import MOST_REDUCED
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.instructions import VAR, Var, reachable
@@ -51,13 +52,33 @@ def independent_generators(ring: Ring) -> bool:
     return roots < 2 and not ring.related and all(_independent_arguments(ring, kind) for kind in ("cos", "exp"))
 
 
+def independent_on_set(ring: Ring, relations: Sequence[object]) -> bool:
+    """The same where some relations hold.
+
+    There arguments may be related that are not related as written: of few of them a point tells (`characters`); of
+    more only what is equal, or a sum, so that no other argument may occur than a symbol.
+    """
+    return independent_generators(ring) and not (
+        relations and any(_out_of_reach(ring, kind) for kind in ("cos", "exp"))
+    )
+
+
+def _out_of_reach(ring: Ring, kind: str) -> bool:
+    moving = [v for v in ring.vars if v.kind == kind and ring.var_expr[v.index].symbols]
+    return len(moving) > MOST_REDUCED and not all(_of_symbol(v) for v in moving)
+
+
+def _of_symbol(var: Var) -> bool:
+    return isinstance(var.key[0], Expr) and var.key[0].op == "sym"
+
+
 def _independent_arguments(ring: Ring, kind: str) -> bool:
     """Are the arguments of all exponentials, or of all angles, linearly independent over Q modulo constants? [Ax1971].
 
     They are put over one denominator L: then so are their numerators together with L. False where they grow too large.
     """
     moving = [v for v in ring.vars if v.kind == kind and ring.var_expr[v.index].symbols]
-    if len(moving) < 2 or all(isinstance(v.key[0], Expr) and v.key[0].op == "sym" for v in moving):
+    if len(moving) < 2 or all(_of_symbol(v) for v in moving):
         return True
     canon = Canon(ring)
     try:
