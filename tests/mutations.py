@@ -78,10 +78,10 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=False) if not sound]",
     ): "the two are of one length",
     (
-        "dofkit/configuration/drawing/measured_branches.py",
-        "directions = [rng.standard_normal(len(there.ways)) @ there.ways for _ in range(WAYS)]",
-        "directions = [rng.standard_normal(len(there.ways)) @ there.ways for _ in range(WAYS - 1)]",
-    ): "one random direction fewer",
+        "dofkit/classification/feasibility/witness.py",
+        "regular = point.rank == len(search.slacks) + (codimension or 0)",
+        "regular = point.rank == len(search.slacks) + (codimension or 1)",
+    ): "where equations take nothing away there are none",
     (
         "dofkit/configuration/drawing/measured_paths.py",
         "if stages[-1].residual > BROKEN * 10 * tolerance:",
@@ -97,6 +97,11 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "if float(np.max(np.abs(step))) < 1e-12:",
         "if float(np.max(np.abs(step))) <= 1e-12:",
     ): "a floating point number does not meet a bound exactly",
+    (
+        "dofkit/mobility/graph/rigid_clusters.py",
+        "for k in range(first, len(net.order)):",
+        "for k in range(first, len(net.order) - 1):",
+    ): "a rigid cluster stays in one piece without its last joint: its links are compared at the others",
     (
         "dofkit/relations/normal/extremes.py",
         "return [(index, -1 if (weight > 0) == (constant > 0) else 1) for index, weight in weights.items()]",
