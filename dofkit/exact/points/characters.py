@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import combinations
-from math import gcd, prod
+from math import gcd, lcm, prod
 from typing import Any
 
 from flint import fmpz_mat, nmod, nmod_poly
@@ -22,6 +22,8 @@ MOST_REDUCED = 7
 SURENESS = 30
 #: Up to which powers products of one, two, three ... values are looked through, and up to which root of them.
 POWERS, MOST_ROOTS = (512, 512, 16, 16, 5, 5, 2, 2, 1, 1, 1, 1), 4
+#: A number that all of these roots divide.
+ROOTS = lcm(*range(1, MOST_ROOTS + 1))
 #: Roots are taken up to this degree.
 LARGEST = 512
 
@@ -51,6 +53,15 @@ class Character:
         """Take a value that was settled elsewhere. Raises NoPointError where another one is known."""
         if self.at(argument, lambda: value) != value:
             raise NoPointError("an exponential or an angle with two values at one place")
+
+    def take(self, argument: Any, value: Any) -> None:
+        """The same for a value whose logarithm the argument is: of its roots any is taken, as only a positive one has
+        a logarithm. Raises NoPointError."""
+        u = int(argument)
+        known = self.values.get(u) or self._related(u)
+        if known is not None and known**ROOTS != value**ROOTS:
+            raise NoPointError("a logarithm with two values at one place")
+        self.values.setdefault(u, value)
 
     def argument_of(self, value: Any) -> Any | None:
         """u where ``value`` is exp(u): a root of a product of powers of known values; None where none was found.

@@ -154,7 +154,7 @@ class FieldPoint:
         elif self._of_arguments(var, args, lambda: value) != value:
             raise NoPointError("a function with two values at one place")
         elif var.kind == "log":
-            self._exponentials.agree(value, args[0])
+            self._exponentials.take(value, args[0])
 
     def _of_arguments(self, var: Var, args: Sequence[Scalar], draw: Callable[[], Scalar]) -> Scalar:
         """The value that this function has taken at these arguments, however they are written; else a new one.
@@ -190,6 +190,7 @@ class FieldPoint:
         """u where v = exp(u) follows from what was taken before; else at random, and then exp(u) = v."""
         known = self._exponentials.argument_of(value)
         if known is not None:
+            self._exponentials.take(known, value)
             return known
         drawn = self.random()
         self._exponentials.agree(drawn, value)
