@@ -137,7 +137,7 @@ class RealSearch:
             reach = max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
             scale = np.abs(j).max(axis=1, initial=0) + 1e-300
             residual = float(np.max(np.abs(f) / scale)) / reach
-            if not math.isfinite(residual):
+            if not (math.isfinite(residual) and np.isfinite(scale).all()):
                 return None
             fast, stands = residual <= previous / 8, residual >= 0.9 * previous
             if residual == 0 or (residual < 1e-13 and (fast or stands)) or (residual < 1e-11 and stands):
