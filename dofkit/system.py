@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Literal, NamedTuple, Protocol
 
-from dofkit.expressions.tree import Expr
+from dofkit.expressions.tree import Expr, nodes
 
 Sense = Literal["=", ">=", ">"]
 Sign = Literal["real", "positive", "nonzero"]
@@ -255,6 +255,13 @@ class System:
     tolerance: Fraction | None = None
     size: float = 1.0
     warnings: tuple[str, ...] = ()
+
+    @property
+    def numbers(self) -> Iterator[Fraction]:
+        """Every number in the relations as they are written."""
+        for constraint in self.constraints:
+            for relation in constraint.relations:
+                yield from (node.args[0] for node in nodes(relation.expr) if node.op == "num")
 
     def numbers_of(self, *names: str) -> tuple[int, ...]:
         """The numbers of the constraints of these names, in the order of the names."""

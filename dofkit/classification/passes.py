@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -20,7 +19,6 @@ from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for
-from dofkit.expressions import tree as ex
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting
 from dofkit.report import FieldVerdict, Report
@@ -210,13 +208,6 @@ class Examined(NamedTuple):
         return self.study.outcome
 
 
-def _numbers(system: System) -> Iterator[Fraction]:
-    """Every number in the relations as they are written."""
-    for constraint in system.constraints:
-        for relation in constraint.relations:
-            yield from (node.args[0] for node in ex.nodes(relation.expr) if node.op == "num")
-
-
 def examined(
     system: System,
     seconds: float = DEFAULT_SECONDS,
@@ -225,7 +216,7 @@ def examined(
     passes: Iterable[Pass] = PASSES,
 ) -> Examined:
     """All that some engines find of a system in so many seconds, with some ``reductions``. Raises OutOfTimeError."""
-    with limited(seconds), precise_for(_numbers(system)):
+    with limited(seconds), precise_for(system.numbers):
         with part(SOLVING):
             found = study(system, engines, reductions)
         return Examined(found, report_of(found, passes))
@@ -233,6 +224,6 @@ def examined(
 
 def studied(system: System, budget: float | None = None) -> Examined:
     """The generic answer for a system. Raises OutOfTimeError where there was no time for it."""
-    with limited(DEFAULT_SECONDS if budget is None else budget), precise_for(_numbers(system)):
+    with limited(DEFAULT_SECONDS if budget is None else budget), precise_for(system.numbers):
         found = study(system)
         return Examined(found, report_of(found, GENERIC))

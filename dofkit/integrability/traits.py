@@ -17,7 +17,7 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import is_zero, zero_and_verdict
-from dofkit.exact.zero.independence import independent_generators
+from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.enclosures import interval_of
@@ -85,7 +85,7 @@ def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -
     if ex.TIME not in g.symbols or _factors_without_time(g, positive, never_vanishes):
         return True, "proved"
     found = _vanishes_on(g, diff(g, ex.TIME), positive, engines)
-    if found == (False, "proved"):
+    if found[1] == "proved":
         return found
     return (True, "proved") if _factors_without_time(g, positive, _has_no_zero) else found
 
@@ -105,7 +105,7 @@ def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engin
         except NoValueError:
             return None, "undecided"
     if "balls" not in engines:
-        known = point is not None and independent_generators(ring)
+        known = point is not None and independent_on_set(ring, [node])
         return (False, "probable") if known else (None, "undecided")
     real = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive).search()
     if real is None:

@@ -23,7 +23,7 @@ from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.entries import labels_in_system
 from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
-from dofkit.exact.points.balls import precision
+from dofkit.exact.points.balls import precise_for, precision
 from dofkit.expressions import tree as ex
 from dofkit.methods.names import QUESTIONS, Question
 from dofkit.mobility.frameworks import unprescribed_links
@@ -111,15 +111,20 @@ def answered_by(
                     raise ValueError("equivalence is asked of a scene and an answer")
                 return _equivalence(scene, answer, engines)
             system = scene if isinstance(scene, System) else lower(scene)
-            if engines == BOTH and question in ("dof", "redundancy"):
-                found = _by_graph(system, question) or _by_drawing(system, question)
-                if found is not None:
-                    return found
-            if question == "integrability" and all(map(_is_finite, prepared(system)[0])):
-                return Reply({c.name: True for c in system.constraints}, "proved")
-            return _QUESTIONS[question](study(system, engines, grows=False))
+            with precise_for(system.numbers):
+                return _of_system(system, question, engines)
     except OutOfTimeError:
         return Reply(None, "undecided", OUT_OF_TIME)
+
+
+def _of_system(system: System, question: Question, engines: Engines) -> Reply:
+    if engines == BOTH and question in ("dof", "redundancy"):
+        found = _by_graph(system, question) or _by_drawing(system, question)
+        if found is not None:
+            return found
+    if question == "integrability" and all(map(_is_finite, prepared(system)[0])):
+        return Reply({c.name: True for c in system.constraints}, "proved")
+    return _QUESTIONS[question](study(system, engines, grows=False))
 
 
 def _is_finite(r: Reduced) -> bool:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from flint import ctx
-
 from dofkit.base.arguments import require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.classification.study import study
-from dofkit.exact.points.balls import PRECISION
+from dofkit.exact.points.balls import precise_for
 from dofkit.methods.in_worker import in_worker
 from dofkit.methods.names import MethodName
 from dofkit.methods.stages import classified
@@ -64,7 +62,7 @@ def derived_flag(scene: SceneLike | System, budget: float | None = None) -> list
     given = scene_or_system(scene)
     system = given if isinstance(given, System) else lower(given)
     try:
-        with limited(seconds), ctx.workprec(PRECISION):
+        with limited(seconds), precise_for(system.numbers):
             outcome = study(system, flag=True).outcome
     except OutOfTimeError:
         return None

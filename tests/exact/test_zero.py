@@ -51,6 +51,12 @@ def test_a_form_with_a_coefficient_that_is_nearly_zero_does_not_integrate(arcs: 
         report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [form]})
         assert report.constraints[0].holonomic is holonomic
         assert report.dof == (2 if holonomic else 3)
+        scene = {"coordinates": ["x", "y", "z"], "constraints": [form]}
+        assert dofkit.ask(scene, "dof").value == report.dof
+        assert dofkit.ask(scene, "integrability").value == {"c1": holonomic}
+        same = dofkit.ask({**scene, "constraints": ["dz = 0"]}, "equivalence", {"constraint": "c1", "text": form})
+        assert same.value in (holonomic, None)
+        assert dofkit.derived_flag(scene) in ([1] if holonomic else [1, 0], None)
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,7 @@ from dofkit.classification.dependence.regularity import Regularity
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.points.balls import precise_for
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
@@ -67,7 +68,8 @@ def compare(
 
     ``constants``: parameters that the answer brought with it, as constants of integration; ``engines`` decide.
     """
-    return _comparison(system, asked, answer, constants, engines).result()
+    with precise_for(system.numbers):
+        return _comparison(system, asked, answer, constants, engines).result()
 
 
 def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
@@ -75,7 +77,8 @@ def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> 
 
     Are the differentials of the answer and the forms the same in the presence of the others? None: undecided.
     """
-    return _comparison(system, asked, answer, frozenset()).integrates()
+    with precise_for(system.numbers):
+        return _comparison(system, asked, answer, frozenset()).integrates()
 
 
 def _comparison(

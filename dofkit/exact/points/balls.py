@@ -47,7 +47,7 @@ def precise_for(numbers: Iterable[Fraction]) -> Iterator[None]:
     longest = max((max(abs(n.numerator), n.denominator).bit_length() for n in numbers), default=0)
     token = _more.set(2 * max(0, longest - SHORT))
     try:
-        with ctx.workprec(PRECISION + _more.get()):
+        with ctx.workprec(precision()):
             yield
     finally:
         _more.reset(token)

@@ -6,14 +6,13 @@ from collections.abc import Mapping, Sequence
 from itertools import islice
 
 import numpy as np
-from flint import ctx
 
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.base.errors import DofkitError
 from dofkit.base.spelling import guess, no_such
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.exact.points.balls import PRECISION
+from dofkit.exact.points.balls import precise_for
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -76,7 +75,7 @@ def configurations(
     given = scene_or_system(scene)
     system = given if isinstance(given, System) else lower(given)
     try:
-        with limited(DEFAULT_SECONDS), ctx.workprec(PRECISION):
+        with limited(DEFAULT_SECONDS), precise_for(system.numbers):
             return _Sampled(system, dict(values or {}), along).configurations(steps, step, both)
     except OutOfTimeError as error:
         raise NoMotionError(str(error)) from None
