@@ -1,0 +1,80 @@
+"""Expression trees: what a text says, node by node, with exact numbers.
+
+Heads: ``number`` (``value`` a Fraction), ``symbol`` (``value`` its name), ``sum``, ``product``, ``power`` (base and
+exponent), the name of an elementary function (``sin``, ``atan2``, ...), and ``apply`` (``value`` the name of a declared
+function, ``orders`` how often it is differentiated by each argument). ``pi`` is a head of its own; E is ``exp(1)``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+FUNCTIONS = (
+    *("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh"),
+    *("exp", "log", "sqrt", "abs"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """One node of an expression."""
+
+    head: str
+    below: tuple[Tree, ...] = ()
+    value: Fraction | str = ""
+    orders: tuple[int, ...] = ()
+
+
+ZERO = Tree("number", (), Fraction(0))
+ONE = Tree("number", (), Fraction(1))
+
+
+def number(value: Fraction | int) -> Tree:
+    """A rational number."""
+    return Tree("number", (), Fraction(value))
+
+
+def symbol(name: str) -> Tree:
+    """A coordinate, a parameter, time, or a velocity."""
+    return Tree("symbol", (), name)
+
+
+def add(*terms: Tree) -> Tree:
+    """A sum; numbers are added up and 0 is left out."""
+    constant = sum((t.value for t in terms if isinstance(t.value, Fraction)), Fraction(0))
+    rest = [t for t in terms if t.head != "number"]
+    if constant:
+        rest.append(number(constant))
+    return rest[0] if len(rest) == 1 else Tree("sum", tuple(rest)) if rest else ZERO
+
+
+def times(*factors: Tree) -> Tree:
+    """A product; numbers are multiplied and 1 is left out, 0 is 0."""
+    constant = Fraction(1)
+    for factor in factors:
+        if isinstance(factor.value, Fraction):
+            constant *= factor.value
+    rest = [f for f in factors if f.head != "number"]
+    if constant == 0:
+        return ZERO
+    if constant != 1 or not rest:
+        rest.insert(0, number(constant))
+    return rest[0] if len(rest) == 1 else Tree("product", tuple(rest))
+
+
+def negative(term: Tree) -> Tree:
+    """Times -1."""
+    return times(number(-1), term)
+
+
+def power(base: Tree, exponent: Tree) -> Tree:
+    """A power; exponents 0 and 1 are carried out."""
+    if exponent == ONE:
+        return base
+    return ONE if exponent == ZERO else Tree("power", (base, exponent))
+
+
+def call(name: str, *arguments: Tree) -> Tree:
+    """An elementary function of ``arguments``."""
+    return Tree(name, arguments)
