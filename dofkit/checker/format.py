@@ -1,0 +1,139 @@
+"""A certificate's form, read with care: bounded, and every fault told.
+
+A certificate is a JSON object: ``certificate`` (1), ``scene`` (``name``, ``sha256`` of the canonical JSON of the scene's
+document, optionally the ``document``), ``cayley`` (bodies that are read with Cayley parameters where a claim says
+``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``fields``, ``claims``, ``uncovered``. A TEXT is an
+expression in the grammar of scenes (numbers exact); an ID names a relation of the scene (``c4``, ``c4.1``) or a step.
+Steps, points, minors and fields are looked at only where a claim uses them.
+
+STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of the scene and of steps before it).
+"Needs" is asked at the point of the claim that uses the step, or of the reason ``nonzero``, where that is given.
+
+=========== =============================================== ==================================================
+by          fields                                          meaning (identities in the ring of `ring.py`)
+=========== =============================================== ==================================================
+branch      of, factors [TEXT], chosen (place), number      of = number * product of factors; id is factor
+                                                            ``chosen``. Needs the other factors not 0
+sos         of, terms [[c, a]]                              of = sum c a^2, all c > 0 or all < 0 (numbers); ids
+                                                            ``id.1``, ``id.2``, ... are the a
+factor      of, factor, rest                                of = factor * rest; id is rest. Needs factor not 0
+square      of, base, power, number                         of = number * base^power; id is base
+implied     of (or ``text``: a new relation), h, c {ID:     h * of = sum c[i] * i; id (and ``of``) follows from
+            TEXT}                                           the i. Needs h not 0, the c defined. The c of a
+                                                            velocity relation may hold velocities
+rate        of (finite)                                     its time derivative, with qdot and tdot
+integral    function (f), h, c {ID: TEXT}                   h * (df/dt) = sum c[i] * i: f keeps its value. Needs
+                                                            h not 0, the c defined. A finite relation of the leaf
+=========== =============================================== ==================================================
+
+``h`` and ``number`` are 1 where left out. ``nonzero``: ``{"sos": [[c, a], ...], "plus": c}`` (the factor, or h, is that
+sum, c >= 0, plus > 0; or the negative of it), ``{"parameters": TEXT}`` (a product of powers of parameters declared
+nonzero or positive, and numbers), ``{"number": true}``, ``{"exp": TEXT}`` (it is exp(TEXT)).
+
+POINTS ``{"id", "values": {symbol: TEXT}, "functions": {h: {"arguments": [s], "text": TEXT}}}``: coordinates, ``t``,
+parameters, generic lengths, velocities ``qdot`` (``tdot`` is 1), each a TEXT of numbers and of parameters given before
+it; a choice for every unknown function that occurs. A BOX has besides ``rows`` [ID], ``columns`` [symbol] (as many),
+``radius`` ("1e-30") and optionally ``inverse`` [[decimal]] (else the checker inverts): values of columns are
+centres. A relation holds at an exact point where the ring says 0 after substitution, at a box where it is a row, or is
+0 in the ring, or follows from such by steps.
+
+MINORS ``{"id", "at": POINT, "rows": [ID], "columns": [coordinate]}``: the determinant of d(row)/d(column) (of a finite
+relation) and d(row)/d(column's velocity) (of a velocity relation) excludes 0. A claim's ``minor`` is an id or the object.
+Every row must hold at the point (linear velocity relations: hold as forms) and follow from the scene's relations.
+
+FIELDS ``{"id", "components": {coordinate or t: TEXT}}``: a velocity field; what is left out is 0. FIELDS may also be made
+from a minor: ``{"id", "cramer": {"rows": [ID], "columns": [coordinate], "free": coordinate or t}}`` (at most 5 rows): the
+field with the determinant at ``free``, 0 at the other free columns, and Cramer's numerators at ``columns``.
+A WORD is a list of ids of fields: [A, B, C] is [[A, B], C].
+
+BOUNDS of dof (``most`` and ``least`` of squeeze), and of velocity_dof:
+
+=========== ============================================= ======================================================
+rule        fields                                        bound
+=========== ============================================= ======================================================
+minor       minor                                         most n - rows: dof where all rows are finite or integrals,
+                                                          velocity_dof in any case
+frobenius   minor, fields [id]                            most n - rows of dof: the rows' kernel in (q, t), spanned
+                                                          by the fields (all that are missing: n, or n + 1 with
+                                                          time, less rows), is involutive
+regular     minor                                         least n - rows: all relations are rows or follow from rows
+                                                          by steps (implied, branch, sos, factor, square)
+family      at, parameters [u], values {u: TEXT},         least the number of u: q(u) meets all relations identically
+            q {coordinate: TEXT}, columns [coordinate]    and is the point at ``values``; minor of dq/du. No
+                                                          velocity relations
+span        at, fields [id], rows [ID], words [WORD],     least the words (less 1 where a field moves t): fields
+            columns [coordinate or t]                     tangent to rows identically, rows account for all
+                                                          relations; the words' columns are independent
+cover       minor, blocks [{"rows": [ID], "fields":       least n - (sum of variables less fields): each block's
+            [id], "columns": [coordinate]}]               fields are tangent to it identically and independent at
+                                                          the point (columns); the sum is the minor's size
+=========== ============================================= ======================================================
+
+CLAIMS ``{"path", "value", "rule", ..., "about", "cayley"}``. ``about`` (dof, velocity_dof): ``reference`` (the point is the
+scene's configuration), ``component`` (only where none is given that meets the relations), ``everywhere``.
+NAME is a constraint's name, with ``~1`` for ``/`` and ``~0`` for ``~``.
+
+======================================= ============== ==========================================================
+path                                    rule           fields
+======================================= ============== ==========================================================
+/consistent true                        point          at; all relations hold; at rest, for all t. ``inequalities``
+                                                       {NAME or ID: POINT}: each holds at a point by itself
+/consistent true                        regular        minor, inequalities: a motion through the point
+/consistent true                        motion         q {coordinate: TEXT in t and parameters}, at (values of t and
+                                                       parameters), inequalities
+/consistent false                       nullstellensatz c {ID: TEXT}, number, sos [[c, a]], inequality {ID:
+                                                       [[c, a]]}: number + sos + sum c i + sum (sos) ineq = 0 with
+                                                       tdot = 1; the TEXTs have a value everywhere. An inequality
+                                                       stands alone, without c
+/consistent false                       polygon        side, way: [ID, [TEXT vector], length TEXT]: ID = number *
+                                                       (vector^2 - length^2), side vector = sum of way vectors
+/consistent false                       boxes          variables {x: [low, high] or "angle"}, bounds {x: {"c": {ID:
+                                                       TEXT}, "sos"}}: high^2 - x^2 = sum c i + sos; tree: ["cut",
+                                                       {ID: TEXT}] (the sum excludes 0) or [x, value, tree, tree]
+/conflicting                            conflict       ``rules`` as for /consistent false in ``refutation`` (an object
+                                                       with rule), using just these constraints; minimal {NAME: POINT}:
+                                                       a point at which the others hold, at rest
+/dof, /velocity_dof                     squeeze        most, least (above); about
+/dof, /velocity_dof                     regular        minor; about (most and least in one, all rows of one kind)
+/dof                                    nothing        no relation but inequalities: n, everywhere
+/velocity_dof                           count          equals /dof: no velocity relations
+/dof everywhere                         graph          order [[ID, coordinate]]: each solves its coordinate
+/dof everywhere                         one relation   minor: of the only relation, analytic everywhere
+/instantaneous_dof                      rank           at: the reference. Rational rows: nothing more. Else minor and
+                                                       dependent {ID: {row: TEXT}}: ID's row is that sum of rows
+/singular                               compare        (of verified /instantaneous_dof and /velocity_dof)
+/holonomic, /scleronomic                count          (of the verified entries)
+/redundant_equations                    count          (of verified /velocity_dof)
+/count/independent                      independent    minor: finite rows, all finite relations follow
+/generalized_coordinates                minor          minor: columns are all other coordinates (and verified /dof)
+/growth_vector                          span           spans: for each entry {"words", "columns"}; at, fields, rows,
+                                                       minor (regular: all rows). Upper bounds: Witt, dof verified
+/redundant                              cofactors      minor: all relations of the others or what follows
+/constraints/NAME/holonomic             finite, inequality
+/constraints/NAME/holonomic_alone       the same       of the constraint's own relations only (``alone`` is implied)
+.../holonomic true                      integral       at; integrals [ID of integral steps]: NAME's relations follow
+                                                       from their rates, finite relations and theirs
+.../holonomic true                      frobenius      minor, fields: NAME's relations are rows or follow from rows
+.../holonomic false                     bracket        at, fields, rows, combination [[c, WORD]], pairs ID: the
+                                                       relation ID of NAME is not 0 there
+.../holonomic_alone true, false         wedge          true: omega ^ d(omega) = 0 (one form); false: at, triple [x, y,
+                                                       z] (``t`` for time)
+.../scleronomic, .../catastatic true    timeless       steps [ID of factor steps]: t, tdot do not occur in what is
+                                                       left; degree {ID: k}: of a nonlinear relation, homogeneous
+.../scleronomic false                   turns          at, relation ID; pair [x, y] for a form without tdot
+.../catastatic false                    turns          at, relation ID: the coefficient of tdot is not 0
+.../exact true                          exact          closed
+.../exact false                         not exact      at, pair [x, y]
+.../integrating_factor                  integral       at; the value mu makes mu * form closed and is not 0 there
+.../integral                            integral       at, function TEXT (value is "function = C"); alone: d function =
+                                                       factor * form, factor TEXT. In the system: step ID of the
+                                                       integral, and NAME's relation follows from its rate
+.../circuit                             cofactors      at (a point of all); minimal {NAME: {"at": POINT} where the
+                                                       others hold and the constraint does not, or {"minor"}: rows of
+                                                       the other members that account for them, and one of its own}
+.../independent                         independent    minor: rows of constraints up to this; those before follow from
+                                                       rows before, and its own from all rows
+======================================= ============== ==========================================================
+"""
+
+from __future__ import annotations
