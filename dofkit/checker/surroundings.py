@@ -14,7 +14,7 @@ from dofkit.checker.derivatives import symbols_in
 from dofkit.checker.document import value_text
 from dofkit.checker.errors import CheckError
 from dofkit.checker.grammar import parse
-from dofkit.checker.trees import ONE, Tree, number, symbol, times
+from dofkit.checker.trees import ONE, Tree, negative, number, symbol, times
 from dofkit.checker.words import KnownNames
 
 Entry = Mapping[str, Any]
@@ -107,8 +107,10 @@ class Surroundings:
         else:
             n = self.vector(values)
         pivots = [i for i, part in enumerate(n) if self.nonzero(part)]
-        if not pivots:
+        if not pivots and (d != 2 or not any(map(symbols_in, n))):
             raise CheckError("no component of a direction is surely not 0")
+        if d == 2:
+            return n, ((negative(n[1]), n[0]),)
         pivot = min(pivots, key=lambda i: n[i].head != "number")
         units = identity(d)
         across = tuple(
