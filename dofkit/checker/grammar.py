@@ -8,7 +8,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.checker.derivatives import derivative, symbols_in
+from dofkit.checker.derivatives import degree_parts, derivative, substituted, symbols_in
 from dofkit.checker.errors import CheckError
 from dofkit.checker.tokens import LARGEST_EXPONENT, Lexeme, tokens_of
 from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
@@ -16,6 +16,9 @@ from dofkit.checker.words import EULER, PI, KnownNames, moved
 
 DEEPEST = 60
 MOST_ORDERS = 6
+#: A tree of more nodes is not differentiated while a text is read.
+LARGEST = 400
+_PAIRS = {"(": ")", "[": "]", "{": "}"}
 _BEGIN = ("value", "moving", "function", "declared", "operator", "(", "|")
 
 
@@ -44,7 +47,7 @@ def parse_relations(text: str, names: KnownNames) -> list[Sided]:
         right = reader.sum()
         larger, smaller = (right, left) if "<" in sign else (left, right)
         strict = sign in ("<", ">")
-        found.append(Sided(add(larger, negative(smaller)), "=" if sign == "=" else ">", strict))
+        found.append(Sided(add(larger, negative(smaller)), "=" if sign in ("=", "==") else ">", strict))
         left = right
     reader.expect("end")
     return found or [Sided(left, "=", False)]
@@ -66,9 +69,9 @@ class _Reader:
         self.at += 1
         return self.tokens[self.at - 1]
 
-    def expect(self, kind: str) -> None:
+    def expect(self, kind: str, opening: str = "") -> None:
         token = self.take()
-        if token.kind != kind:
+        if token.kind != kind or (opening and token.name != _PAIRS[opening]):
             raise CheckError(f"`{token.name or token.kind}` stands where `{kind}` is expected")
 
     def sum(self) -> Tree:
@@ -108,11 +111,17 @@ class _Reader:
     def divide(self, factors: list[Tree]) -> bool:
         """Divide by the next factor; True for ``dx/dt``, which is one unit."""
         divisor = self.factor()
-        above = str(factors[-1].value) if factors[-1].head == "symbol" else ""
-        if divisor == symbol("dt") and above[:1] == "d" and above[1:] in self.names.coordinates:
-            factors[-1] = symbol(f"{above[1:]}dot")
-            return True
-        factors.append(_power(divisor, number(-1)))
+        if divisor == symbol("dt"):
+            rates = {f"d{q}": symbol(f"{q}dot") for q in self.names.coordinates} | {"dt": ONE}
+            if set(degree_parts(factors[-1], rates.keys()) or ()) == {1}:
+                factors[-1] = substituted(factors[-1], rates)
+                return True
+        if divisor.head == "symbol" and factors[-1].head == "product" and divisor in factors[-1].below:
+            above = list(factors[-1].below)
+            above.remove(divisor)
+            factors[-1] = times(*above)
+        else:
+            factors.append(_power(divisor, number(-1)))
         return False
 
     def factor(self) -> Tree:
@@ -126,6 +135,11 @@ class _Reader:
     def power(self) -> Tree:
         """A primary, perhaps raised; ``x^y^z`` is x^(y^z)."""
         base = self.primary()
+        if self.next.kind == "raised":
+            found = _power(base, self.take().tree)
+            if self.next.kind in ("^", "raised"):
+                raise CheckError("one power stands on another")
+            return found
         if self.next.kind != "^":
             return base
         self.at += 1
@@ -147,7 +161,7 @@ class _Reader:
             bars, self.bars = self.bars, 0
             found = self.sum()
             self.bars = bars
-            self.expect(")")
+            self.expect(")", token.name)
             return found
         if token.kind == "|":
             self.bars += 1
@@ -162,14 +176,14 @@ class _Reader:
 
     def arguments(self) -> list[Tree]:
         """Values in parentheses, with commas between them."""
-        self.expect("(")
+        opening = self.take().name
         bars, self.bars = self.bars, 0
         found = [self.sum()]
         while self.next.kind == ",":
             self.at += 1
             found.append(self.sum())
         self.bars = bars
-        self.expect(")")
+        self.expect(")", opening)
         return found
 
     def named(self, token: Lexeme) -> Tree:
@@ -195,9 +209,12 @@ class _Reader:
     def function(self, token: Lexeme) -> Tree:
         """``sin(x)``, ``sin x``, ``sin^2(x)``."""
         exponent = ONE
-        if self.next.kind == "^":
-            self.at += 1
-            exponent = self.primary() if self.next.kind in ("number", "(") else ZERO
+        if self.next.kind in ("^", "raised"):
+            exponent = ZERO
+            if self.take().kind == "raised":
+                exponent = self.tokens[self.at - 1].tree
+            elif self.next.kind in ("number", "("):
+                exponent = self.primary()
             value = exponent.value
             if not isinstance(value, Fraction) or value.denominator != 1 or value < 1:
                 raise CheckError(f"this power of `{token.name}` can be read in two ways")
@@ -210,12 +227,14 @@ class _Reader:
     def bare(self, token: Lexeme) -> Tree:
         """What a function without parentheses is taken of: a number and a name, or one of them, and nothing after."""
         parts = [self.take().tree] if self.next.kind == "number" else []
+        number_alone = bool(parts) and self.next.kind != "value"
         if self.next.kind == "value":
             parts.append(self.named(self.take()))
-        elif self.next.kind in ("moving", "declared"):
+        elif self.next.kind in ("moving", "declared") and not parts:
             parts.append(self.primary())
         after = self.next
-        open_ended = after.kind in ("value", "number", "^", "(") or (after.kind in ("*", "/") and after.touching)
+        open_ended = after.kind in ("value", "number", "^", "raised", "(") or (number_alone and after.kind in _BEGIN)
+        open_ended = open_ended or (after.kind in ("*", "/") and after.touching)
         if not parts or open_ended:
             raise CheckError(f"it is not clear what `{token.name}` is taken of")
         return times(*parts)
@@ -224,7 +243,8 @@ class _Reader:
         """``h(s)``, ``h'(s)``, ``h`` alone, ``hdot``, ``dh``."""
         own = self.names.functions[token.name]
         primes = self.take().order if self.next.kind == "prime" and self.next.touching else 0
-        if self.next.kind == "^" and [t.kind for t in self.tokens[self.at + 1 : self.at + 3]] == ["number", "("]:
+        ahead = [t.kind for t in self.tokens[self.at : self.at + 3]]
+        if ahead == ["^", "number", "("] or ahead[:2] == ["raised", "("]:
             raise CheckError(f"a power stands between `{token.name}` and its argument")
         if self.next.kind == "(":
             given = self.arguments()
@@ -246,6 +266,7 @@ class _Reader:
 
     def total(self, tree: Tree, order: int) -> Tree:
         """The derivative by time, or (-1) the differential."""
+        _bounded(tree)
         terms = []
         for name in sorted(symbols_in(tree)):
             step = {"t": ONE if order == 1 else symbol("dt")}.get(name)
@@ -278,6 +299,7 @@ class _Reader:
 
     def once(self, tree: Tree, step: Tree, name: str) -> Tree:
         """One derivative, by a symbol or by the place of an argument."""
+        _bounded(tree)
         if step == symbol("t") and name == "diff":
             return self.total(tree, 1)
         if step.head == "symbol":
@@ -310,6 +332,16 @@ def _power(base: Tree, exponent: Tree) -> Tree:
                 raise CheckError("a number is too large")
             return number(found)
     return power(base, exponent)
+
+
+def _bounded(tree: Tree) -> None:
+    """Refuse a tree that is too large to be differentiated."""
+    stack, count = [tree], 0
+    while stack:
+        stack.extend(stack.pop().below)
+        count += 1
+        if count > LARGEST:
+            raise CheckError("this is too long to be differentiated here")
 
 
 def _nested(tree: Tree) -> Fraction:

@@ -34,18 +34,17 @@ _PLAIN = str.maketrans({**_COMPOSED, **_SIGNS, **VARIANTS})
 _LETTERS = "A-Za-z" + "".join(GREEK)
 _WORD = rf"[{_LETTERS}][{_LETTERS}0-9_{DOT}{TWO_DOTS}]*"
 _TOKEN = re.compile(
-    rf"(?P<space>[ \t\n]+)|(?P<word>{_WORD})|(?P<number>(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?(?!_))"
+    rf"(?P<space>[ \t]+)|(?P<word>{_WORD})|(?P<number>(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?(?!_))"
+    rf"|(?P<raised>[{''.join(_SUPERSCRIPTS)}]+)|(?P<part>[{''.join(_HALVES)}])"
     r"|(?P<relation><=|>=|==?|[<>])(?![=<>])|(?P<sign>\*\*(?!\*)|//|[-+*/^(),\[\]{}|])|(?P<prime>'+)",
     re.ASCII,
 )
-_RAISED = re.compile(f"(.?)([{''.join(_SUPERSCRIPTS)}]+)(.?)", re.DOTALL)
 _LOWERED = re.compile(f"[{''.join(_SUBSCRIPTS)}]+")
-_PART = re.compile(rf"([\w.)\]]?)([{''.join(_HALVES)}])([\w.^(]?)")
 _ALIKE = {"**": "^", "==": "=", "[": "(", "{": "(", "]": ")", "}": ")"}
 
 
 class Lexeme(NamedTuple):
-    """``kind``: ``number``, ``prime``, ``relation``, ``end``, the kind of a meaning, or a sign itself.
+    """``kind``: ``number``, ``raised`` (a superscript), ``prime``, ``relation``, ``end``, that of a meaning, or a sign.
 
     A token touches the one before it where no space stands between: ``touching``.
     """
@@ -59,23 +58,9 @@ class Lexeme(NamedTuple):
 
 def plain_characters(text: str) -> str:
     """A text with the signs that have a plain equivalent replaced."""
-
-    def raised(match: re.Match[str]) -> str:
-        digits = "".join(_SUPERSCRIPTS[c] for c in match[2])
-        if match[3] == "^" or match[1] in ("^", "") or not re.fullmatch(r"-?\d{1,3}", digits):
-            raise CheckError(f"the superscript `{match[2]}` is not read")
-        return f"{match[1]}^({digits}){match[3]}"
-
-    def part(match: re.Match[str]) -> str:
-        if match[1] or match[3]:
-            raise CheckError(f"`{match[0]}` is not read: write the sign between the factors")
-        return f"({_HALVES[match[2]]})"
-
     if text.isascii():
         return text
-    text = _RAISED.sub(raised, text.translate(_PLAIN))
-    text = _LOWERED.sub(lambda match: "_" + "".join(_SUBSCRIPTS[c] for c in match[0]), text)
-    return _PART.sub(part, text)
+    return _LOWERED.sub(lambda match: "_" + "".join(_SUBSCRIPTS[c] for c in match[0]), text.translate(_PLAIN))
 
 
 def tokens_of(text: str, names: KnownNames) -> list[Lexeme]:
@@ -110,8 +95,14 @@ def _lexemes(kind: str, text: str, touching: bool, names: KnownNames) -> list[Le
         return [Lexeme(m.kind, touching or i > 0, m.tree, m.name, m.order) for i, (m, _) in enumerate(parts)]
     if kind == "prime":
         return [Lexeme(kind, touching, ONE, "", len(text))]
-    sign = _ALIKE.get(text, text)
-    return [Lexeme(kind if kind == "relation" else sign, touching, ONE, sign)]
+    if kind == "part":
+        return [Lexeme("number", touching, number(Fraction(_HALVES[text])))]
+    if kind == "raised":
+        digits = "".join(_SUPERSCRIPTS[c] for c in text)
+        if not re.fullmatch(r"-?\d{1,3}", digits):
+            raise CheckError(f"the superscript `{text}` is not read")
+        return [Lexeme(kind, touching, number(int(digits)))]
+    return [Lexeme(kind if kind == "relation" else _ALIKE.get(text, text), touching, ONE, text)]
 
 
 def _bits(tree: Tree) -> int:

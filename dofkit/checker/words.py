@@ -140,7 +140,7 @@ class KnownNames:
         if not word[start].isalpha() or (end < len(word) and not word[end].isalpha()):
             return None
         found = self.meaning(word[start:end])
-        if found is None or found.kind == "operator" or (found.kind == "function" and end < len(word)):
+        if found is None or found.kind == "operator":
             return None
         return None if start and word[start:end].isascii() and found.tree in (PI, EULER) else found
 

@@ -1,0 +1,358 @@
+"""Texts -> trees: what people write, what can be read in two ways, what is hostile; the engines' reading beside it."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+
+import pytest
+
+from dofkit.base.errors import TextError
+from dofkit.checker.derivatives import symbols_in
+from dofkit.checker.errors import CheckError
+from dofkit.checker.grammar import parse, parse_relations
+from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
+from dofkit.checker.words import EULER, PI, KnownNames
+from dofkit.expressions.text import Names, parse_expression
+from dofkit.expressions.tree import num, parameter
+from tests.checker.values import of_engine, of_tree
+
+COORDINATES = frozenset({"x", "y", "theta", "phi", "s", "x_A", "x1"})
+PARAMETERS = ("R", "L", "m", "g", "l", "v", "omega")
+FUNCTIONS = {"h": ("s",), "f": ("t",), "w": ("x", "t")}
+NAMES = KnownNames(COORDINATES, {**{name: symbol(name) for name in PARAMETERS}, "a": number(Fraction(3, 2))}, FUNCTIONS)
+x, y, theta, phi, s, t, R, L, m, g, ell, v = (
+    symbol(name) for name in ("x", "y", "theta", "phi", "s", "t", "R", "L", "m", "g", "l", "v")
+)
+xdot, ydot, sdot, dx, dy, dt = (symbol(name) for name in ("xdot", "ydot", "sdot", "dx", "dy", "dt"))
+half, two, three = number(Fraction(1, 2)), number(2), number(3)
+
+
+def over(tree: Tree) -> Tree:
+    return power(tree, number(-1))
+
+
+def squared(tree: Tree) -> Tree:
+    return power(tree, two)
+
+
+def h(argument: Tree, order: int = 0) -> Tree:
+    return Tree("apply", (argument,), "h", (order,))
+
+
+def w(orders: tuple[int, int], *arguments: Tree) -> Tree:
+    return Tree("apply", arguments, "w", orders)
+
+
+READ: dict[str, Tree] = {
+    # numbers
+    "0.5": half,
+    "1e-6": number(Fraction(1, 10**6)),
+    ".5x": times(half, x),
+    "½ x": times(half, x),
+    "2^-1": half,
+    "2^3^2": number(512),
+    "a": number(Fraction(3, 2)),
+    "E": EULER,
+    "E^x": call("exp", x),
+    "exp(0)": ONE,
+    "π": PI,
+    # products
+    "2 x y": times(two, x, y),
+    "xy": times(x, y),
+    "mgl": times(m, g, ell),
+    "vt": times(v, t),
+    "2piR": times(two, PI, R),
+    "x(y+1)": times(x, add(y, ONE)),
+    "x·y×R": times(x, y, R),
+    "x**2": squared(x),
+    "x²": squared(x),
+    "x⁻¹": over(x),
+    "-x^2": negative(squared(x)),
+    "−x": negative(x),
+    "x - -y": add(x, y),
+    "x^y^R": power(x, power(y, R)),
+    # a space decides how a quotient reads
+    "1/2 m v^2": times(half, m, squared(v)),
+    "g/l sin(theta)": times(g, over(ell), call("sin", theta)),
+    "R/2 (x + y)": times(half, R, add(x, y)),
+    "y^2/2 dx": times(half, squared(y), dx),
+    "x/(2 y) R": times(x, over(times(two, y)), R),
+    "x/y/R": times(x, over(y), over(R)),
+    "(1/2)x": times(half, x),
+    "1/2*x": times(half, x),
+    # names
+    "θ": theta,
+    "ϑ + φ": add(theta, phi),
+    "x₁": symbol("x1"),
+    "x_1": symbol("x1"),
+    "x_A": symbol("x_A"),
+    # functions
+    "R sin(theta) dphi": times(R, call("sin", theta), symbol("dphi")),
+    "R cos theta": times(R, call("cos", theta)),
+    "Rcosθ dφ": times(R, call("cos", theta), symbol("dphi")),
+    "sin 2 x": call("sin", times(two, x)),
+    "sin^2(x)": squared(call("sin", x)),
+    "sin²(x)": squared(call("sin", x)),
+    "|x|": call("abs", x),
+    "|x||y|": times(call("abs", x), call("abs", y)),
+    "atan2(y, x)": call("atan2", y, x),
+    "ln(x) + arcsin(y)": add(call("log", x), call("asin", y)),
+    "sqrt(x^2 + y^2)": call("sqrt", add(squared(x), squared(y))),
+    # motions
+    "dx": dx,
+    "dt": dt,
+    "xdot": xdot,
+    "x_dot": xdot,
+    "x'": xdot,
+    "ẋ": xdot,
+    "x\u0307": xdot,
+    "xdot_A": symbol("x_Adot"),
+    "dx_A": symbol("dx_A"),
+    "θ̇": symbol("thetadot"),
+    "dx/dt": xdot,
+    "-dx/dt y": times(number(-1), xdot, y),
+    "(x dy + y dx)/dt": add(times(x, ydot), times(y, xdot)),
+    "dy/dx": times(dy, over(dx)),
+    "x(t)": x,
+    "x'(t)": xdot,
+    "xddot": symbol("xddot"),
+    # declared functions
+    "h": h(s),
+    "h(x - f(t))": h(add(x, negative(Tree("apply", (t,), "f", (0,))))),
+    "h'(s)": h(s, 1),
+    "h''(x)": h(x, 2),
+    "diff(h(s), s)": h(s, 1),
+    "diff(h(s), s, 2)": h(s, 2),
+    "diff(h(2x), x)": times(two, h(times(two, x), 1)),
+    "dh": times(h(s, 1), symbol("ds")),
+    "dh/dt": times(h(s, 1), sdot),
+    "dh/ds": h(s, 1),
+    "df/dt": Tree("apply", (t,), "f", (1,)),
+    "w": w((0, 0), x, t),
+    "diff(w(x, t), t)": add(w((0, 1), x, t), times(w((1, 0), x, t), xdot)),
+    "partial(w(x, t), t)": w((0, 1), x, t),
+    "partial(w(x, x), 2)": w((0, 1), x, x),
+    "diff(x^2, t)": times(two, x, xdot),
+}
+
+
+@pytest.mark.parametrize("text", READ)
+def test_a_text_is_read(text: str) -> None:
+    found = parse(text, NAMES)
+    if found != READ[text]:  # sums and products within one another may be grouped in another way
+        assert flat(found) == flat(READ[text])
+
+
+def flat(tree: Tree) -> Tree:
+    """A tree with sums in sums and products in products taken apart, and their parts in one order."""
+    below = tuple(map(flat, tree.below))
+    if tree.head not in ("sum", "product"):
+        return Tree(tree.head, below, tree.value, tree.orders)
+    parts = [part for one in below for part in (one.below if one.head == tree.head else (one,))]
+    built = (add if tree.head == "sum" else times)(*parts)
+    return Tree(built.head, tuple(sorted(built.below, key=repr)), built.value, built.orders)
+
+
+DOUBTFUL = (
+    *("1/2m", "g/2l", "1/2x", "1/2(x)", "x/y(x + y)", "1/xy", "1/2sin(x)", "x(y)", "x(2)", "L(t)", "h s", "h^2(s)"),
+    *("h²(s)", "sin theta/2", "sin x y", "sin x^2", "sin^-1(x)", "sin⁻¹ x", "x 2", "2 3", "1½", "x²^2", "2 ½"),
+    *("dx/dt2", "sin ½ x1 y", "exp 2 h(s)"),
+)
+MISTAKEN = (
+    *("", "  ", "q", "thetta", "e^x", "sin", "sin()", "sin(x, y)", "atan2(y)", "w(x)", "w'(x, t)", "L'", "t'", "x'''"),
+    *("x +", "* x", "(x", "x)", "(x]", "|x", "x = y; s", "x\ny", "x # y", "x ≠ y", "x != y", "x => y", "1_000", "010"),
+    *("0x10", "nan", "х", "30°", "x ± y", "1/0", "0^0", "0^-1", "(-1)^(1/2)", "x.y", "f'(t)(", "diff(x)", "diff(x, 2)"),
+    *(
+        "lambda: x",
+        "__import__('os')",
+        "x.__class__",
+        "\\frac{x}{y}",
+        "partial(x, 1)",
+        "x // y",
+        "x*** y",
+        "h(s",
+        "d(x)",
+    ),
+)
+HOSTILE = (
+    *("9**9**9", "2**2**40", "64^64^64", "x^65", "x^(1/65)", "((x+1)^9)^9", "(((2^64)^64)^64)", "1e999999999"),
+    *("(" * 10**5, "(" * 100 + "x" + ")" * 100, "sin(" * 500, "9" * 10**6, "a" * 10**6, "ab" * 900, "|" * 1000),
+    *(
+        "x^" * 400 + "x",
+        "x+" * 10**5 + "x",
+        "diff(" * 100,
+        "diff(" + "x*y*(x+1)*" * 150 + "y, x)",
+        "x'" * 10**4,
+        "1e64*" * 999,
+    ),
+)
+
+
+@pytest.mark.parametrize("text", [*DOUBTFUL, *MISTAKEN, *HOSTILE], ids=lambda text: ascii(text)[:30])
+def test_what_cannot_be_read_in_one_way_is_an_error(text: str) -> None:
+    with pytest.raises(CheckError):
+        parse_relations(text, NAMES)
+
+
+def test_letters_together_need_one_reading() -> None:
+    names = KnownNames(values={name: symbol(name) for name in ("a", "b", "ab", "ba")})
+    assert parse("ab", names) == symbol("ab")
+    with pytest.raises(CheckError, match="several"):
+        parse("abab", names)
+
+
+def test_a_declared_e_makes_powers_of_ten_doubtful() -> None:
+    with pytest.raises(CheckError, match="power of ten"):
+        parse("2e-3", KnownNames(values={"e": symbol("e")}))
+
+
+RELATIONS = {
+    "x^2 = R": [("x^2 - R", "=", False)],
+    "x": [("x", "=", False)],
+    "x == y": [("x - y", "=", False)],
+    "0 <= x < L": [("x - 0", ">", False), ("L - x", ">", True)],
+    "x = y = s": [("x - y", "=", False), ("y - s", "=", False)],
+    "xdot ≥ 0": [("xdot", ">", False)],
+    "x > y": [("x - y", ">", True)],
+}
+
+
+@pytest.mark.parametrize("text", RELATIONS)
+def test_relations(text: str) -> None:
+    found = [(flat(one.tree), one.sign, one.strict) for one in parse_relations(text, NAMES)]
+    assert found == [(flat(parse(tree, NAMES)), sign, strict) for tree, sign, strict in RELATIONS[text]]
+
+
+def test_a_value_is_no_relation() -> None:
+    with pytest.raises(CheckError):
+        parse("x = y", NAMES)
+
+
+ENGINES = Names(
+    COORDINATES,
+    {**{name: parameter(name) for name in PARAMETERS}, "a": num(Fraction(3, 2))},
+    {name: len(given) for name, given in FUNCTIONS.items()},
+    FUNCTIONS,
+    allow_accelerations=True,
+)
+PIECES = (
+    *(
+        "x",
+        "y",
+        "theta",
+        "R",
+        "m",
+        "xy",
+        "2",
+        "1/2",
+        "3",
+        "(x+y)",
+        "sin",
+        "cos",
+        "sin(x)",
+        "h",
+        "h(s)",
+        "h'",
+        "f",
+        "f(t)",
+    ),
+    *(
+        "w(x,t)",
+        "dx",
+        "dy",
+        "dt",
+        "xdot",
+        "ẋ",
+        "x'",
+        "θ",
+        "²",
+        "^2",
+        "^",
+        "+",
+        "-",
+        "*",
+        "/",
+        "/2",
+        "/dt",
+        "dx/dt",
+        " ",
+    ),
+    *(
+        "(",
+        ")",
+        "t",
+        "x(t)",
+        "pi",
+        "E",
+        "|",
+        "|x|",
+        "½",
+        "x1",
+        "x_1",
+        "x₁",
+        "exp",
+        "^(1/2)",
+        "^-1",
+        "a",
+        "mgl",
+        "sin^2",
+    ),
+    *(
+        "dθ",
+        "df/dt",
+        "dh",
+        "hdot",
+        "diff(h(s),s)",
+        "diff(x^2,t)",
+        "1e-3",
+        "2e",
+        "e3",
+        ".5",
+        "d",
+        "dot",
+        "_A",
+        "=",
+        "<=",
+    ),
+)
+SYMBOLS = {"velocity": "{}dot", "differential": "d{}", "acceleration": "{}ddot", "dt": "d{}"}
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_what_both_readings_take_they_take_alike(seed: int) -> None:
+    rng = random.Random(seed)
+    met = 0
+    for _ in range(400):
+        text = "".join(rng.choice(PIECES) + rng.choice(("", "", " ")) for _ in range(rng.randint(1, 6)))
+        try:
+            theirs, ours = parse_expression(text, ENGINES), parse(text, NAMES)
+        except (TextError, CheckError):
+            continue
+        values = {symbol.args: rng.uniform(0.3, 0.9) for symbol in sorted(theirs.symbols, key=lambda s: s.args)}
+        named = {SYMBOLS.get(kind, "{}").format(name): value for (kind, name), value in values.items()}
+        expected = of_engine(theirs, values)
+        assert of_tree(ours, {**dict.fromkeys(symbols_in(ours), 0.5), **named}) == pytest.approx(expected), text
+        met += 1
+    assert met > 40
+
+
+def test_what_the_engines_print_is_read_back() -> None:
+    for text in (
+        "h''(x + y)",
+        "partial(w(x*y, y), 1)",
+        "diff(w(x, t), x)",
+        "1/sqrt(x)",
+        "-3*x*y/2",
+        "R*x/(2*y)",
+        "x^(2/3)",
+    ):
+        values = {"x": 0.7, "y": 0.4, "R": 1.3, "t": 0.2}
+        theirs = {(kind, name): values[name] for kind in ("coordinate", "parameter", "time") for name in values}
+        assert of_tree(parse(text, NAMES), values) == pytest.approx(of_engine(parse_expression(text, ENGINES), theirs))
+
+
+def test_the_number_zero_is_read() -> None:
+    assert parse("0", NAMES) == ZERO
+    assert parse("3 - 3", NAMES) == ZERO
+    assert parse("3", NAMES) == three
