@@ -40,7 +40,7 @@ _DECIMAL = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,6})?", re.ASCII
 _VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,6})?)(?:\s*/\s*(\d+))?\s*", re.ASCII)
 _BASED = re.compile(r"0o([0-7]+)|0x([0-9a-fA-F]+)", re.ASCII)
 _NOT_FINITE = re.compile(r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
-_SILENT = ("title", "source", "notes", "expect")
+_SILENT = ("name", "title", "source", "notes", "expect")
 _TEXTS = ("name", "text", "surface", "curve", "drive")
 
 
@@ -177,7 +177,7 @@ def value_text(value: object) -> object:
 
 
 def canonical(document: Mapping[str, Any]) -> dict[str, Any]:
-    """The document without titles, notes and empty entries, short forms written out and values exact."""
+    """The document without its name, titles, notes and empty entries, short forms written out and values exact."""
     found: dict[str, Any] = {
         key: _canonical(value, key) for key, value in exact_document(document).items() if key not in _SILENT
     }
@@ -211,7 +211,9 @@ def _written_out(constraint: object) -> object:
 def _canonical(value: object, key: str) -> object:
     if isinstance(value, dict):
         parts = {k: _canonical(part, k) for k, part in value.items()}
-        return parts if key in ("parameters", "functions") else {k: p for k, p in parts.items() if p is not None}
+        return (
+            parts if key in ("parameters", "functions") else {k: p for k, p in parts.items() if p not in (None, {}, [])}
+        )
     if isinstance(value, list):
         return [_canonical(part, key) for part in value]
     return value if key in _TEXTS else value_text(value)
