@@ -1,9 +1,9 @@
 """A certificate's form, read with care: bounded, and every fault told.
 
-A certificate is a JSON object: ``certificate`` (1), ``scene`` (``name``, ``sha256`` of the canonical JSON of the scene's
-document, optionally the ``document``), ``cayley`` (bodies that are read with Cayley parameters where a claim says
-``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``fields``, ``claims``, ``uncovered``. A TEXT is an
-expression in the grammar of scenes (numbers exact); an ID names a relation of the scene (``c4``, ``c4.1``) or a step.
+A certificate is a JSON object: ``certificate`` (1), ``scene`` (``name``, ``sha256`` of the canonical JSON of the
+scene's document, optionally the ``document``), ``cayley`` (bodies that are read with Cayley parameters where a claim
+says ``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``fields``, ``claims``, ``uncovered``. A TEXT is
+an expression in the grammar of scenes (numbers exact); an ID names a relation of the scene (``c4``, ``c4.1``) or a step.
 Steps, points, minors and fields are looked at only where a claim uses them.
 
 STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of the scene and of steps before it).
@@ -38,12 +38,12 @@ centres. A relation holds at an exact point where the ring says 0 after substitu
 0 in the ring, or follows from such by steps.
 
 MINORS ``{"id", "at": POINT, "rows": [ID], "columns": [coordinate]}``: the determinant of d(row)/d(column) (of a finite
-relation) and d(row)/d(column's velocity) (of a velocity relation) excludes 0. A claim's ``minor`` is an id or the object.
-Every row must hold at the point (linear velocity relations: hold as forms) and follow from the scene's relations.
+relation) and d(row)/d(column's velocity) (of a velocity relation) excludes 0. A claim's ``minor`` is an id or the
+object. Every row must hold at the point (linear velocity relations as forms) and follow from the scene's relations.
 
-FIELDS ``{"id", "components": {coordinate or t: TEXT}}``: a velocity field; what is left out is 0. FIELDS may also be made
-from a minor: ``{"id", "cramer": {"rows": [ID], "columns": [coordinate], "free": coordinate or t}}`` (at most 5 rows): the
-field with the determinant at ``free``, 0 at the other free columns, and Cramer's numerators at ``columns``.
+FIELDS ``{"id", "components": {coordinate or t: TEXT}}``: a velocity field; what is left out is 0. FIELDS may also
+be made from a minor: ``{"id", "cramer": {"rows": [ID], "columns": [coordinate], "free": coordinate or t}}`` (at most
+5 rows): the field with the determinant at ``free``, 0 at other free columns, and Cramer's numerators at ``columns``.
 A WORD is a list of ids of fields: [A, B, C] is [[A, B], C].
 
 BOUNDS of dof (``most`` and ``least`` of squeeze), and of velocity_dof:
@@ -53,9 +53,9 @@ rule        fields                                        bound
 =========== ============================================= ======================================================
 minor       minor                                         most n - rows: dof where all rows are finite or integrals,
                                                           velocity_dof in any case
-frobenius   minor, fields [id]                            most n - rows of dof: the rows' kernel in (q, t), spanned
-                                                          by the fields (all that are missing: n, or n + 1 with
-                                                          time, less rows), is involutive
+frobenius   minor, fields [id], columns [coordinate       most n - rows of dof: the rows' kernel, spanned by the
+            or t] (a minor of the fields)                 fields (all that are missing: n, or n + 1 where t or tdot
+                                                          occurs in the rows, less rows), is involutive
 regular     minor                                         least n - rows: all relations are rows or follow from rows
                                                           by steps (implied, branch, sos, factor, square)
 family      at, parameters [u], values {u: TEXT},         least the number of u: q(u) meets all relations identically
@@ -69,8 +69,8 @@ cover       minor, blocks [{"rows": [ID], "fields":       least n - (sum of vari
                                                           the point (columns); the sum is the minor's size
 =========== ============================================= ======================================================
 
-CLAIMS ``{"path", "value", "rule", ..., "about", "cayley"}``. ``about`` (dof, velocity_dof): ``reference`` (the point is the
-scene's configuration), ``component`` (only where none is given that meets the relations), ``everywhere``.
+CLAIMS ``{"path", "value", "rule", ..., "about", "cayley"}``. ``about`` (dof, velocity_dof): ``reference`` (the point
+is the scene's configuration), ``component`` (only where none is given that meets the relations), ``everywhere``.
 NAME is a constraint's name, with ``~1`` for ``/`` and ``~0`` for ``~``.
 
 ======================================= ============== ==========================================================
@@ -85,14 +85,17 @@ path                                    rule           fields
                                                        [[c, a]]}: number + sos + sum c i + sum (sos) ineq = 0 with
                                                        tdot = 1; the TEXTs have a value everywhere. An inequality
                                                        stands alone, without c
-/consistent false                       polygon        side, way: [ID, [TEXT vector], length TEXT]: ID = number *
-                                                       (vector^2 - length^2), side vector = sum of way vectors
-/consistent false                       boxes          variables {x: [low, high] or "angle"}, bounds {x: {"c": {ID:
-                                                       TEXT}, "sos"}}: high^2 - x^2 = sum c i + sos; tree: ["cut",
-                                                       {ID: TEXT}] (the sum excludes 0) or [x, value, tree, tree]
-/conflicting                            conflict       ``rules`` as for /consistent false in ``refutation`` (an object
-                                                       with rule), using just these constraints; minimal {NAME: POINT}:
-                                                       a point at which the others hold, at rest
+/consistent false                       polygon        side S, way [S]; S: [ID, [TEXT vector], length TEXT, number]:
+                                                       ID = number * (vector^2 - length^2); side vector = sum of way
+                                                       vectors (number is 1 where left out)
+/consistent false                       boxes          variables {x: half TEXT (rational) or "angle"}, bounds {x:
+                                                       {"c": {ID: TEXT}, "sos": [[c, a]]}}: half^2 - x^2 = sum c i
+                                                       + sos, box from -half to half; tree: ["cut", {ID: TEXT}] (the
+                                                       sum excludes 0) or [x, value, tree below, tree above]
+/conflicting                            conflict       refutation: an object with rule, as for /consistent false,
+                                                       using just these constraints; minimal {NAME: POINT at which
+                                                       the others hold at rest, or an object with rule (point,
+                                                       regular, motion) as for /consistent true}
 /dof, /velocity_dof                     squeeze        most, least (above); about
 /dof, /velocity_dof                     regular        minor; about (most and least in one, all rows of one kind)
 /dof                                    nothing        no relation but inequalities: n, everywhere
@@ -105,22 +108,27 @@ path                                    rule           fields
 /holonomic, /scleronomic                count          (of the verified entries)
 /redundant_equations                    count          (of verified /velocity_dof)
 /count/independent                      independent    minor: finite rows, all finite relations follow
-/generalized_coordinates                minor          minor: columns are all other coordinates (and verified /dof)
+/generalized_coordinates                minor          minor (rows finite or integrals): columns are all the other
+                                                       coordinates; /dof verified before, at the same point. With
+                                                       fields, columns: frobenius as above, rows of velocities too
 /growth_vector                          span           spans: for each entry {"words", "columns"}; at, fields, rows,
-                                                       minor (regular: all rows). Upper bounds: Witt, dof verified
-/redundant                              cofactors      minor: all relations of the others or what follows
+                                                       minor (regular: all rows). Upper bounds: Witt, and /dof
+                                                       verified before, at the same point
+/redundant                              cofactors      minor: rows are relations of the scene, all others follow from
+                                                       them with numbers (or one, with cofactors not 0 at the point)
 /constraints/NAME/holonomic             finite, inequality
 /constraints/NAME/holonomic_alone       the same       of the constraint's own relations only (``alone`` is implied)
 .../holonomic true                      integral       at; integrals [ID of integral steps]: NAME's relations follow
                                                        from their rates, finite relations and theirs
-.../holonomic true                      frobenius      minor, fields: NAME's relations are rows or follow from rows
+.../holonomic true                      frobenius      minor, fields, columns: NAME's relations are rows or follow
 .../holonomic false                     bracket        at, fields, rows, combination [[c, WORD]], pairs ID: the
                                                        relation ID of NAME is not 0 there
 .../holonomic_alone true, false         wedge          true: omega ^ d(omega) = 0 (one form); false: at, triple [x, y,
                                                        z] (``t`` for time)
 .../scleronomic, .../catastatic true    timeless       steps [ID of factor steps]: t, tdot do not occur in what is
                                                        left; degree {ID: k}: of a nonlinear relation, homogeneous
-.../scleronomic false                   turns          at, relation ID; pair [x, y] for a form without tdot
+.../scleronomic false                   turns          at, relation ID; pair [x, y] for a form without tdot; euler
+                                                       true: a nonlinear relation that is no cone at the state ``at``
 .../catastatic false                    turns          at, relation ID: the coefficient of tdot is not 0
 .../exact true                          exact          closed
 .../exact false                         not exact      at, pair [x, y]
@@ -134,6 +142,63 @@ path                                    rule           fields
 .../independent                         independent    minor: rows of constraints up to this; those before follow from
                                                        rows before, and its own from all rows
 ======================================= ============== ==========================================================
+
+Local claims (holonomic, circuit, independent, ...) are made at the scene's configuration (with t = 0), where one is
+given that meets the relations; else at any point. Claims are verified in their order.
 """
 
 from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from dofkit.checker.errors import CheckError
+
+VERSION = 1
+LARGEST_TEXT, MOST_CLAIMS, MOST_ENTRIES = 20_000_000, 20_000, 20_000
+PARTS = ("relations", "points", "minors", "fields")
+KEYS = ("certificate", "scene", "cayley", *PARTS, "claims", "uncovered")
+
+
+def canonical_hash(document: Mapping[str, Any]) -> str:
+    """The SHA-256 of the canonical JSON of a scene's document."""
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=False, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def certificate_of(given: str | bytes | Mapping[str, Any]) -> dict[str, Any]:
+    """A certificate from its text or mapping: of the right form, and not too large."""
+    if isinstance(given, (str, bytes)):
+        if len(given) > LARGEST_TEXT:
+            raise CheckError("the certificate is too long")
+        try:
+            given = json.loads(given)
+        except (ValueError, RecursionError) as error:
+            raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
+    if not isinstance(given, Mapping) or not isinstance(given.get("scene", {}), Mapping):
+        raise CheckError("a certificate is an object with a scene")
+    if type(given.get("certificate")) is not int or given["certificate"] != VERSION:
+        raise CheckError(f"a certificate of version {str(given.get('certificate'))[:20]!r}, not {VERSION}")
+    if unknown := [key for key in given if key not in KEYS]:
+        raise CheckError(f"a certificate has no field {str(unknown[0])[:40]!r}")
+    for part, most in (*((part, MOST_ENTRIES) for part in PARTS), ("claims", MOST_CLAIMS)):
+        entries = given.get(part, [])
+        if not isinstance(entries, list) or len(entries) > most or not all(isinstance(one, dict) for one in entries):
+            raise CheckError(f"`{part}` is a list of at most {most} objects")
+    for part in PARTS:
+        names = [str(one.get("id")) for one in given.get(part, [])]
+        if len(set(names)) != len(names):
+            raise CheckError(f"an id of `{part}` is given twice")
+    _check_texts(given)
+    return {"cayley": [], "uncovered": [], **{part: [] for part in (*PARTS, "claims")}, **given}
+
+
+def _check_texts(given: Mapping[str, Any]) -> None:
+    for part in ("cayley", "uncovered"):
+        entries = given.get(part, [])
+        if not isinstance(entries, list) or not all(isinstance(one, str) for one in entries):
+            raise CheckError(f"`{part}` is a list of texts")
+    if len(given.get("uncovered", [])) > MOST_CLAIMS:
+        raise CheckError("too much is uncovered")
