@@ -1,0 +1,187 @@
+"""Evidence about what velocities allow: fields by Cramer's rule, words of brackets, orbits, growth."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from dofkit.checker.derivatives import symbols_in
+from dofkit.checker.errors import CheckError
+from dofkit.checker.fields import LARGEST_CRAMER, VelocityField, bracket, field_named
+from dofkit.checker.trees import Tree
+from dofkit.methods.certificates.elimination import echelon
+from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
+from dofkit.methods.certificates.points import FoundPoint
+from dofkit.methods.certificates.rigid_fields import field_id, parts_of
+from dofkit.methods.certificates.room import Room, Standing, Told
+
+LONGEST, MOST_WORDS, LARGEST_TREE = 7, 60, 30_000
+
+
+@dataclass
+class Words:
+    """Fields tangent to rows, and words of them by levels that are independent at the point, each with a column."""
+
+    fields: list[str]
+    rows: list[str]
+    words: list[list[str]]
+    columns: list[str]
+    vectors: list[dict[str, float]]
+    levels: list[int]
+
+
+def tangent_fields(room: Room, standing: Standing) -> list[str] | None:
+    """Fields that span the kernel of rows: one for every coordinate (and time) that is no column."""
+    scenery, pairs = room.scenery, dict(zip(standing.rows, standing.columns, strict=True))
+    evidence = scenery.evidence
+    timed = any(not {"t", "tdot"}.isdisjoint(symbols_in(evidence.relation(row).left)) for row in standing.rows)
+    free = [q for q in (*room.problem.coordinates, *(["t"] if timed else [])) if q not in pairs.values()]
+    found = []
+    for one in free:
+        touched = _touched(room, standing, one)
+        if len(touched) > LARGEST_CRAMER:
+            return None
+        given = {"rows": touched, "columns": [pairs[row] for row in touched], "free": one}
+        found.append(field_id(scenery, {"cramer": given}))
+    return found
+
+
+def _touched(room: Room, standing: Standing, free: str) -> list[str]:
+    """The rows that move together when one free coordinate moves."""
+    evidence = room.scenery.evidence
+    parts = parts_of(room.scenery, standing.rows)
+    if free == "t":
+        moved = [part for part in parts if any(_holds(evidence.relation(row).left, "t") for row in part)]
+    else:
+        moved = [part for part in parts if any(_holds(evidence.relation(row).left, free) for row in part)]
+    return [row for row in standing.rows if any(row in part for part in moved)]
+
+
+def _holds(tree: Tree, name: str) -> bool:
+    return not {name, f"{name}dot"}.isdisjoint(symbols_in(tree))
+
+
+def words_of(room: Room, standing: Standing, most: int) -> Words | None:
+    """Left-normed brackets, level by level, until ``most`` are independent at the point or nothing new comes."""
+    try:
+        fields = tangent_fields(room, standing)
+        return None if not fields else _grown(room, standing, fields, most)
+    except (CheckError, NoEstimateError, RecursionError):
+        return None
+
+
+def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Words:
+    estimates = Estimates(standing.point.floats)
+    chosen = room.scenery.chosen
+    bases: dict[str, VelocityField] = {
+        one: {q: chosen(tree) for q, tree in field_named(room.scenery.evidence, one).items()} for one in fields
+    }
+    level = [([one], bases[one]) for one in fields]
+    words: list[list[str]] = []
+    vectors: list[dict[str, float]] = []
+    columns: list[str] = []
+    levels: list[int] = []
+    for _ in range(LONGEST):
+        fresh = []
+        for word, value in level:
+            vector = {q: estimates.value(tree) for q, tree in value.items()}
+            pivots = echelon([*vectors, vector]).pivots
+            if len(pivots) > len(vectors):
+                words.append(word)
+                vectors.append(vector)
+                columns = [p.column for p in pivots]
+                fresh.append((word, value))
+        levels.append(len(words))
+        if len(words) >= most or not fresh:
+            break
+        level = [([*word, one], bracket(value, bases[one])) for word, value in fresh for one in fields if word != [one]]
+        level = level[:MOST_WORDS]
+    return Words(fields, list(standing.rows), words, columns, vectors, levels)
+
+
+def orbit(room: Room, which: str) -> Told | None:
+    """dof of a scene with forms: from below what brackets reach, from above finite rows and what integrates."""
+    standing, told = room.standing, room.report.dof
+    if standing is None or not standing.accounted or told is None or room.scenery.nonlinear:
+        return None
+    most = _most(room, standing, told)
+    least = _least(room, standing, told)
+    if most is None or least is None:
+        return None
+    return {"rule": "squeeze", "most": most, "least": least, "about": room.about}
+
+
+def _least(room: Room, standing: Standing, told: int) -> Told | None:
+    size = len(room.problem.coordinates)
+    if told == size - len(standing.rows):
+        return {"rule": "regular", "minor": room.minor(standing)}
+    words = words_of(room, standing, told + 1)
+    if words is None:
+        return None
+    moves = any("t" in vector for vector in words.vectors)
+    return {
+        "rule": "span",
+        "at": standing.point.name,
+        "fields": words.fields,
+        "rows": words.rows,
+        "words": words.words[: told + moves],
+        "columns": _columns(words, told + moves),
+    }
+
+
+def _columns(words: Words, count: int) -> list[str]:
+    return [p.column for p in echelon(words.vectors[:count]).pivots]
+
+
+def _most(room: Room, standing: Standing, told: int) -> Told | None:
+    finite = room.finite_standing
+    size = len(room.problem.coordinates)
+    if finite is not None and told >= size - len(finite.rows):
+        return {"rule": "minor", "minor": room.minor(finite)}
+    return involutive_rows(room, integrable_names(room))
+
+
+def integrable_names(room: Room) -> list[str]:
+    """The finite relations, and the forms that are said to be holonomic."""
+    owners = {entry.name for entry in room.report.constraints if entry.holonomic}
+    return [one.name for one in room.problem.relations if one.kind != "inequality" and one.owner in owners]
+
+
+def involutive_rows(room: Room, names: Sequence[str]) -> Told | None:
+    """Rows whose kernel is closed under brackets, for the rule `frobenius`."""
+    standing = room.standing_of(names)
+    if standing is None or not standing.rows:
+        return None
+    try:
+        fields = tangent_fields(room, standing)
+    except CheckError:
+        return None
+    if fields is None:
+        return None
+    columns = [q for q in (*room.problem.coordinates, "t") if q not in standing.columns][: len(fields)]
+    return {"rule": "frobenius", "minor": room.minor(standing), "fields": fields, "columns": columns}
+
+
+def growth_vector(room: Room, path: str) -> Told | None:
+    """Words for every entry."""
+    standing, told = room.standing, room.report.growth_vector
+    if standing is None or not standing.accounted or not told or room.scenery.nonlinear:
+        return None
+    words = words_of(room, standing, told[-1])
+    if words is None:
+        return None
+    spans = [{"words": words.words[:count], "columns": _columns(words, count)} for count in words.levels[: len(told)]]
+    return {
+        "rule": "span",
+        "at": standing.point.name,
+        "fields": words.fields,
+        "rows": words.rows,
+        "minor": room.minor(standing),
+        "spans": spans,
+    }
+
+
+def pairing(room: Room, name: str, point: FoundPoint, vector: dict[str, float]) -> float:
+    """The value of a form in a direction."""
+    rates = {f"{q}dot": vector.get(q, 0.0) for q in (*room.problem.coordinates, "t")}
+    return Estimates({**point.floats, **rates}).value(room.scenery.left(name))

@@ -1,0 +1,195 @@
+"""Evidence for the labels of one constraint."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+from dofkit.checker.derivatives import derivative
+from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import Tree, add, negative, number, power, times
+from dofkit.methods.certificates.forms import involutive_rows, integrable_names, pairing, words_of
+from dofkit.methods.certificates.room import FAR, Room, Told
+from dofkit.methods.certificates.texts import text_of
+from dofkit.report import ConstraintEntry
+
+
+
+def holonomic(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
+    """Finite, an inequality, integrated, or reached across."""
+    evidence = room.scenery.evidence
+    if evidence.owned(entry.name, ("inequality",)):
+        return {"rule": "inequality"}
+    if not evidence.owned(entry.name, ("velocity",)):
+        return {"rule": "finite"}
+    alone = field == "holonomic_alone"
+    names = list(evidence.owned(entry.name))
+    if getattr(entry, field) is False:
+        return _wedge(room, names[0]) if alone and len(names) == 1 else _reached(room, entry.name, alone)
+    if alone and len(names) == 1 and room.scenery.linear(names[0]):
+        return {"rule": "wedge"}
+    return _integrated(room, entry) or involutive_rows(room, names if alone else integrable_names(room))
+
+
+def _wedge(room: Room, name: str) -> Told | None:
+    """A point and three variables where omega ^ d(omega) is not 0."""
+    point = room.point
+    form = room.form(name)
+    if point is None or form is None:
+        return None
+    for triple in combinations([v for v in room.scenery.evidence.variables if v in room.met(form)], 3):
+        i, j, k = triple
+        parts = ((i, j, k), (j, k, i), (k, i, j))
+        tree = add(*(times(form.get(a, number(0)), curl(form, b, c)) for a, b, c in parts))
+        if room.differs(tree, point):
+            return {"rule": "wedge", "at": point.name, "triple": list(triple)}
+    return None
+
+
+def curl(form: dict[str, Tree], i: str, j: str) -> Tree:
+    """d_i form_j - d_j form_i."""
+    zero = number(0)
+    return add(derivative(form.get(j, zero), i), negative(derivative(form.get(i, zero), j)))
+
+
+def _reached(room: Room, owner: str, alone: bool) -> Told | None:
+    """A word of brackets that a form of the constraint does not allow."""
+    evidence = room.scenery.evidence
+    standing = room.standing_of(evidence.owned(owner)) if alone else room.standing
+    if standing is None or room.scenery.nonlinear or not (alone or standing.accounted):
+        return None
+    words = words_of(room, standing, len(room.problem.coordinates) + 1)
+    if words is None:
+        return None
+    for name in evidence.owned(owner, ("velocity",)):
+        for word, vector in zip(words.words, words.vectors, strict=True):
+            if len(word) > 1 and abs(pairing(room, name, standing.point, vector)) > FAR:
+                used = {"fields": words.fields, "rows": words.rows, "combination": [["1", word]], "pairs": name}
+                return {"rule": "bracket", "at": standing.point.name, **used}
+    return None
+
+
+def _integrated(room: Room, entry: ConstraintEntry) -> Told | None:
+    """The rule `integral`: a step for the integral that is told, and one by which the form follows from it."""
+    names = room.scenery.evidence.owned(entry.name)
+    if len(names) != 1 or room.point is None or (step := integral_step(room, entry, names[0])) is None:
+        return None
+    return {"rule": "integral", "at": room.point.name, "integrals": [step]}
+
+
+def integral_step(room: Room, entry: ConstraintEntry, name: str) -> str | None:
+    """Steps for an integral of one form alone: its id, where they stand up."""
+    function = integral_text(entry)
+    factor = factor_text(room, entry, name)
+    ids = f"{name} integrated", f"rate of {name} integrated", f"{name} from its integral"
+    if function is None or factor is None:
+        return None
+    if ids[0] in room.scenery.evidence.known:
+        return ids[0]
+    try:
+        room.scenery.add_step({"id": ids[0], "by": "integral", "function": function, "c": {name: factor}})
+        room.scenery.add_step({"id": ids[1], "by": "rate", "of": ids[0]})
+        follows = {"id": ids[2], "by": "implied", "of": name, "h": factor, "c": {ids[1]: "1"}}
+        if factor.lstrip("-").isdigit():
+            follows["nonzero"] = {"number": True}
+        room.scenery.add_step(follows)
+    except CheckError:
+        return None
+    return ids[0]
+
+
+def integral_text(entry: ConstraintEntry) -> str | None:
+    """The function that is said to be constant."""
+    return entry.integral.rpartition("=")[0].strip() if entry.integral else None
+
+
+def factor_text(room: Room, entry: ConstraintEntry, name: str) -> str | None:
+    """The factor with d(function) = factor * form, from a quotient of components."""
+    text, form = integral_text(entry), room.form(name)
+    if text is None or form is None:
+        return None
+    try:
+        function = room.scenery.evidence.text(text)
+        for v, part in form.items():
+            quotient = times(derivative(function, v), power(part, number(-1)))
+            for given in ("1", "-1", entry.integrating_factor):
+                if given and room.scenery.evidence.ring.vanishes(
+                    add(quotient, negative(room.scenery.evidence.text(given)))
+                ):
+                    return given
+        v = next(iter(form))
+        return text_of(times(derivative(function, v), power(form[v], number(-1))))
+    except (CheckError, StopIteration):
+        return None
+
+
+def integral(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
+    """The integral that is told."""
+    names = room.scenery.evidence.owned(entry.name, ("velocity",))
+    if len(names) != 1 or room.point is None:
+        return None
+    factor, function = factor_text(room, entry, names[0]), integral_text(entry)
+    if factor is None:
+        return None
+    return {"rule": "integral", "at": room.point.name, "function": function, "factor": factor}
+
+
+def integrating_factor(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
+    """The factor that is told."""
+    return None if room.point is None else {"rule": "integral", "at": room.point.name}
+
+
+def exact(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
+    """Closed, or a point where it is not."""
+    names = room.scenery.evidence.owned(entry.name, ("velocity",))
+    if entry.exact:
+        return {"rule": "exact"}
+    form, point = (room.form(names[0]) if len(names) == 1 else None), room.point
+    if form is None or point is None:
+        return None
+    for i, j in combinations([v for v in room.scenery.evidence.variables if v in room.met(form)], 2):
+        if room.differs(curl(form, i, j), point):
+            return {"rule": "not exact", "at": point.name, "pair": [i, j]}
+    return None
+
+
+def scleronomic(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
+    """Time does not occur, or matters at a point."""
+    if getattr(entry, field):
+        return _timeless(room, entry, field)
+    evidence = room.scenery.evidence
+    for name in evidence.owned(entry.name, ("finite", "velocity", "inequality")):
+        found = _turning(room, name, field)
+        if found is not None:
+            return {"rule": "turns", "relation": name, **found}
+    return None
+
+
+def _timeless(room: Room, entry: ConstraintEntry, field: str) -> Told:
+    found: Told = {"rule": "timeless"}
+    evidence = room.scenery.evidence
+    degrees = {
+        name: "1"
+        for name in evidence.owned(entry.name, ("velocity",))
+        if field == "scleronomic" and not room.scenery.linear(name)
+    }
+    return found | ({"degree": degrees} if degrees else {})
+
+
+def _turning(room: Room, name: str, field: str) -> Told | None:
+    kind = room.scenery.evidence.relation(name).kind
+    form = room.form(name) if kind == "velocity" else None
+    point = room.search.touching(name) if kind == "inequality" else room.point
+    if point is None:
+        return None
+    if point is not room.point:
+        room.scenery.parts["points"].append(point.entry())
+    if form is None:
+        tree = derivative(room.scenery.left(name), "t")
+        return {"at": point.name} if kind != "velocity" and room.differs(tree, point) else None
+    if room.differs(form.get("t", number(0)), point):
+        return {"at": point.name}
+    for a, b in combinations(form, 2) if field == "scleronomic" else ():
+        turned = add(times(form[a], derivative(form[b], "t")), negative(times(form[b], derivative(form[a], "t"))))
+        if room.differs(turned, point):
+            return {"at": point.name, "pair": [a, b]}
+    return None

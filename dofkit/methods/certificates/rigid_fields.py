@@ -1,0 +1,106 @@
+"""Fields that keep relations whatever they are: motions of all particles and bodies together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from dofkit.checker.derivatives import symbols_in
+from dofkit.checker.errors import CheckError
+from dofkit.checker.fields import field_named, on_row
+from dofkit.methods.certificates.elimination import echelon
+from dofkit.methods.certificates.estimates import Estimates
+from dofkit.methods.certificates.room import Room, Standing, Told
+from dofkit.methods.certificates.scenery import Scenery
+
+_AXES = "xyz"
+
+
+def places_of(document: Mapping[str, Any], dimension: int) -> list[tuple[list[str], str]]:
+    """The coordinates of every particle and body of the plane: its place, and its angle or ""."""
+    found = []
+    for key in ("particles", "bodies"):
+        for entry in document.get(key) or []:
+            given = {"name": entry} if isinstance(entry, str) else entry
+            roles = _AXES[:dimension] if dimension < 3 or key == "particles" else ""
+            names = given.get("coordinates") or [f"{role}_{given['name']}" for role in roles]
+            angle = (given.get("coordinates") or [f"theta_{given['name']}"])[-1] if key == "bodies" else ""
+            if roles:
+                found.append((list(names[:dimension]), angle if dimension == 2 else ""))
+    return found
+
+
+def motions(document: Mapping[str, Any], dimension: int) -> list[dict[str, str]]:
+    """Translations and rotations as fields; none where a body of space occurs."""
+    places = places_of(document, dimension)
+    if dimension == 3 and document.get("bodies"):
+        return []
+    found = [{place[i]: "1" for place, _ in places} for i in range(dimension)]
+    for i in range(dimension):
+        for j in range(i):
+            turn = {place[j]: f"-{place[i]}" for place, _ in places} | {place[i]: place[j] for place, _ in places}
+            found.append(turn | {angle: "1" for _, angle in places if angle})
+    return found
+
+
+def covering(room: Room, standing: Standing) -> list[Told] | None:
+    """Blocks for the rule `cover`, where rigid motions are all the freedom that each has."""
+    scenery, blocks = room.scenery, []
+    candidates = motions(room.document, room.problem.dimension)
+    for names in parts_of(scenery, list(scenery.evidence.finite)):
+        held = {symbol for name in names for symbol in symbols_in(scenery.evidence.relation(name).left)}
+        own = [q for q in room.problem.coordinates if q in held]
+        rank = sum(row in names for row in standing.rows)
+        fields = [{q: text for q, text in one.items() if q in held} for one in candidates]
+        columns = _chosen(scenery, fields, standing)
+        ids = []
+        for place, _ in columns:
+            ids.append(field_id(scenery, {"components": fields[place]}))
+        if len(own) - rank != len(ids) or not _kept(scenery, ids, names):
+            return None
+        blocks.append({"rows": names, "fields": ids, "columns": [column for _, column in columns]})
+    return blocks
+
+
+def parts_of(scenery: Scenery, names: list[str]) -> list[list[str]]:
+    """Relations that share coordinates, together."""
+    coordinates = set(scenery.problem.coordinates)
+    held = {name: symbols_in(scenery.evidence.relation(name).left) for name in names}
+    moved = {name: {s for q in coordinates for s in (q, f"{q}dot") if s in held[name]} for name in names}
+    found: list[tuple[set[str], list[str]]] = []
+    for name in names:
+        own, members = {s.removesuffix("dot") if s not in coordinates else s for s in moved[name]}, [name]
+        rest = []
+        for symbols, others in found:
+            if symbols & own:
+                own, members = own | symbols, others + members
+            else:
+                rest.append((symbols, others))
+        found = [*rest, (own, members)]
+    order = {name: place for place, name in enumerate(names)}
+    return [sorted(members, key=order.__getitem__) for _, members in found]
+
+
+def _chosen(scenery: Scenery, fields: list[dict[str, str]], standing: Standing) -> list[tuple[int, str]]:
+    """Independent fields at the point, each with a column."""
+    estimates = Estimates(standing.point.floats)
+    rows = [{q: estimates.value(scenery.evidence.text(text)) for q, text in one.items()} for one in fields]
+    return [(p.row, p.column) for p in echelon(rows).pivots]
+
+
+def _kept(scenery: Scenery, ids: list[str], names: list[str]) -> bool:
+    try:
+        found = [field_named(scenery.evidence, one) for one in ids]
+        return all(scenery.evidence.ring.vanishes(on_row(scenery.evidence, row, one)) for one in found for row in names)
+    except CheckError:
+        return False
+
+
+def field_id(scenery: Scenery, given: Told) -> str:
+    """The id of a field, new or known."""
+    fields = scenery.parts["fields"]
+    for one in fields:
+        if all(one.get(key) == value for key, value in given.items()):
+            return str(one["id"])
+    fields.append({"id": f"X{len(fields)}", **given})
+    return str(fields[-1]["id"])

@@ -1,0 +1,196 @@
+"""What one certificate is made of while it is made: both readings of the scene, the main point, rows and columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from dofkit.checker.derivatives import symbols_in
+from dofkit.checker.errors import CheckError
+from dofkit.checker.label_rules import form_of
+from dofkit.checker.problem import Problem
+from dofkit.checker.trees import Tree
+from dofkit.methods.certificates.dependence import accounted
+from dofkit.methods.certificates.elimination import echelon
+from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
+from dofkit.methods.certificates.points import FoundPoint, PointSearch
+from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
+from dofkit.report import Report
+
+Told = dict[str, Any]
+#: What is farther from 0 than this, in floats, is taken to be none.
+FAR = 1e-7
+
+
+@dataclass
+class Standing:
+    """A point with independent rows in columns; ``dependent`` are the other rows, ``accounted`` where steps say so."""
+
+    point: FoundPoint
+    rows: list[str]
+    columns: list[str]
+    dependent: list[str]
+    accounted: bool = True
+
+
+@dataclass
+class Room:
+    """The report, the reading of the scene, and the parts found so far."""
+
+    report: Report
+    document: Mapping[str, Any]
+    scenery: Scenery
+    uncovered: list[str] = field(default_factory=list)
+
+    @property
+    def problem(self) -> Problem:
+        """The reading."""
+        return self.scenery.problem
+
+    @property
+    def label(self) -> str:
+        """What ids of this reading begin with."""
+        return "C" if self.scenery.cayley else ""
+
+    @property
+    def small(self) -> bool:
+        """Whether numbers are worked with at all."""
+        return len(self.problem.relations) <= MOST_ROWS and len(self.problem.coordinates) <= MOST_ROWS
+
+    @cached_property
+    def search(self) -> PointSearch:
+        """The search for points."""
+        return PointSearch(self.scenery, self.report.witness)
+
+    @cached_property
+    def at_reference(self) -> bool:
+        """Whether the main point is the scene's own configuration."""
+        return self._reference is not None
+
+    @cached_property
+    def _reference(self) -> FoundPoint | None:
+        return self.search.reference() if self.small and not self.scenery.nonlinear else None
+
+    @cached_property
+    def about(self) -> str:
+        """Of which points the main point speaks."""
+        return "reference" if self.at_reference else "component"
+
+    @cached_property
+    def point(self) -> FoundPoint | None:
+        """The main point, written into the certificate when it is first asked for."""
+        if not self.small:
+            return None
+        found = self._reference or self._searched()
+        if found is not None:
+            found.name = f"{self.label}{found.name}"
+            self.scenery.parts["points"].append(found.entry())
+        return found
+
+    def _searched(self) -> FoundPoint | None:
+        problem = self.problem
+        unknowns = [*problem.coordinates, *problem.generic]
+        names = list(self.scenery.evidence.finite)
+        if self.scenery.nonlinear:
+            names += self.scenery.evidence.moving
+            names += [step for step in map(self._rate, self.scenery.evidence.finite) if step]
+            unknowns += problem.rates
+        return self.search.somewhere(names, unknowns)
+
+    def _rate(self, name: str) -> str:
+        try:
+            self.scenery.add_step({"id": f"rate of {name}", "by": "rate", "of": name})
+        except CheckError:
+            return ""
+        return f"rate of {name}"
+
+    @cached_property
+    def equations(self) -> list[str]:
+        """All finite and velocity relations in their order."""
+        return [one.name for one in self.problem.relations if one.kind != "inequality"]
+
+    def standing_of(self, names: Sequence[str]) -> Standing | None:
+        """Independent rows among ``names`` at the main point, in their order."""
+        point = self.point
+        if point is None:
+            return None
+        try:
+            matrix = [self.row(name, point) for name in names]
+        except (NoEstimateError, CheckError):
+            return None
+        found = echelon(matrix)
+        rows = [names[p.row] for p in found.pivots]
+        return Standing(point, rows, [p.column for p in found.pivots], [names[i] for i in found.dependent])
+
+    def row(self, name: str, point: FoundPoint) -> dict[str, float]:
+        """The entries of a row in floats: by coordinates, or by their velocities."""
+        scenery = self.scenery
+        finite = scenery.evidence.relation(name).kind == "finite"
+        rates = {f"{q}dot": 0.0 for q in (*self.problem.coordinates, "t")} | {"tdot": 1.0}
+        gradient = Estimates({**rates, **point.floats}).gradient(scenery.left(name))
+        return {
+            q: gradient[q if finite else f"{q}dot"]
+            for q in self.problem.coordinates
+            if (q if finite else f"{q}dot") in gradient
+        }
+
+    @cached_property
+    def standing(self) -> Standing | None:
+        """The main point with rows among all equations; the others accounted for by steps where that is possible."""
+        return self._accounted(self.equations)
+
+    def solving(self, columns: Sequence[str]) -> Standing | None:
+        """The finite rows with just these columns; None where these do not do."""
+        found = self.finite_standing
+        if found is None or len(columns) != len(found.rows):
+            return None
+        wanted = set(columns)
+        matrix = [{q: v for q, v in self.row(name, found.point).items() if q in wanted} for name in found.rows]
+        pivots = echelon(matrix).pivots
+        if len(pivots) < len(columns):
+            return None
+        return Standing(found.point, found.rows, [p.column for p in pivots], found.dependent, found.accounted)
+
+    @cached_property
+    def finite_standing(self) -> Standing | None:
+        """The same for the finite relations."""
+        names = [name for name in self.equations if self.scenery.evidence.relation(name).kind == "finite"]
+        return self.standing if names == self.equations else self._accounted(names)
+
+    def _accounted(self, names: Sequence[str]) -> Standing | None:
+        found = self.standing_of(names)
+        if found is not None and found.dependent:
+            found.accounted = all([accounted(self.scenery, name, found.rows, found.point) for name in found.dependent])
+        return found
+
+    def minor(self, standing: Standing, size: int | None = None) -> str:
+        """The id of a minor: of all rows, or of the first ``size``."""
+        rows, columns = standing.rows[:size], standing.columns[:size]
+        given = {"at": standing.point.name, "rows": rows, "columns": columns}
+        minors = self.scenery.parts["minors"]
+        for one in minors:
+            if all(one[key] == value for key, value in given.items()):
+                return str(one["id"])
+        name = f"M{len(minors)}"
+        minors.append({"id": name, **given})
+        return name
+
+    def form(self, name: str) -> dict[str, Tree] | None:
+        """The components of a linear form."""
+        try:
+            return form_of(self.scenery.evidence, name)
+        except CheckError:
+            return None
+
+    def met(self, form: Mapping[str, Tree]) -> frozenset[str]:
+        """The variables of a form: those it moves and those it mentions."""
+        return frozenset(form).union(*(symbols_in(tree) for tree in form.values()))
+
+    def differs(self, tree: Tree, point: FoundPoint) -> bool:
+        """Whether a tree is not 0 at a point, by far."""
+        try:
+            return abs(Estimates(point.floats).value(self.scenery.chosen(tree))) > FAR
+        except NoEstimateError:
+            return False

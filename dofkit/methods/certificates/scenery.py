@@ -1,0 +1,107 @@
+"""The checker's reading of a scene, with choices made for what it leaves open."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from dofkit.checker.derivatives import symbols_in
+from dofkit.checker.effort import Effort
+from dofkit.checker.errors import CheckError
+from dofkit.checker.evidence import CheckedEvidence
+from dofkit.checker.points import with_functions
+from dofkit.checker.problem import Problem
+from dofkit.checker.trees import Tree
+
+#: Units of the checker's work that looking for the evidence of one scene may cost.
+WORK = 12_000_000
+#: Scenes with more relations or coordinates than this are left to what needs no numbers.
+MOST_ROWS = 160
+_CHOICES = tuple(map(Fraction, ("2", "3", "3/2", "5/2", "4/3", "7/4", "5/3", "9/4", "7/3", "11/4")))
+
+
+class Scenery:
+    """A problem with its evidence so far, and values for parameters, unknown functions and time."""
+
+    def __init__(self, problem: Problem, cayley: bool, parts: dict[str, list[dict[str, Any]]]) -> None:
+        self.problem, self.cayley, self.parts = problem, cayley, parts
+        self.effort = Effort(WORK)
+        self.evidence = CheckedEvidence(problem, dict(parts), self.effort)
+        self._prepared: dict[str, Tree] = {}
+
+    @cached_property
+    def functions(self) -> dict[str, dict[str, Any]]:
+        """A polynomial for every unknown function."""
+        return {name: _polynomial(count, place) for place, (name, count) in enumerate(self.problem.functions.items())}
+
+    @cached_property
+    def parameters(self) -> dict[str, Fraction]:
+        """A value for every parameter that occurs."""
+        used = {name for one in self.problem.relations for name in symbols_in(one.left)}
+        used |= {name for tree in self.problem.reference.values() for name in symbols_in(tree)}
+        names = [name for name in self.problem.parameters if name in used]
+        return {name: _CHOICES[i % len(_CHOICES)] for i, name in enumerate(names)}
+
+    @cached_property
+    def timed(self) -> bool:
+        """Whether time occurs in any relation, inequalities included."""
+        return any(not {"t", "tdot"}.isdisjoint(symbols_in(one.left)) for one in self.problem.relations)
+
+    @cached_property
+    def nonlinear(self) -> bool:
+        """Whether a velocity relation is not linear."""
+        return not all(self.linear(name) for name in self.evidence.moving)
+
+    def linear(self, name: str) -> bool:
+        """Whether a relation is a linear form in the velocities; False where that cannot be told."""
+        try:
+            return self.evidence.is_linear(name)
+        except CheckError:
+            return False
+
+    def left(self, name: str) -> Tree:
+        """A relation's left side with the functions chosen."""
+        if name not in self._prepared:
+            tree = self.evidence.relation(name).left
+            self._prepared[name] = self.chosen(tree)
+        return self._prepared[name]
+
+    def chosen(self, tree: Tree) -> Tree:
+        """A tree with the functions chosen."""
+        if not self.functions:
+            return tree
+        made = {
+            name: (tuple(f["arguments"]), self.evidence.text(f["text"], f["arguments"]))
+            for name, f in self.functions.items()
+        }
+        return with_functions(tree, made)
+
+    def add_step(self, step: dict[str, Any]) -> None:
+        """A further step, if it stands up; `CheckError` where it does not."""
+        before = dict(self.evidence.known), list(self.evidence.consequences)
+        view = self.evidence.parts
+        view["relations"] = [step]
+        self.evidence.faults.pop(step["id"], None)
+        try:
+            self.evidence._take_steps()
+        finally:
+            view["relations"] = self.parts["relations"]
+        if step["id"] in self.evidence.faults:
+            self.evidence.known, self.evidence.consequences = before
+            raise CheckError(self.evidence.faults[step["id"]])
+        self.parts["relations"].append(step)
+
+
+def _polynomial(count: int, place: int) -> dict[str, Any]:
+    names = [f"a{i}" for i in range(count)]
+    terms = [f"{i + 2 + place}*{name}" for i, name in enumerate(names)]
+    terms += [f"{name}^2/{7 + i}" for i, name in enumerate(names)]
+    terms += [f"{a}*{b}/{3 + i + j}" for i, a in enumerate(names) for j, b in enumerate(names) if i < j]
+    return {"arguments": names, "text": " + ".join(terms)}
+
+
+def floats_of(values: Mapping[str, Fraction]) -> dict[str, float]:
+    """Values in floats."""
+    return {name: float(value) for name, value in values.items()}
