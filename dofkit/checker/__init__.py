@@ -1,1 +1,11 @@
-"""The checker: a second, small program that rechecks every claim of a certificate from the scene's text alone."""
+"""The checker: a second, small program that rechecks every claim of a certificate from the scene's text alone.
+
+It shares nothing with the engines that made the claims, and imports nothing of dofkit outside this room.
+"""
+
+from __future__ import annotations
+
+from dofkit.checker.errors import CheckError
+from dofkit.checker.verification import Verification, verify
+
+__all__ = ["CheckError", "Verification", "verify"]

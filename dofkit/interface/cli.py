@@ -75,6 +75,21 @@ def classify(
 
 
 @app.command()
+def verify(files: options.CertificateFiles, strict: options.Strict = False, as_json: options.AsJson = False) -> None:
+    """Recheck a certificate by a second program: so many of so many claims hold, and what is not covered."""
+    from dofkit.interface.supervised import CertificateGiven, verification
+
+    if len(files) > 2:
+        raise typer.BadParameter("a scene and its certificate, or a certificate alone", param_hint="[SCENE] CERT")
+    scene = files[0] if len(files) == 2 else None
+    out, err, status = verification(CertificateGiven(scene, files[-1], strict, as_json))
+    typer.echo(out, nl=False)
+    typer.echo(err, nl=False, err=True)
+    if status:
+        raise typer.Exit(status)
+
+
+@app.command()
 def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: options.Linearize = False) -> None:
     """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
     from dofkit.interface.supervised import motions

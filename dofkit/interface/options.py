@@ -43,6 +43,18 @@ Scheduler = Annotated[
     str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A Dask cluster that does the work.")
 ]
 
+# of certificates
+
+CertificatePath = Annotated[
+    Path | None,
+    typer.Option("--certificate", metavar="OUT.json", help="Write why: a certificate; a folder for several files."),
+]
+CertificateFiles = Annotated[
+    list[str],
+    typer.Argument(metavar="[SCENE] CERT", help="A scene and its certificate, or one that holds its scene."),
+]
+Strict = Annotated[bool, typer.Option("--strict", help="Nothing may be uncovered either.")]
+
 # of `lagrange`
 
 Linearize = Annotated[bool, typer.Option("--linearize", help="Also M, C and K of small motions about an equilibrium.")]

@@ -23,6 +23,8 @@ from dofkit.methods.names import MethodName
 STDIN = "stdin"
 #: Seconds for what is printed where a scene's own worker was killed.
 TELLING_SECONDS = 10.0
+#: The exit status of a certificate that could not be looked at.
+UNREAD = 2
 #: What the worker does is in this module, which it imports itself.
 ONE_FILE = "dofkit.interface.one_file"
 
@@ -50,6 +52,17 @@ class Given:
         """The scene's name where it has none of its own."""
         stem = os.path.splitext(os.path.basename(os.path.normpath(self.file)))[0]
         return STDIN if self.file == "-" else stem.encode("utf-8", "replace").decode("utf-8")
+
+
+@dataclass(frozen=True)
+class CertificateGiven:
+    """A certificate's file, and that of the scene (None: it is in the certificate); ``strict``: nothing uncovered."""
+
+    scene: str | None
+    certificate: str
+    strict: bool
+    as_json: bool
+    ascii_only: bool = False
 
 
 @dataclass(frozen=True)
@@ -81,6 +94,21 @@ def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[P
     """What is printed of the equations of motion of each file, in their order."""
     given = Given("", DEFAULT_SECONDS, "auto", as_json, linearize, _ascii_only())
     return _answers(files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"))
+
+
+def verification(given: CertificateGiven) -> tuple[str, str, int]:
+    """What is printed of a certificate, on standard output and on standard error, and the exit status."""
+    worker = Worker(modules=("dofkit.interface.one_certificate",), fork=can_fork())
+    try:
+        asked = replace(given, ascii_only=_ascii_only())
+        job = Job("dofkit.interface.one_certificate:verification_lines", asked, limit(DEFAULT_SECONDS))
+        outcome = worker.run(job)
+    finally:
+        worker.kill()
+    if outcome.finished:
+        return outcome.value["out"], outcome.value["err"], outcome.value["status"]
+    plain = _plain(Given(given.certificate, DEFAULT_SECONDS, "auto", given.as_json), outcome.reason)
+    return plain.out, plain.err, UNREAD
 
 
 def _answers(
