@@ -7,28 +7,34 @@ from typing import Any
 
 from dofkit.checker.document import sha256_of
 from dofkit.checker.errors import CheckError
+from dofkit.checker.format import PARTS
 from dofkit.checker.problem import Problem, read_problem
 from dofkit.methods.certificates import emptiness, forms, freedom, labels
 from dofkit.methods.certificates.estimates import NoEstimateError
 from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.scenery import Scenery
+from dofkit.methods.certificates.trial import Trial
 from dofkit.report import ConstraintEntry, Report
 
-_NUMBERS: dict[str, Callable[[Room, str], Told | None]] = {
+Maker = Callable[[Room], Iterator[Told]]
+
+NUMBERS: dict[str, Maker] = {
     "consistent": freedom.consistent,
     "dof": freedom.dof,
     "velocity_dof": freedom.velocity_dof,
     "instantaneous_dof": freedom.instantaneous,
-    "singular": freedom.counted,
+    "singular": freedom.compared,
     "holonomic": freedom.counted,
     "scleronomic": freedom.counted,
     "redundant_equations": freedom.counted,
+    "redundancies": freedom.counted,
+    "integrable_part": freedom.counted,
     "redundant": freedom.redundant,
     "generalized_coordinates": freedom.generalized_coordinates,
     "growth_vector": forms.growth_vector,
     "conflicting": emptiness.conflicting,
 }
-_LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Told | None]] = {
+LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Iterator[Told]]] = {
     "holonomic": labels.holonomic,
     "holonomic_alone": labels.holonomic,
     "scleronomic": labels.scleronomic,
@@ -36,29 +42,106 @@ _LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Told | None]] = {
     "exact": labels.exact,
     "integrating_factor": labels.integrating_factor,
     "integral": labels.integral,
+    "independent": freedom.independent,
 }
-_FAULTS = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError, ZeroDivisionError, OverflowError)
+#: Claims that follow from others, which therefore stand before them.
+LAST = ("/singular", "/holonomic", "/scleronomic", "/redundant_equations", "/redundancies", "/integrable_part")
+HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError, ZeroDivisionError, OverflowError)
 
 
 def certificate_of(document: Mapping[str, Any], report: Report) -> dict[str, Any]:
     """The certificate of a report of the scene that a document writes."""
-    scene = {"name": report.scene, "sha256": sha256_of(document), "document": dict(document)}
-    parts: dict[str, list[Told]] = {"relations": [], "points": [], "minors": [], "fields": []}
-    found: dict[str, Any] = {"certificate": 1, "scene": scene, "cayley": []}
+    return _Certificate(document, report).written()
+
+
+class _Certificate:
+    """A certificate while it is made."""
+
+    def __init__(self, document: Mapping[str, Any], report: Report) -> None:
+        self.document, self.report = document, report
+        scene = {"name": report.scene, "sha256": sha256_of(document), "document": dict(document)}
+        self.parts: dict[str, list[Told]] = {part: [] for part in PARTS}
+        self.found: dict[str, Any] = {"certificate": 1, "scene": scene, "cayley": [], **self.parts}
+        self.found |= {"claims": [], "uncovered": []}
+        self.rooms: list[Room] = []
+        self.trial: Trial | None = None
+
+    def written(self) -> dict[str, Any]:
+        """All claims that are said to be proved, each with evidence or among the uncovered."""
+        try:
+            self.rooms = _rooms(self.document, self.report, self.parts, self.found)
+            self.trial = Trial(self.document, self.found)
+            for room in self.rooms:
+                self.trial.admit(room.scenery)
+        except CheckError:
+            self.rooms = []
+        for path, value, make in sorted(_asked(self.report), key=lambda asked: asked[0] in LAST):
+            claim = self._made(path, value, make)
+            if claim is None:
+                self.found["uncovered"].append(path)
+            else:
+                self.found["claims"].append(claim)
+                self._compare_about(path, claim)
+        return _without_spare_parts(self.found)
+
+    def _made(self, path: str, value: Any, make: Maker) -> Told | None:
+        """A claim that is shown, or one that the evidence contradicts; None where there is neither."""
+        contradicted = None
+        for room in self.rooms:
+            for evidence in _tried(make, room):
+                claim = {"path": path, "value": value, **evidence}
+                if room.scenery.cayley:
+                    claim["cayley"] = True
+                outcome = self.trial.outcome(claim) if self.trial else "open"
+                if outcome == "shown":
+                    return claim
+                if outcome == "contradicted" and contradicted is None:
+                    contradicted = claim
+        return contradicted
+
+    def _compare_about(self, path: str, claim: Told) -> None:
+        """A number shown near a point only, that is told of everywhere, is uncovered in that."""
+        verdict = self.report.verdicts.get(path[1:])
+        if verdict is not None and "about" in claim and claim["about"] != verdict.about:
+            self.found["uncovered"].append(f"/verdicts{path}/about")
+
+
+def _tried(make: Maker, room: Room) -> Iterator[Told]:
+    """The evidence of one reading, one after another."""
     try:
-        rooms = _rooms(document, report, parts, found)
-    except CheckError:
-        rooms = []
-    claims, uncovered = [], []
-    for path, value, make in _asked(report):
-        claim = _made(rooms, make)
-        if claim is None:
-            uncovered.append(path)
-        else:
-            claims.append({"path": path, "value": value, **claim})
-    for room in rooms:
-        uncovered += room.uncovered
-    return {**found, **parts, "claims": claims, "uncovered": uncovered}
+        yield from make(room)
+    except HINDRANCES:
+        return
+
+
+def _without_spare_parts(found: dict[str, Any]) -> dict[str, Any]:
+    """The certificate with only the parts that its claims use."""
+    used = _texts_in(found["claims"])
+    for part in ("minors", "fields", "points"):
+        found[part] = [one for one in found[part] if one["id"] in used]
+        used |= _texts_in(found[part])
+    wanted = True
+    kept: set[str] = set()
+    while wanted:
+        wanted = [one for one in found["relations"] if one["id"] not in kept and _needed(one, used)]
+        kept |= {one["id"] for one in wanted}
+        used |= _texts_in(wanted)
+    found["relations"] = [one for one in found["relations"] if one["id"] in kept]
+    return found
+
+
+def _needed(step: Told, used: set[str]) -> bool:
+    """Whether a step is used, or says something of a relation of the scene."""
+    return step["by"] == "implied" or any(name == step["id"] or name.startswith(f"{step['id']}.") for name in used)
+
+
+def _texts_in(value: Any) -> set[str]:
+    """Every text in a value, keys included."""
+    if isinstance(value, str):
+        return {value}
+    if isinstance(value, dict):
+        return set(value) | {text for one in value.values() for text in _texts_in(one)}
+    return {text for one in value for text in _texts_in(one)} if isinstance(value, list) else set()
 
 
 def _rooms(
@@ -88,12 +171,14 @@ def _with_cayley(document: Mapping[str, Any], bodies: frozenset[str]) -> Problem
         return None
 
 
-def _asked(report: Report) -> Iterator[tuple[str, Any, Callable[[Room], Told | None]]]:
+def _asked(report: Report) -> Iterator[tuple[str, Any, Maker]]:
     """The claims that are said to be proved: path, value, and how evidence is looked for."""
     told = report.model_dump(mode="json")
     for field, verdict in report.verdicts.items():
-        if verdict.verdict == "proved":
-            yield f"/{field}", told[field], _number_maker(field)
+        if verdict.verdict == "proved" and field in NUMBERS:
+            yield f"/{field}", told[field], NUMBERS[field]
+        elif verdict.verdict == "proved":
+            yield f"/{field}", told[field], _nothing
     for entry, values in zip(report.constraints, told["constraints"], strict=True):
         name = entry.name.replace("~", "~0").replace("/", "~1")
         for field, verdict in entry.verdicts.items():
@@ -101,25 +186,12 @@ def _asked(report: Report) -> Iterator[tuple[str, Any, Callable[[Room], Told | N
                 yield f"/constraints/{name}/{field}", values[field], _label_maker(entry, field)
 
 
-def _number_maker(field: str) -> Callable[[Room], Told | None]:
-    make = _NUMBERS.get(field)
-    return lambda room: make(room, f"/{field}") if make else None
+def _nothing(room: Room) -> Iterator[Told]:
+    """No rule is known."""
+    yield from ()
 
 
-def _label_maker(entry: ConstraintEntry, field: str) -> Callable[[Room], Told | None]:
-    if field == "independent":
-        return lambda room: freedom.independent(room, entry.name)
-    make = _LABELS.get(field)
-    return lambda room: make(room, entry, field) if make and not room.scenery.cayley else None
-
-
-def _made(rooms: list[Room], make: Callable[[Room], Told | None]) -> Told | None:
-    """The evidence of the first reading that has some."""
-    for room in rooms:
-        try:
-            claim = make(room)
-        except _FAULTS:
-            continue
-        if claim is not None:
-            return {**claim, "cayley": True} if room.scenery.cayley else claim
-    return None
+def _label_maker(entry: ConstraintEntry, field: str) -> Maker:
+    make = LABELS.get(field)
+    local = field in ("independent", "circuit")
+    return lambda room: make(room, entry, field) if make and (local or not room.scenery.cayley) else iter(())

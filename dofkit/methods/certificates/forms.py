@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dofkit.checker.derivatives import symbols_in
@@ -99,16 +99,16 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
     return Words(fields, list(standing.rows), words, columns, vectors, levels)
 
 
-def orbit(room: Room, which: str) -> Told | None:
+def orbit(room: Room) -> Iterator[Told]:
     """dof of a scene with forms: from below what brackets reach, from above finite rows and what integrates."""
     standing, told = room.standing, room.report.dof
     if standing is None or not standing.accounted or told is None or room.scenery.nonlinear:
-        return None
-    most = _most(room, standing, told)
+        return
     least = _least(room, standing, told)
-    if most is None or least is None:
-        return None
-    return {"rule": "squeeze", "most": most, "least": least, "about": room.about}
+    if least is None:
+        return
+    for most in _most(room, told):
+        yield {"rule": "squeeze", "most": most, "least": least, "about": room.about}
 
 
 def _least(room: Room, standing: Standing, told: int) -> Told | None:
@@ -133,12 +133,11 @@ def _columns(words: Words, count: int) -> list[str]:
     return [p.column for p in echelon(words.vectors[:count]).pivots]
 
 
-def _most(room: Room, standing: Standing, told: int) -> Told | None:
+def _most(room: Room, told: int) -> Iterator[Told]:
     finite = room.finite_standing
-    size = len(room.problem.coordinates)
-    if finite is not None and told >= size - len(finite.rows):
-        return {"rule": "minor", "minor": room.minor(finite)}
-    return involutive_rows(room, integrable_names(room))
+    if finite is not None and told >= len(room.problem.coordinates) - len(finite.rows):
+        yield {"rule": "minor", "minor": room.minor(finite)}
+    yield from involutive_rows(room, integrable_names(room))
 
 
 def integrable_names(room: Room) -> list[str]:
@@ -147,31 +146,28 @@ def integrable_names(room: Room) -> list[str]:
     return [one.name for one in room.problem.relations if one.kind != "inequality" and one.owner in owners]
 
 
-def involutive_rows(room: Room, names: Sequence[str]) -> Told | None:
-    """Rows whose kernel is closed under brackets, for the rule `frobenius`."""
-    standing = room.standing_of(names)
-    if standing is None or not standing.rows:
-        return None
-    try:
-        fields = tangent_fields(room, standing)
-    except CheckError:
-        return None
-    if fields is None:
-        return None
-    columns = [q for q in (*room.problem.coordinates, "t") if q not in standing.columns][: len(fields)]
-    return {"rule": "frobenius", "minor": room.minor(standing), "fields": fields, "columns": columns}
+def involutive_rows(room: Room, names: Sequence[str], columns: Sequence[str] | None = None) -> Iterator[Told]:
+    """Rows whose kernel is closed under brackets, for the rule `frobenius`; ``columns`` those of the minor."""
+    standing = room.standing_of(names, columns)
+    if standing is None or not standing.rows or (columns is not None and len(columns) != len(standing.rows)):
+        return
+    fields = tangent_fields(room, standing)
+    if fields is not None:
+        free = [q for q in (*room.problem.coordinates, "t") if q not in standing.columns][: len(fields)]
+        yield {"rule": "frobenius", "minor": room.minor(standing), "fields": fields, "columns": free}
 
 
-def growth_vector(room: Room, path: str) -> Told | None:
+def growth_vector(room: Room) -> Iterator[Told]:
     """Words for every entry."""
     standing, told = room.standing, room.report.growth_vector
     if standing is None or not standing.accounted or not told or room.scenery.nonlinear:
-        return None
+        return
     words = words_of(room, standing, told[-1])
     if words is None:
-        return None
-    spans = [{"words": words.words[:count], "columns": _columns(words, count)} for count in words.levels[: len(told)]]
-    return {
+        return
+    levels = [*words.levels, *words.levels[-1:] * len(told)][: len(told)]
+    spans = [{"words": words.words[:count], "columns": _columns(words, count)} for count in levels]
+    yield {
         "rule": "span",
         "at": standing.point.name,
         "fields": words.fields,

@@ -1,29 +1,27 @@
-"""Evidence for numbers of freedoms, independence and redundancy."""
+"""Evidence for numbers of freedoms, independence and redundancy: one way after another, the best first."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.errors import CheckError
-from dofkit.methods.certificates.forms import orbit
+from dofkit.methods.certificates.forms import involutive_rows, integrable_names, orbit
 from dofkit.methods.certificates.rigid_fields import covering
 from dofkit.methods.certificates.room import Room, Standing, Told
+from dofkit.report import ConstraintEntry
 
 
-def consistent(room: Room, path: str) -> Told | None:
+def consistent(room: Room) -> Iterator[Told]:
     """A point with a motion through it."""
-    if room.report.consistent is False:
-        return None
+    standing, timed = room.standing, room.scenery.timed
     inequalities = _inequalities(room)
-    if inequalities is None:
-        return None
-    standing = room.standing
-    if standing is not None and standing.accounted and (standing.rows or room.scenery.timed):
-        return {"rule": "regular", "minor": room.minor(standing), "inequalities": inequalities}
-    if standing is not None and not room.scenery.timed:
-        return {"rule": "point", "at": standing.point.name, "inequalities": inequalities}
-    return None
+    if room.report.consistent is False or standing is None or inequalities is None:
+        return
+    if standing.accounted and (standing.rows or timed):
+        yield {"rule": "regular", "minor": room.minor(standing), "inequalities": inequalities}
+    yield {"rule": "point", "at": standing.point.name, "inequalities": inequalities}
 
 
 def _inequalities(room: Room) -> dict[str, str] | None:
@@ -34,33 +32,28 @@ def _inequalities(room: Room) -> dict[str, str] | None:
             point = room.search.meeting(one.name)
             if point is None:
                 return None
-            room.scenery.parts["points"].append(point.entry())
-            found[one.name] = point.name
+            found[one.name] = room.add_point(point)
     return found
 
 
-def dof(room: Room, path: str) -> Told | None:
+def dof(room: Room) -> Iterator[Told]:
     """The dimension of the configuration space: everywhere where that is one line, else near the main point."""
     if not room.equations:
-        return {"rule": "nothing", "about": "everywhere"}
-    told = room.report.verdicts["dof"].about
-    if told == "everywhere" and (found := _everywhere(room)):
-        return found
-    found = _near(room)
-    if found is not None and told != room.about:
-        room.uncovered.append("/verdicts/dof/about")
-    return found
+        yield {"rule": "nothing", "about": "everywhere"}
+        return
+    if room.report.verdicts["dof"].about == "everywhere":
+        yield from _everywhere(room)
+    yield from _near(room)
 
 
-def _everywhere(room: Room) -> Told | None:
+def _everywhere(room: Room) -> Iterator[Told]:
     if room.scenery.evidence.moving or room.scenery.cayley:
-        return None
+        return
     if order := graph_order(room):
-        return {"rule": "graph", "order": order, "about": "everywhere"}
+        yield {"rule": "graph", "order": order, "about": "everywhere"}
     standing = room.standing
     if len(room.equations) == 1 and standing is not None and len(standing.rows) == 1:
-        return {"rule": "one relation", "minor": room.minor(standing), "about": "everywhere"}
-    return None
+        yield {"rule": "one relation", "minor": room.minor(standing), "about": "everywhere"}
 
 
 def graph_order(room: Room) -> list[list[str]] | None:
@@ -91,92 +84,93 @@ def graph_order(room: Room) -> list[list[str]] | None:
     return order
 
 
-def _near(room: Room) -> Told | None:
+def _near(room: Room) -> Iterator[Told]:
     if room.scenery.evidence.moving:
-        return orbit(room, "dof")
+        yield from orbit(room)
+        return
     standing = room.standing
     if standing is None:
-        return None
+        return
     if standing.accounted:
-        return {"rule": "regular", "minor": room.minor(standing), "about": room.about}
-    return _squeezed(room, standing)
+        yield {"rule": "regular", "minor": room.minor(standing), "about": room.about}
+    else:
+        yield from _squeezed(room, standing)
 
 
-def _squeezed(room: Room, standing: Standing) -> Told | None:
+def _squeezed(room: Room, standing: Standing) -> Iterator[Told]:
     """Rows that depend on others without a step: the rank is constant, by fields that keep blocks of them."""
-    if (blocks := covering(room, standing)) is None:
-        return None
-    minor = room.minor(standing)
-    least = {"rule": "cover", "minor": minor, "blocks": blocks}
-    return {"rule": "squeeze", "most": {"rule": "minor", "minor": minor}, "least": least, "about": room.about}
+    if (blocks := covering(room, standing)) is not None:
+        minor = room.minor(standing)
+        least = {"rule": "cover", "minor": minor, "blocks": blocks}
+        yield {"rule": "squeeze", "most": {"rule": "minor", "minor": minor}, "least": least, "about": room.about}
 
 
-def velocity_dof(room: Room, path: str) -> Told | None:
+def velocity_dof(room: Room) -> Iterator[Told]:
     """The independent velocities."""
     if not room.scenery.evidence.moving:
-        return {"rule": "count"}
-    standing = room.standing
-    told = room.report.verdicts["velocity_dof"].about
-    if standing is None or not standing.accounted:
-        return None
-    if told != room.about:
-        room.uncovered.append("/verdicts/velocity_dof/about")
-    return {"rule": "regular", "minor": room.minor(standing), "about": room.about}
+        yield {"rule": "count"}
+    elif (standing := room.standing) is not None and standing.accounted:
+        yield {"rule": "regular", "minor": room.minor(standing), "about": room.about}
 
 
-def instantaneous(room: Room, path: str) -> Told | None:
+def instantaneous(room: Room) -> Iterator[Told]:
     """The rank at the scene's configuration."""
-    standing = room.standing_of(room.equations) if room.at_reference else None
+    standing = room.standing if room.at_reference else None
     if standing is None:
-        return None
+        return
     found: dict[str, Any] = {"rule": "rank", "at": standing.point.name}
     if not standing.dependent and standing.rows:
-        return {**found, "minor": room.minor(standing), "dependent": {}}
-    return found
+        yield {**found, "minor": room.minor(standing), "dependent": {}}
+    yield found
 
 
-def counted(room: Room, path: str) -> Told:
+def counted(room: Room) -> Iterator[Told]:
     """What follows from other claims."""
-    return {"rule": "compare" if path == "/singular" else "count"}
+    yield {"rule": "count"}
 
 
-def redundant(room: Room, path: str) -> Told | None:
+def compared(room: Room) -> Iterator[Told]:
+    """Two numbers that differ, or do not."""
+    yield {"rule": "compare"}
+
+
+def redundant(room: Room) -> Iterator[Told]:
     """All relations follow from the others."""
     standing = room.standing
-    if standing is None or not standing.accounted:
-        return None
-    return {"rule": "cofactors", "minor": room.minor(standing)}
+    if standing is not None and standing.accounted:
+        yield {"rule": "cofactors", "minor": room.minor(standing)}
 
 
-def generalized_coordinates(room: Room, path: str) -> Told | None:
+def generalized_coordinates(room: Room) -> Iterator[Told]:
     """The other coordinates are functions of these."""
     chosen = room.report.generalized_coordinates
-    standing = room.finite_standing
-    if chosen is None or standing is None or room.point is None:
-        return None
+    if chosen is None or room.finite_standing is None:
+        return
     others = [q for q in room.problem.coordinates if q not in chosen]
-    if set(others) == set(standing.columns):
-        return {"rule": "minor", "minor": room.minor(standing)}
     solving = room.solving(others)
-    return None if solving is None else {"rule": "minor", "minor": room.minor(solving)}
+    if solving is not None:
+        yield {"rule": "minor", "minor": room.minor(solving)}
+    if room.scenery.evidence.moving:
+        for found in involutive_rows(room, integrable_names(room), others):
+            yield {**found, "rule": "minor"}
 
 
-def independent_count(room: Room, path: str) -> Told | None:
+def independent_count(room: Room) -> Iterator[Told]:
     """The finite relations that are independent."""
     standing = room.finite_standing
-    if standing is None or not standing.accounted:
-        return None
-    return {"rule": "independent", "minor": room.minor(standing)}
+    if standing is not None and standing.accounted:
+        yield {"rule": "independent", "minor": room.minor(standing)}
 
 
-def independent(room: Room, owner: str) -> Told | None:
+def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """How many rows of a constraint are independent of those before."""
+    if entry.form == "inequality":
+        yield {"rule": "inequality"}
+        return
     standing = room.standing
     if standing is None:
-        return None
+        return
     owners = [one.owner for one in room.problem.relations]
     place = {one.name: owners.index(one.owner) for one in room.problem.relations}
-    last = owners.index(owner)
-    if not standing.accounted and any(place[name] <= last for name in standing.dependent):
-        return None
-    return {"rule": "independent", "minor": room.minor(standing, sum(place[row] <= last for row in standing.rows))}
+    last = owners.index(entry.name)
+    yield {"rule": "independent", "minor": room.minor(standing, sum(place[row] <= last for row in standing.rows))}

@@ -2,32 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import combinations
 
-from dofkit.checker.derivatives import derivative
+from dofkit.checker.derivatives import derivative, homogeneous_degree
 from dofkit.checker.errors import CheckError
 from dofkit.checker.trees import Tree, add, negative, number, power, times
-from dofkit.methods.certificates.forms import involutive_rows, integrable_names, pairing, words_of
+from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, words_of
+from dofkit.methods.certificates.integrals import combined_integral
 from dofkit.methods.certificates.room import FAR, Room, Told
 from dofkit.methods.certificates.texts import text_of
 from dofkit.report import ConstraintEntry
 
 
 
-def holonomic(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
+def holonomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Finite, an inequality, integrated, or reached across."""
     evidence = room.scenery.evidence
     if evidence.owned(entry.name, ("inequality",)):
-        return {"rule": "inequality"}
+        yield {"rule": "inequality"}
+        return
     if not evidence.owned(entry.name, ("velocity",)):
-        return {"rule": "finite"}
+        yield {"rule": "finite"}
+        return
     alone = field == "holonomic_alone"
     names = list(evidence.owned(entry.name))
+    if alone and len(names) == 1 and getattr(entry, field) is True:
+        yield {"rule": "wedge"}
     if getattr(entry, field) is False:
-        return _wedge(room, names[0]) if alone and len(names) == 1 else _reached(room, entry.name, alone)
-    if alone and len(names) == 1 and room.scenery.linear(names[0]):
-        return {"rule": "wedge"}
-    return _integrated(room, entry) or involutive_rows(room, names if alone else integrable_names(room))
+        if alone and len(names) == 1 and (found := _wedge(room, names[0])):
+            yield found
+        if found := _reached(room, entry.name, alone):
+            yield found
+        return
+    if found := _integrated(room, entry):
+        yield found
+    yield from involutive_rows(room, names if alone else integrable_names(room))
 
 
 def _wedge(room: Room, name: str) -> Told | None:
@@ -97,6 +107,12 @@ def integral_step(room: Room, entry: ConstraintEntry, name: str) -> str | None:
     return ids[0]
 
 
+def system_integral(room: Room, entry: ConstraintEntry, name: str) -> str | None:
+    """Steps for an integral of a form in the presence of the other relations."""
+    function = integral_text(entry)
+    return None if function is None else combined_integral(room, function, name)
+
+
 def integral_text(entry: ConstraintEntry) -> str | None:
     """The function that is said to be constant."""
     return entry.integral.rpartition("=")[0].strip() if entry.integral else None
@@ -122,74 +138,76 @@ def factor_text(room: Room, entry: ConstraintEntry, name: str) -> str | None:
         return None
 
 
-def integral(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
-    """The integral that is told."""
+def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
+    """The integral that is told: of the form alone, or in the system."""
     names = room.scenery.evidence.owned(entry.name, ("velocity",))
-    if len(names) != 1 or room.point is None:
-        return None
-    factor, function = factor_text(room, entry, names[0]), integral_text(entry)
-    if factor is None:
-        return None
-    return {"rule": "integral", "at": room.point.name, "function": function, "factor": factor}
+    function = integral_text(entry)
+    if len(names) != 1 or room.point is None or function is None:
+        return
+    found = {"rule": "integral", "at": room.point.name, "function": function}
+    if factor := factor_text(room, entry, names[0]):
+        yield {**found, "factor": factor}
+    if step := system_integral(room, entry, names[0]):
+        yield {**found, "step": step}
 
 
-def integrating_factor(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
+def integrating_factor(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """The factor that is told."""
-    return None if room.point is None else {"rule": "integral", "at": room.point.name}
+    if room.point is not None:
+        yield {"rule": "integral", "at": room.point.name}
 
 
-def exact(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
+def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Closed, or a point where it is not."""
-    names = room.scenery.evidence.owned(entry.name, ("velocity",))
     if entry.exact:
-        return {"rule": "exact"}
-    form, point = (room.form(names[0]) if len(names) == 1 else None), room.point
-    if form is None or point is None:
-        return None
-    for i, j in combinations([v for v in room.scenery.evidence.variables if v in room.met(form)], 2):
-        if room.differs(curl(form, i, j), point):
-            return {"rule": "not exact", "at": point.name, "pair": [i, j]}
-    return None
+        yield {"rule": "exact"}
+        return
+    names, point = room.scenery.evidence.owned(entry.name, ("velocity",)), room.point
+    for name in names if point is not None else ():
+        form = room.form(name) or {}
+        for i, j in combinations([v for v in room.scenery.evidence.variables if v in room.met(form)], 2):
+            if room.differs(curl(form, i, j), point):
+                told = {"relation": name} if len(names) > 1 else {}
+                yield {"rule": "not exact", "at": point.name, "pair": [i, j], **told}
+                break
 
 
-def scleronomic(room: Room, entry: ConstraintEntry, field: str) -> Told | None:
+def scleronomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Time does not occur, or matters at a point."""
     if getattr(entry, field):
-        return _timeless(room, entry, field)
+        yield from timeless(room, entry, field)
+        return
     evidence = room.scenery.evidence
     for name in evidence.owned(entry.name, ("finite", "velocity", "inequality")):
-        found = _turning(room, name, field)
-        if found is not None:
-            return {"rule": "turns", "relation": name, **found}
-    return None
+        for found in _turning(room, name, field):
+            yield {"rule": "turns", "relation": name, **found}
 
 
-def _timeless(room: Room, entry: ConstraintEntry, field: str) -> Told:
-    found: Told = {"rule": "timeless"}
-    evidence = room.scenery.evidence
-    degrees = {
-        name: "1"
-        for name in evidence.owned(entry.name, ("velocity",))
-        if field == "scleronomic" and not room.scenery.linear(name)
-    }
-    return found | ({"degree": degrees} if degrees else {})
+def timeless(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
+    """Time does not occur; of a nonlinear relation a degree in the velocities is told."""
+    degrees = {}
+    for name in room.scenery.evidence.owned(entry.name, ("velocity",)):
+        if field == "scleronomic" and not room.scenery.linear(name):
+            left = room.scenery.evidence.relation(name).left
+            degrees[name] = str(homogeneous_degree(left, room.scenery.evidence.velocities) or 1)
+    yield {"rule": "timeless", **({"degree": degrees} if degrees else {})}
 
 
-def _turning(room: Room, name: str, field: str) -> Told | None:
+def _turning(room: Room, name: str, field: str) -> Iterator[Told]:
     kind = room.scenery.evidence.relation(name).kind
     form = room.form(name) if kind == "velocity" else None
-    point = room.search.touching(name) if kind == "inequality" else room.point
-    if point is None:
-        return None
-    if point is not room.point:
-        room.scenery.parts["points"].append(point.entry())
-    if form is None:
-        tree = derivative(room.scenery.left(name), "t")
-        return {"at": point.name} if kind != "velocity" and room.differs(tree, point) else None
-    if room.differs(form.get("t", number(0)), point):
-        return {"at": point.name}
-    for a, b in combinations(form, 2) if field == "scleronomic" else ():
-        turned = add(times(form[a], derivative(form[b], "t")), negative(times(form[b], derivative(form[a], "t"))))
-        if room.differs(turned, point):
-            return {"at": point.name, "pair": [a, b]}
-    return None
+    points = [room.point] if kind != "inequality" else []
+    points += [room.search.touching(name, seed) for seed in (50, 60)] if kind != "velocity" else []
+    for point in points:
+        if point is None:
+            continue
+        if form is None:
+            if kind != "velocity" and room.differs(derivative(room.scenery.left(name), "t"), point):
+                yield {"at": room.add_point(point)}
+        elif room.differs(form.get("t", number(0)), point):
+            yield {"at": point.name}
+        else:
+            for a, b in combinations(form, 2) if field == "scleronomic" else ():
+                back = negative(times(form[b], derivative(form[a], "t")))
+                if room.differs(add(times(form[a], derivative(form[b], "t")), back), point):
+                    yield {"at": point.name, "pair": [a, b]}

@@ -102,11 +102,13 @@ class PointSearch:
                 continue
         return None
 
-    def touching(self, name: str) -> FoundPoint | None:
+    def touching(self, name: str, seed: int) -> FoundPoint | None:
         """A point at which a relation is 0, an inequality too, whatever the others say."""
-        point = self.somewhere([name], self.problem.coordinates, 50)
+        one = self.scenery.evidence.relation(name)
+        names = [name] if one.kind == "inequality" else self.scenery.evidence.finite
+        point = self.somewhere(names, self.problem.coordinates, seed)
         if point is not None:
-            point.name = f"P50 {name}"
+            point.name = f"P{seed} {name}"
         return point
 
     def _start(self, attempt: int, unknowns: Sequence[str]) -> dict[str, Fraction]:

@@ -111,13 +111,15 @@ class Room:
         """All finite and velocity relations in their order."""
         return [one.name for one in self.problem.relations if one.kind != "inequality"]
 
-    def standing_of(self, names: Sequence[str]) -> Standing | None:
-        """Independent rows among ``names`` at the main point, in their order."""
+    def standing_of(self, names: Sequence[str], columns: Sequence[str] | None = None) -> Standing | None:
+        """Independent rows among ``names`` at the main point, in their order; in ``columns`` where these are given."""
         point = self.point
         if point is None:
             return None
         try:
             matrix = [self.row(name, point) for name in names]
+            if columns is not None:
+                matrix = [{q: value for q, value in row.items() if q in columns} for row in matrix]
         except (NoEstimateError, CheckError):
             return None
         found = echelon(matrix)
@@ -176,6 +178,13 @@ class Room:
         name = f"M{len(minors)}"
         minors.append({"id": name, **given})
         return name
+
+    def add_point(self, point: FoundPoint) -> str:
+        """The id of a further point, written into the certificate."""
+        entries = self.scenery.parts["points"]
+        if point is not self.point and all(one["id"] != point.name for one in entries):
+            entries.append(point.entry())
+        return point.name
 
     def form(self, name: str) -> dict[str, Tree] | None:
         """The components of a linear form."""

@@ -1,0 +1,34 @@
+"""Claims are tried by the checker's own rules while they are made: evidence that does not do is not written down."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from dofkit.checker.evidence import FAULTS, told
+from dofkit.checker import verification
+from dofkit.methods.certificates.scenery import Scenery
+
+Outcome = Literal["shown", "contradicted", "open"]
+
+
+class Trial:
+    """The checker at work on a certificate that grows."""
+
+    def __init__(self, document: Mapping[str, Any], certificate: dict[str, Any]) -> None:
+        self.verifier: Any = getattr(verification, "Verifier", None) or verification._Verifier
+        self.verifier = self.verifier(document, certificate)
+        self.reasons: dict[str, str] = {}
+
+    def admit(self, scenery: Scenery) -> None:
+        """Use a reading with what is known of it."""
+        self.verifier.evidences[scenery.cayley] = scenery.evidence
+
+    def outcome(self, claim: dict[str, Any]) -> Outcome:
+        """Whether a claim is shown; ``contradicted`` where the evidence gives another value."""
+        try:
+            (getattr(self.verifier, "check", None) or self.verifier._check)(claim)
+        except FAULTS as error:
+            self.reasons[claim["path"]] = told(error)
+            return "contradicted" if told(error).startswith("the evidence gives") else "open"
+        return "shown"
