@@ -15,6 +15,8 @@ from dofkit.checker.trees import Tree
 
 #: Bits of every ball.
 PRECISION = 320
+#: Balls of a larger radius are boxes.
+WIDE = 1e-3
 _SMOOTH = frozenset(("sin", "cos", "tan", "cot", "sec", "csc", "atan", "sinh", "cosh", "tanh", "exp"))
 
 
@@ -72,10 +74,17 @@ def _powered(node: Tree, below: list[Any]) -> Any:
     if isinstance(value, Fraction) and value.denominator == 1:
         if value < 0 and not excludes_zero(base):
             raise CheckError("a denominator may be 0 at the point")
-        return base ** int(value)
+        return base ** int(value) if base.rad() < WIDE or value < 0 else _wide_power(base, int(value))
     if not base > 0:
         raise CheckError("the base of a power that is not whole may be 0 or negative at the point")
     return base**exponent
+
+
+def _wide_power(base: Any, exponent: int) -> Any:
+    """The power of a wide ball by its ends, as it is monotone on either side of 0."""
+    ends = base.lower() ** exponent, base.upper() ** exponent
+    found = ends[0].union(ends[1])
+    return found.union(arb(0)) if exponent % 2 == 0 and base.contains(0) else found
 
 
 def _guarded(node: Tree, below: list[Any]) -> Any:

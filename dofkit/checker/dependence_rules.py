@@ -6,7 +6,7 @@ from typing import Any
 
 from dofkit.checker.balls import excludes_zero
 from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.dimension_rules import Told, equal, is_here, regular
+from dofkit.checker.dimension_rules import Told, equal, is_here, names_told, regular
 from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import admissible, independent, involutive, of_word
@@ -27,11 +27,11 @@ def _of(evidence: CheckedEvidence, owners: Any, kinds: tuple[str, ...] = BOTH) -
 
 def circuit(evidence: CheckedEvidence, claim: Told) -> None:
     """The constraint follows from those named, by cofactors near a point of all; without any one it does not."""
-    names, order, point = claim["value"], _owners(evidence), evidence.point(claim["at"])
+    names, order, point = names_told(claim), _owners(evidence), evidence.point(claim["at"])
     relations = own(evidence, claim)
     before = order[: order.index(claim["owner"])]
-    if len(set(names)) != len(names) or not set(names) <= set(before):
-        raise CheckError("a circuit holds constraints that were written before, each once")
+    if not set(names) <= set(before):
+        raise CheckError("a circuit holds constraints that were written before")
     is_here(evidence, point)
     evidence.on_set(point, [*_of(evidence, names), *relations])
     left = set(relations) - evidence.closure(_of(evidence, names), point)
@@ -108,7 +108,7 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: di
         raise CheckError("a row of velocities does not reduce dof by itself")
     _same_place(evidence, minor.point, verified)
     coordinates = evidence.problem.coordinates
-    if set(claim["value"]) != set(coordinates) - set(minor.columns) or len(set(claim["value"])) != len(claim["value"]):
+    if set(names_told(claim)) != set(coordinates) - set(minor.columns):
         raise CheckError("the columns of the minor are not all the other coordinates")
     if "/dof" not in verified or verified["/dof"] != len(coordinates) - len(minor.rows):
         raise CheckError("their number is not that of a verified dof")
@@ -121,11 +121,11 @@ def redundant(evidence: CheckedEvidence, claim: Told) -> None:
     No more: of E equations with r independent rows E - r can be spared at most, where what depends does so by numbers,
     or is a single relation that depends with cofactors none of which is 0.
     """
-    minor, dropped = regular(evidence, claim["minor"]), claim["value"]
+    minor, dropped = regular(evidence, claim["minor"]), names_told(claim)
     is_here(evidence, minor.point)
     order = [owner for owner in _owners(evidence) if _of(evidence, [owner])]
-    if not set(dropped) <= set(order) or len(set(dropped)) != len(dropped):
-        raise CheckError("what is redundant are constraints, each once")
+    if not set(dropped) <= set(order):
+        raise CheckError("what is redundant are constraints")
     kept = _of(evidence, [owner for owner in order if owner not in dropped])
     left = set(_of(evidence, dropped)) - evidence.closure(kept, minor.point)
     if left:

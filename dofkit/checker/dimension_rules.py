@@ -9,9 +9,10 @@ from flint import fmpq, fmpq_mat
 from dofkit.checker.balls import determinant, evaluated, excludes_zero
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.errors import CheckError
-from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, has_value_everywhere
+from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import field_named, independent, involutive, span, tangent
 from dofkit.checker.points import CheckedPoint, in_turn
+from dofkit.checker.texts import has_value_everywhere
 from dofkit.checker.trees import ZERO, Tree, add, negative, symbol, times
 
 Told = dict[str, Any]
@@ -21,6 +22,14 @@ def equal(claim: Told, value: object) -> None:
     """`CheckError` unless the claim's value is what the evidence gives."""
     if type(claim["value"]) is not type(value) or claim["value"] != value:
         raise CheckError(f"the evidence gives {value!r}, not {str(claim['value'])[:80]!r}")
+
+
+def names_told(claim: Told) -> list[str]:
+    """The claim's value as a list of names, each once."""
+    value = claim["value"]
+    if not isinstance(value, list) or not all(isinstance(one, str) for one in value) or len(set(value)) < len(value):
+        raise CheckError("the value is a list of names, each once")
+    return value
 
 
 def is_about(evidence: CheckedEvidence, claim: Told, point: CheckedPoint) -> None:

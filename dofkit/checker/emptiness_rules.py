@@ -10,10 +10,11 @@ from flint import arb
 
 from dofkit.checker.balls import ball_of, evaluated, excludes_zero
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
-from dofkit.checker.dimension_rules import Told, equal
+from dofkit.checker.dimension_rules import Told, equal, names_told
 from dofkit.checker.errors import CheckError
-from dofkit.checker.evidence import CheckedEvidence, has_value_everywhere
+from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.points import CheckedPoint
+from dofkit.checker.texts import has_value_everywhere
 from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, number, symbol, times
 
 MOST_BOXES = 20_000
@@ -98,9 +99,7 @@ def inconsistent(evidence: CheckedEvidence, claim: Told) -> None:
 
 def conflict(evidence: CheckedEvidence, claim: Told) -> None:
     """The constraints cannot all be met, and without any one of them the others can."""
-    names: list[str] = claim["value"]
-    if len(set(names)) != len(names) or not names:
-        raise CheckError("a conflict is between constraints, each once")
+    names = names_told(claim)
     owned = {name: evidence.owned(name, ("finite", "velocity", "inequality")) for name in names}
     refuted(evidence, claim["refutation"], [one for found in owned.values() for one in found])
     for name in names:

@@ -2,9 +2,9 @@
 
 A certificate is a JSON object: ``certificate`` (1), ``scene`` (``name``, ``sha256`` of the canonical JSON of the
 scene's document, optionally the ``document``), ``cayley`` (bodies that are read with Cayley parameters where a claim
-says ``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``fields``, ``claims``, ``uncovered``. A TEXT is
-an expression in the grammar of scenes (numbers exact); an ID names a relation of the scene (``c4``, ``c4.1``) or a step.
-Steps, points, minors and fields are looked at only where a claim uses them.
+says ``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``fields``, ``claims``, ``uncovered``. A TEXT
+is an expression in the grammar of scenes (numbers exact); an ID names a relation of the scene (``c4``, ``c4.1``) or a
+step. Steps, points, minors and fields are looked at only where a claim uses them.
 
 STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of the scene and of steps before it).
 "Needs" is asked at the point of the claim that uses the step, or of the reason ``nonzero``, where that is given.
@@ -149,7 +149,6 @@ given that meets the relations; else at any point. Claims are verified in their 
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Mapping
 from typing import Any
@@ -160,12 +159,6 @@ VERSION = 1
 LARGEST_TEXT, MOST_CLAIMS, MOST_ENTRIES = 20_000_000, 20_000, 20_000
 PARTS = ("relations", "points", "minors", "fields")
 KEYS = ("certificate", "scene", "cayley", *PARTS, "claims", "uncovered")
-
-
-def canonical_hash(document: Mapping[str, Any]) -> str:
-    """The SHA-256 of the canonical JSON of a scene's document."""
-    text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=False, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def certificate_of(given: str | bytes | Mapping[str, Any]) -> dict[str, Any]:

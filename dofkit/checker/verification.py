@@ -8,11 +8,12 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from dofkit.checker import dependence_rules, dimension_rules, emptiness_rules, label_rules
+from dofkit.checker.document import document_of, sha256_of
 from dofkit.checker.effort import Effort
 from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import FAULTS, CheckedEvidence, told
-from dofkit.checker.format import PARTS, canonical_hash, certificate_of
-from dofkit.checker.problem import document_of, read_problem
+from dofkit.checker.format import PARTS, certificate_of
+from dofkit.checker.problem import read_problem
 
 Rule = Callable[[CheckedEvidence, dict[str, Any]], object]
 Counting = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], None]
@@ -96,7 +97,7 @@ class _Verifier:
 
     def __init__(self, document: Mapping[str, Any], given: dict[str, Any]) -> None:
         self.document, self.given, self.effort = document, given, Effort()
-        if given.get("scene", {}).get("sha256") != canonical_hash(document):
+        if given.get("scene", {}).get("sha256") != sha256_of(document):
             raise CheckError("the certificate is of another scene, or of this one before it was edited")
         self.problem = read_problem(document)
         if self.problem.tolerance is not None:

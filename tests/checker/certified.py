@@ -1,0 +1,30 @@
+"""Certificates made by hand: for tests only."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from dofkit.checker.document import sha256_of
+from dofkit.checker.verification import verify
+
+Parts = dict[str, Any]
+
+
+def certificate(document: Mapping[str, Any], claims: list[Parts], **parts: Any) -> Parts:
+    """A certificate of a document."""
+    scene = {"name": "scene", "sha256": sha256_of(document)}
+    return {"certificate": 1, "scene": scene, **parts, "claims": claims}
+
+
+def faults(document: Mapping[str, Any], claims: list[Parts], **parts: Any) -> dict[str, str]:
+    """The claims that fail, and why."""
+    found = verify(document, certificate(document, claims, **parts))
+    assert found.claims == len(claims)
+    assert found.verified == len(claims) - len(found.failed)
+    return {one["path"]: one["why"] for one in found.failed}
+
+
+def accepted(document: Mapping[str, Any], claims: list[Parts], **parts: Any) -> bool:
+    """Whether every claim is verified."""
+    return not faults(document, claims, **parts)

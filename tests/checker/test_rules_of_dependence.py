@@ -1,0 +1,296 @@
+"""Claims about contradictions, circuits and what is redundant, and broken ones that must fail."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from checker.certified import accepted, certificate, faults
+
+from dofkit.checker.errors import CheckError
+from dofkit.checker.verification import verify
+
+APART: dict[str, Any] = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1", "y = 2"]}
+FAR = {"rule": "nullstellensatz", "c": {"c1": "-1", "c2": "y+2"}, "number": "3", "sos": [["1", "x"]]}
+NEVER = {"path": "/consistent", "value": False, **FAR}
+EACH = [{"id": "P", "values": {"x": "1", "y": "0"}}, {"id": "Q", "values": {"x": "1", "y": "2"}}]
+CONFLICT = {
+    **{"path": "/conflicting", "value": ["c1", "c2"], "rule": "conflict", "refutation": FAR},
+    "minimal": {"c1": "Q", "c2": "P"},
+}
+
+
+def test_a_circle_and_a_line_that_do_not_meet():
+    assert faults(APART, [NEVER, CONFLICT], points=EACH) == {}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"number": "2"},
+        {"number": "-3"},
+        {"number": "0", "c": {}, "sos": []},
+        {"sos": [["-1", "x"]]},
+        {"sos": []},
+        {"c": {"c1": "-1", "c2": "y-2"}},
+        {"c": {"c1": "-1/x", "c2": "y+2"}},
+        {"c": {"c3": "1"}},
+        {"value": True},
+        {"c": {}, "number": "-x^2 - 1", "sos": [["1", "x"]]},
+        {"rule": "boxes", "variables": {}, "tree": ["cut", {"c1": "1"}]},
+    ],
+)
+def test_a_broken_contradiction_is_refused(change: dict[str, Any]):
+    assert not accepted(APART, [{**NEVER, **change}], points=EACH)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"value": ["c1"]},
+        {"value": ["c1", "c2", "c3"]},
+        {"value": ["c1", "c1", "c2"]},
+        {"value": []},
+        {"minimal": {"c1": "P", "c2": "Q"}},
+        {"minimal": {"c1": "Q"}},
+        {"refutation": {**FAR, "number": "1"}},
+    ],
+)
+def test_a_broken_conflict_is_refused(change: dict[str, Any]):
+    assert not accepted(APART, [{**CONFLICT, **change}], points=EACH)
+
+
+def test_a_conflict_holds_no_bystanders():
+    scene = {**APART, "constraints": [*APART["constraints"], "x = x^3"]}
+    points = [*EACH, {"id": "R", "values": {"x": "0", "y": "0"}}]
+    assert accepted(scene, [CONFLICT], points=points)
+    more = {**CONFLICT, "value": ["c1", "c2", "c3"], "minimal": {**CONFLICT["minimal"], "c3": "R"}}
+    assert not accepted(scene, [more], points=points)
+
+
+def test_lengths_that_do_not_close():
+    link = {"type": "link"}
+    scene = {
+        "dimension": 2,
+        "particles": ["A", "B", "C"],
+        "constraints": [
+            {**link, "between": ["A", "B"], "length": "1"},
+            {**link, "between": ["B", "C"], "length": "1"},
+            {**link, "between": ["A", "C"], "length": "sqrt(5)"},
+        ],
+    }
+    ab, bc, ac = (
+        ["c1", ["x_A-x_B", "y_A-y_B"], "1"],
+        ["c2", ["x_B-x_C", "y_B-y_C"], "1"],
+        ["c3", ["x_A-x_C", "y_A-y_C"], "sqrt(5)"],
+    )
+    claim = {"path": "/consistent", "value": False, "rule": "polygon", "side": ac, "way": [ab, bc]}
+    assert faults(scene, [claim]) == {}
+    for broken in (
+        {"way": [ab]},
+        {"way": [ab, ac]},
+        {"side": ab, "way": [ac, bc]},
+        {"side": [*ac[:2], "3"]},
+        {"side": ["c1", *ac[1:]]},
+        {"way": [ab, [*bc[:1], ["x_C-x_B", "y_C-y_B"], "1"]]},
+    ):
+        assert not accepted(scene, [{**claim, **broken}])
+    closes = {**scene, "constraints": [*scene["constraints"][:2], {**link, "between": ["A", "C"], "length": "2"}]}
+    assert not accepted(closes, [{**claim, "side": [*ac[:2], "2"]}])
+
+
+def test_boxes():
+    scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1", "x^3 + y^3 = 3/2"]}
+    cut = ["cut", {"c2": "1"}]
+    bounds = {q: {"c": {"c1": "-1"}, "sos": [["1", other]]} for q, other in (("x", "y"), ("y", "x"))}
+    claim = {
+        **{"path": "/consistent", "value": False, "rule": "boxes", "variables": {"x": "1", "y": "1"}, "bounds": bounds},
+        "tree": ["x", "3/4", cut, ["y", "3/4", cut, ["cut", {"c1": "1"}]]],
+    }
+    assert faults(scene, [claim]) == {}
+    other = ["x", "3/4", cut, ["y", "3/4", cut, cut]]
+    for broken in (
+        {"tree": other},
+        {"tree": cut},
+        {"tree": ["x", "2", cut, claim["tree"]]},
+        {"variables": {"x": "1/2", "y": "1"}},
+        {"variables": {"x": "angle", "y": "1"}},
+        {"variables": {"x": "1"}},
+        {"bounds": {**bounds, "x": {"c": {"c1": "1"}, "sos": [["1", "y"]]}}},
+        {"tree": []},
+        {"tree": ["x"]},
+    ):
+        assert not accepted(scene, [{**claim, **broken}]), broken
+    angle = {"coordinates": ["a"], "constraints": ["sin(a) + cos(a) = 3/2"]}
+    whole = {"path": "/consistent", "value": False, "rule": "boxes", "variables": {"a": "angle"}}
+    halves: list[Any] = ["cut", {"c1": "1"}]
+    for at in ("-3", "-2", "-1", "0", "1/2", "1", "3/2", "2", "3"):
+        halves = ["a", at, halves, ["cut", {"c1": "1"}]]
+    tree: list[Any] = ["cut", {"c1": "1"}]
+    for at in ("3", "5/2", "2", "3/2", "5/4", "1", "7/8", "3/4", "5/8", "1/2", "1/4", "0", "-1", "-2", "-3"):
+        tree = ["a", at, ["cut", {"c1": "1"}], tree]
+    assert faults(angle, [{**whole, "tree": tree}]) == {}
+    assert not accepted({**angle, "constraints": ["sin(a) + cos(a) = 7/5"]}, [{**whole, "tree": tree}])
+    assert not accepted({**angle, "constraints": ["sin(a/2) + cos(a/2) = 3/2"]}, [{**whole, "tree": tree}])
+
+
+COPIES: dict[str, Any] = {"coordinates": ["x", "y", "z"], "constraints": ["x = y", "y = z", "x + y = 2 z", "z = x^2"]}
+ORIGIN = {"id": "O", "values": {"x": "0", "y": "0", "z": "0"}}
+TWICE = {"id": "i", "by": "implied", "of": "c3", "c": {"c1": "1", "c2": "2"}}
+ROWS = {"id": "m", "at": "O", "rows": ["c1", "c2", "c4"], "columns": ["x", "y", "z"]}
+PARTS: dict[str, Any] = {
+    "points": [
+        ORIGIN,
+        {"id": "A", "values": {"x": "1", "y": "0", "z": "0"}},
+        {"id": "B", "values": {"x": "1", "y": "1", "z": "0"}},
+    ],
+    "relations": [TWICE],
+    "minors": [ROWS],
+}
+CIRCUIT = {
+    **{"path": "/constraints/c3/circuit", "value": ["c1", "c2"], "rule": "cofactors", "at": "O"},
+    "minimal": {"c1": {"at": "A"}, "c2": {"at": "B"}},
+}
+
+
+def test_a_circuit():
+    assert faults(COPIES, [CIRCUIT], **PARTS) == {}
+    by_rows = {"minor": {"at": "O", "rows": ["c2", "c3"], "columns": ["y", "z"]}}
+    assert faults(COPIES, [{**CIRCUIT, "minimal": {"c1": by_rows, "c2": {"at": "B"}}}], **PARTS) == {}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"value": ["c1"]},
+        {"value": ["c1", "c4"]},
+        {"value": ["c1", "c2", "c4"]},
+        {"value": []},
+        {"path": "/constraints/c2/circuit"},
+        {"path": "/constraints/c4/circuit"},
+        {"at": "A"},
+        {"minimal": {"c1": {"at": "O"}, "c2": {"at": "B"}}},
+        {"minimal": {"c1": {"at": "B"}, "c2": {"at": "A"}}},
+        {"minimal": {"c1": {"at": "A"}}},
+        {"minimal": {"c1": {"minor": {"at": "O", "rows": ["c2"], "columns": ["y"]}}, "c2": {"at": "B"}}},
+    ],
+)
+def test_a_broken_circuit_is_refused(change: dict[str, Any]):
+    assert not accepted(COPIES, [{**CIRCUIT, **change}], **PARTS)
+
+
+def test_what_is_redundant():
+    claim = {"path": "/redundant", "value": ["c3"], "rule": "cofactors", "minor": "m"}
+    rows = [
+        {"path": f"/constraints/c{i}/independent", "value": k, "rule": "independent", "minor": "m"}
+        for i, k in ((1, 1), (2, 1), (3, 0), (4, 1))
+    ]
+    assert faults(COPIES, [claim, *rows], **PARTS) == {}
+    for value in ([], ["c1"], ["c4"], ["c3", "c4"], ["c3", "c3"], ["c5"]):
+        assert not accepted(COPIES, [{**claim, "value": value}], **PARTS)
+    assert len(faults(COPIES, [{**one, "value": 1 - one["value"]} for one in rows], **PARTS)) == 4
+    assert not accepted(COPIES, [claim], **{**PARTS, "relations": []})
+    wrong = {**TWICE, "c": {"c1": "1", "c2": "1"}}
+    assert not accepted(COPIES, [claim], **{**PARTS, "relations": [wrong]})
+
+
+def test_no_more_is_called_redundant_than_a_degenerate_relation_allows():
+    scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 0", "x = 0", "y = 0"]}
+    parts = {
+        "points": [{"id": "O", "values": {"x": "0", "y": "0"}}],
+        "minors": [{"id": "m", "at": "O", "rows": ["c2", "c3"], "columns": ["x", "y"]}],
+        "relations": [{"id": "i", "by": "implied", "of": "c1", "c": {"c2": "x", "c3": "y"}}],
+    }
+    claim = {"path": "/redundant", "value": ["c1"], "rule": "cofactors", "minor": "m"}
+    assert not accepted(scene, [claim], **parts)
+
+
+def test_squares_products_and_powers():
+    scene = {"coordinates": ["x", "y"], "constraints": ["(x-y)^2 + 2*(x-1)^2 = 0", "(x-1)*(y+5) = 0", "(y-1)^3 = 0"]}
+    steps = [
+        {"id": "s", "by": "sos", "of": "c1", "terms": [["1", "x-y"], ["2", "x-1"]]},
+        {"id": "b", "by": "branch", "of": "c2", "factors": ["x-1", "y+5"], "chosen": 0},
+        {"id": "p", "by": "square", "of": "c3", "base": "y-1", "power": 3},
+        {"id": "i", "by": "implied", "of": "p", "c": {"s.1": "-1", "s.2": "1"}},
+        {"id": "j", "by": "implied", "of": "b", "c": {"s.2": "1"}},
+    ]
+    parts = {
+        "points": [{"id": "P", "values": {"x": "1", "y": "1"}}],
+        "minors": [{"id": "m", "at": "P", "rows": ["s.1", "s.2"], "columns": ["x", "y"]}],
+    }
+    claim = {"path": "/dof", "value": 0, "rule": "regular", "minor": "m", "about": "component"}
+    assert faults(scene, [claim], **parts, relations=steps) == {}
+    for i in range(5):
+        assert not accepted(scene, [claim], **parts, relations=steps[:i] + steps[i + 1 :]), i
+    for i, change in (
+        (0, {"terms": [["1", "x-y"], ["1", "x-1"]]}),
+        (0, {"terms": [["1", "x-y"], ["-2", "x-1"]]}),
+        (1, {"chosen": 1}),
+        (1, {"chosen": 2}),
+        (1, {"factors": ["x-1", "y-5"]}),
+        (2, {"power": 2}),
+        (2, {"base": "y+1"}),
+        (3, {"c": {"s.1": "1", "s.2": "1"}}),
+    ):
+        broken = [*steps[:i], {**steps[i], **change}, *steps[i + 1 :]]
+        assert not accepted(scene, [claim], **parts, relations=broken), change
+
+
+def test_an_indefinite_sum_of_squares_is_none():
+    scene = {"coordinates": ["x", "y"], "constraints": ["x^2 - y^2 = 0"]}
+    step = {"id": "s", "by": "sos", "of": "c1", "terms": [["1", "x"], ["-1", "y"]]}
+    minor = {"id": "m", "at": "P", "rows": ["s.1", "s.2"], "columns": ["x", "y"]}
+    claim = {"path": "/dof", "value": 0, "rule": "regular", "minor": "m", "about": "component"}
+    points = [{"id": "P", "values": {"x": "0", "y": "0"}}]
+    assert not accepted(scene, [claim], points=points, minors=[minor], relations=[step])
+
+
+def test_a_certificate_of_an_edited_scene_is_refused():
+    good = certificate(APART, [NEVER])
+    assert verify(APART, good).verified == 1
+    with pytest.raises(CheckError):
+        verify({**APART, "constraints": ["x^2 + y^2 = 1", "y = 1"]}, good)
+    for broken in (
+        {**good, "certificate": 2},
+        {**good, "more": 1},
+        {**good, "claims": {}},
+        {**good, "scene": {}},
+        "[",
+        "[" * 10**6,
+        "1",
+    ):
+        with pytest.raises(CheckError):
+            verify(APART, broken)
+    with pytest.raises(CheckError):
+        verify(APART, {**good, "claims": [NEVER] * 10**6})
+    with pytest.raises(CheckError):
+        verify({**APART, "tolerance": "1e-3"}, certificate({**APART, "tolerance": "1e-3"}, [NEVER]))
+
+
+@pytest.mark.parametrize(
+    "claim",
+    [
+        {"c": {"c1": "(x+y+1)^200", "c2": "(x-y)^200"}},
+        {"c": {"c1": "1+" * 5000 + "1"}},
+        {"c": {"c1": "(" * 5000 + "1" + ")" * 5000}},
+        {"c": {"c1": "sin(" * 500 + "x" + ")" * 500}},
+        {"c": {"c1": "((((x+1)^9)^9)^9)^9"}},
+        {"c": {"c1": "+".join(f"sin(x/{i})" for i in range(1, 400))}},
+        {"c": {"c1": "*".join(f"(x+y+{i})" for i in range(1, 1000))}},
+        {"c": [["c1", "1"]]},
+        {"c": {"c1": 1}},
+        {"c": {"c1": None}},
+        {"c": "c1"},
+        {"sos": [[]]},
+        {"sos": [["1", ["x"]]]},
+        {"number": "1e99999"},
+        {"number": "1/0"},
+        {"number": "x"},
+        {"rule": ["nullstellensatz"]},
+        {"rule": None},
+        {"path": ["/consistent"]},
+        {"path": None},
+    ],
+)
+def test_hostile_claims_fail_in_good_time(claim: dict[str, Any]):
+    assert len(faults(APART, [{**NEVER, **claim}, CONFLICT], points=EACH)) == 1

@@ -1,0 +1,244 @@
+"""Claims about labels, and broken ones that must fail."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from checker.certified import accepted, faults
+
+
+def about(name: str, field: str, value: Any, rule: str, **evidence: Any) -> dict[str, Any]:
+    return {"path": f"/constraints/{name}/{field}", "value": value, "rule": rule, **evidence}
+
+
+SKATE: dict[str, Any] = {
+    "coordinates": ["x", "y", "theta"],
+    "parameters": {"a": "real"},
+    "constraints": [{"name": "edge", "text": "sin(theta) dx - cos(theta) dy = 0"}],
+}
+ICE: dict[str, Any] = {
+    "points": [{"id": "P", "values": {"x": "0", "y": "0", "theta": "0"}}],
+    "fields": [
+        {"id": "go", "components": {"x": "cos(theta)", "y": "sin(theta)"}},
+        {"id": "turn", "components": {"theta": "1"}},
+        {"id": "slip", "components": {"x": "1"}},
+    ],
+}
+BRACKET = {"at": "P", "fields": ["go", "turn"], "rows": ["edge"], "pairs": "edge"}
+WORD = {**BRACKET, "combination": [["1", ["go", "turn"]]]}
+TOLD = [
+    about("edge", "holonomic", False, "bracket", **WORD),
+    about("edge", "holonomic_alone", False, "bracket", **WORD),
+    about("edge", "holonomic_alone", False, "wedge", at="P", triple=["x", "y", "theta"]),
+    about("edge", "exact", False, "not exact", at="P", pair=["y", "theta"]),
+    about("edge", "exact", False, "not exact", at="Q", pair=["y", "theta"]),
+    about("edge", "scleronomic", True, "timeless"),
+    about("edge", "catastatic", True, "timeless"),
+]
+
+
+@pytest.mark.parametrize("place", [0, 1, 2, 5, 6])
+def test_a_skate(place: int):
+    claim = TOLD[place]
+    assert faults(SKATE, [claim], **ICE) == {}
+    for other in (not claim["value"], None, int(claim["value"])):
+        assert not accepted(SKATE, [{**claim, "value": other}], **ICE)
+
+
+def test_a_curl_is_asked_at_a_point_where_it_is_not_0():
+    assert not accepted(SKATE, [TOLD[3]], **ICE)
+    turned = {"points": [{"id": "Q", "values": {"x": "0", "y": "0", "theta": "pi/2"}}]}
+    assert accepted(SKATE, [TOLD[4]], **turned)
+    assert not accepted(SKATE, [{**TOLD[4], "pair": ["x", "y"]}], **turned)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"combination": []},
+        {"combination": [["0", ["go", "turn"]]]},
+        {"combination": [["a", ["go", "turn"]]]},
+        {"combination": [["1", ["go"]]]},
+        {"combination": [["1", ["go", "go"]]]},
+        {"combination": [["1", ["slip"]]]},
+        {"combination": [["1", []]]},
+        {"fields": ["go", "turn", "slip"], "combination": [["1", ["slip", "turn"]]]},
+        {"rows": []},
+        {"pairs": "c1"},
+        {"at": "Q"},
+    ],
+)
+def test_a_broken_bracket_is_refused(change: dict[str, Any]):
+    assert not accepted(SKATE, [about("edge", "holonomic", False, "bracket", **{**WORD, **change})], **ICE)
+
+
+def test_a_form_is_not_called_integrable_when_it_is_not():
+    assert not accepted(SKATE, [about("edge", "holonomic_alone", True, "wedge")], **ICE)
+    assert not accepted(SKATE, [about("edge", "exact", True, "exact")], **ICE)
+    free = {"coordinates": ["x", "y", "z"], "constraints": ["x dy - y dx + 0*z = 0", "z dx + dy = 0"]}
+    assert accepted(free, [about("c1", "holonomic_alone", True, "wedge")])
+    assert not accepted(free, [about("c1", "holonomic", True, "wedge")])
+
+
+POTENTIAL: dict[str, Any] = {"coordinates": ["x", "y", "z"], "constraints": ["2 y dx + x dy = 0", "dz = (x-1) x y dx"]}
+AT = {"id": "P", "values": {"x": "1", "y": "2", "z": "0"}}
+STEPS = [
+    {"id": "f", "by": "integral", "function": "x^2*y", "c": {"c1": "x"}},
+    {"id": "r", "by": "rate", "of": "f"},
+    {"id": "i", "by": "implied", "of": "c1", "h": "x", "c": {"r": "1"}},
+]
+GOOD = [
+    about("c1", "integrating_factor", "x", "integral", at="P"),
+    about("c1", "integral", "x^2*y = C", "integral", at="P", function="x^2*y", factor="x"),
+    about("c1", "integral", "x^2*y = C", "integral", at="P", function="x^2*y", step="f"),
+    about("c1", "holonomic", True, "integral", at="P", integrals=["f"]),
+    about("c1", "holonomic_alone", True, "integral", at="P", integrals=["f"]),
+]
+
+
+@pytest.mark.parametrize("claim", GOOD)
+def test_an_integral(claim: dict[str, Any]):
+    parts = {"points": [AT], "relations": STEPS}
+    assert faults(POTENTIAL, [claim], **parts) == {}
+    assert not accepted(POTENTIAL, [claim], **{**parts, "points": [{**AT, "values": {"x": "0", "y": "2", "z": "0"}}]})
+    for wrong in ("x^2", "x^2*y = y", "x*y = C", "x^3*y = C", False, None, "0"):
+        assert not accepted(POTENTIAL, [{**claim, "value": wrong}], **parts)
+
+
+@pytest.mark.parametrize(
+    "steps",
+    [
+        STEPS[:2],
+        [{**STEPS[0], "function": "x*y"}, *STEPS[1:]],
+        [{**STEPS[0], "c": {"c2": "x"}}, *STEPS[1:]],
+        [{**STEPS[0], "h": "0", "c": {}}, *STEPS[1:]],
+        [{**STEPS[0], "function": "1", "c": {}}, *STEPS[1:]],
+        [*STEPS[:2], {**STEPS[2], "h": "1"}],
+        [*STEPS[:2], {**STEPS[2], "h": "0", "c": {}}],
+        [*STEPS[:2], {**STEPS[2], "of": "c2"}],
+    ],
+)
+def test_broken_steps_are_refused(steps: list[dict[str, Any]]):
+    assert not accepted(POTENTIAL, [GOOD[3]], points=[AT], relations=steps)
+
+
+def test_a_form_that_only_the_others_make_integrable():
+    scene = {"coordinates": ["x", "y", "z"], "constraints": ["dz = y dx", "y = x^2"]}
+    steps = [
+        {"id": "d", "by": "rate", "of": "c2"},
+        {"id": "f", "by": "integral", "function": "z - x^3/3", "c": {"c1": "1", "c2": "xdot"}},
+        {"id": "r", "by": "rate", "of": "f"},
+        {"id": "i", "by": "implied", "of": "c1", "c": {"r": "1", "c2": "-xdot"}},
+    ]
+    parts = {"points": [{"id": "P", "values": {"x": "0", "y": "0", "z": "0"}}], "relations": steps}
+    claim = about("c1", "holonomic", True, "integral", at="P", integrals=["f"])
+    assert faults(scene, [claim], **parts) == {}
+    assert not accepted(scene, [{**claim, "path": "/constraints/c1/holonomic_alone"}], **parts)
+    off = {**parts, "points": [{"id": "P", "values": {"x": "0", "y": "1", "z": "0"}}]}
+    assert not accepted(scene, [claim], **off)
+
+
+def test_two_forms_that_integrate_together():
+    scene = {"coordinates": ["x", "y", "z"], "constraints": ["dy = z dx", "dz = y dx"]}
+    parts = {
+        "points": [{"id": "P", "values": {"x": "0", "y": "0", "z": "0"}}],
+        "minors": [{"id": "m", "at": "P", "rows": ["c1", "c2"], "columns": ["y", "z"]}],
+        "fields": [{"id": "X", "components": {"x": "1", "y": "z", "z": "y"}}],
+    }
+    claim = about("c1", "holonomic", True, "frobenius", minor="m", fields=["X"], columns=["x"])
+    assert faults(scene, [claim, {**claim, "path": "/constraints/c2/holonomic"}], **parts) == {}
+    assert not accepted(scene, [{**claim, "path": "/constraints/c1/holonomic_alone"}], **parts)
+    assert not accepted(scene, [{**claim, "fields": [], "columns": []}], **parts)
+    assert not accepted(scene, [{**claim, "columns": ["x", "x"]}], **parts)
+
+
+def test_time():
+    scene = {
+        "coordinates": ["x", "y", "z"],
+        "parameters": {"v": "positive"},
+        "constraints": [
+            "x = t*y",
+            "xdot = v",
+            "(1+t^2)*(dx + dy) = 0",
+            "xdot^7 + ydot^7 = zdot^7",
+            "xdot^2 + ydot^2 = v^2",
+            "dx + t dy = 0",
+            "x > t",
+            "(2 + x^2 + t^2)*(x - y) = 0",
+        ],
+    }
+    state = {"xdot": "0", "ydot": "1", "zdot": "1"}
+    parts = {
+        "points": [{"id": "P", "values": {"x": "2", "y": "3", "z": "0", "t": "1", "v": "1", **state}}],
+        "relations": [
+            {
+                "id": "f",
+                "by": "factor",
+                "of": "c3",
+                "factor": "1+t^2",
+                "rest": "xdot+ydot",
+                "nonzero": {"sos": [["1", "t"]], "plus": "1"},
+            },
+            {"id": "g", "by": "factor", "of": "c3", "factor": "1+t^2", "rest": "xdot+ydot"},
+            {
+                "id": "h",
+                "by": "factor",
+                "of": "c8",
+                "factor": "2+x^2+t^2",
+                "rest": "x-y",
+                "nonzero": {"sos": [["1", "x"], ["1", "t"]], "plus": "2"},
+            },
+        ],
+    }
+    on = {**parts, "points": [{"id": "P", "values": {**parts["points"][0]["values"], "x": "1", "y": "1"}}]}
+    good = [
+        about("c3", "scleronomic", True, "timeless", steps=["f"]),
+        about("c8", "scleronomic", True, "timeless", steps=["h"]),
+        about("c4", "scleronomic", True, "timeless", degree={"c4": "7"}),
+        about("c2", "scleronomic", False, "turns", relation="c2", at="P"),
+        about("c2", "catastatic", False, "turns", relation="c2", at="P"),
+        about("c6", "scleronomic", False, "turns", relation="c6", at="P", pair=["x", "y"]),
+        about("c6", "catastatic", True, "timeless"),
+        about("c5", "scleronomic", False, "turns", relation="c5", at="P", euler=True),
+        about("c1", "scleronomic", False, "turns", relation="c1", at="P"),
+        about("c7", "scleronomic", False, "turns", relation="c7", at="P"),
+    ]
+    assert all(accepted(scene, [claim], **on) for claim in good)
+    bad = [
+        about("c3", "scleronomic", True, "timeless", steps=["g"]),
+        about("c3", "scleronomic", True, "timeless"),
+        about("c3", "scleronomic", False, "turns", relation="c3", at="P", pair=["x", "y"]),
+        about("c8", "scleronomic", False, "turns", relation="c8", at="P"),
+        about("c4", "scleronomic", True, "timeless", degree={"c4": "6"}),
+        about("c5", "scleronomic", True, "timeless", degree={"c5": "2"}),
+        about("c4", "scleronomic", False, "turns", relation="c4", at="P"),
+        about("c4", "scleronomic", False, "turns", relation="c4", at="P", euler=True),
+        about("c2", "scleronomic", True, "timeless"),
+        about("c2", "catastatic", True, "timeless"),
+        about("c6", "catastatic", False, "turns", relation="c6", at="P", pair=["x", "y"]),
+        about("c6", "scleronomic", True, "timeless"),
+        about("c6", "scleronomic", False, "turns", relation="c2", at="P"),
+        about("c1", "scleronomic", True, "timeless"),
+        about("c7", "scleronomic", True, "timeless"),
+        about("c1", "catastatic", False, "turns", relation="c1", at="P"),
+    ]
+    assert not any(accepted(scene, [claim], **on) for claim in bad)
+    assert not accepted(scene, [good[-2]], **parts)
+    assert not accepted(scene, [good[-1]], **parts)
+
+
+def test_inequalities_are_not_holonomic():
+    scene = {"coordinates": ["x"], "constraints": ["x >= 1", "x = 2"]}
+    assert accepted(scene, [about("c1", "holonomic", False, "inequality")])
+    assert not accepted(scene, [about("c2", "holonomic", False, "inequality")])
+    assert not accepted(scene, [about("c1", "holonomic", True, "finite")])
+    assert not accepted(scene, [about("c1", "holonomic", True, "inequality")])
+
+
+def test_paths_that_no_rule_is_for_and_paths_claimed_twice_fail():
+    claim = about("edge", "catastatic", True, "timeless")
+    assert len(faults(SKATE, [claim, claim], **ICE)) == 1
+    for path in ("/verdict", "/constraints/edge/reason", "/constraints/ghost/catastatic", "/dof/0", "", 7):
+        assert not accepted(SKATE, [{**claim, "path": path}], **ICE)
+    assert not accepted(SKATE, [{**claim, "rule": "as written"}], **ICE)
