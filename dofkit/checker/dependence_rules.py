@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from dofkit.checker.balls import excludes_zero
-from dofkit.checker.derivatives import symbols_in
+from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, is_here, names_told, regular
 from dofkit.checker.errors import CheckError
+from dofkit.checker.everywhere_rules import own_symbols
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import admissible, independent, involutive, of_word
 from dofkit.checker.label_rules import own
 from dofkit.checker.points import CheckedPoint
+from dofkit.checker.trees import add, negative
 
 BOTH = ("finite", "velocity")
 
@@ -115,6 +117,28 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: di
     evidence.on_set(minor.point, evidence.finite)
 
 
+def integrable_part(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) -> None:
+    """The rank of what is finite is n - dof; the basis are relations that give it with the finite ones as written."""
+    value, rank = claim["value"], len(evidence.problem.coordinates) - verified["/dof"]
+    if set(value) != {"rank", "basis"}:
+        raise CheckError("an integrable part has a rank and a basis")
+    equal({"value": value["rank"]}, rank)
+    if value["basis"] is None:
+        return
+    minor, steps = evidence.minor(claim["minor"]), list(claim.get("steps", []))
+    _same_place(evidence, minor.point, verified)
+    if len(minor.rows) != rank or not set(steps) <= set(minor.rows) <= {*steps, *evidence.finite}:
+        raise CheckError("the minor is not of finite relations and the basis, or of another rank")
+    for text, name in zip(value["basis"], steps, strict=True):
+        left, _, right = text.rpartition("=")
+        one = evidence.relation(name)
+        if one.kind != "finite" or (right.strip() == "0") == one.leaf or not (one.leaf or right.strip() == "0"):
+            raise CheckError("an integral ends with a constant, another relation with 0")
+        if one.leaf and (not right.strip().isidentifier() or evidence.names.meaning(right.strip()) is not None):
+            raise CheckError("the constant of an integral has a name of its own")
+        evidence.identity(add(evidence.text(left.strip()), negative(one.left)), "a relation of the basis as it is told")
+
+
 def redundant(evidence: CheckedEvidence, claim: Told) -> None:
     """The constraints named follow from the others near the point, and no more could be dropped.
 
@@ -142,7 +166,12 @@ def redundant(evidence: CheckedEvidence, claim: Told) -> None:
 
 
 def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[str]) -> None:
-    """`CheckError` unless relations depend on rows by numbers, or one does by cofactors that are not 0."""
+    """`CheckError` unless relations depend on rows by numbers, or one does by cofactors that are not 0.
+
+    Where every relation is linear or has a generic length of its own, all ranks are constant near almost every point.
+    """
+    if not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite):
+        return
     for name in others:
         ways = [one for one in evidence.consequences if one.target == name and set(one.sources) <= set(minor.rows)]
         plain = any(one.defined and not any(symbols_in(tree) for tree in (*one.defined, *one.nonzero)) for one in ways)
@@ -151,6 +180,19 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
         )
         if not plain and not single:
             raise CheckError(f"`{name}` does not depend on the rows by numbers")
+
+
+def _is_general(evidence: CheckedEvidence, name: str) -> bool:
+    left = evidence.relation(name).left
+    if all(evidence.ring.rational(derivative(left, q)) is not None for q in evidence.problem.coordinates):
+        return True
+    for symbol in sorted(symbols_in(left) & set(evidence.problem.generic)):
+        try:
+            own_symbols(evidence, {name: symbol})
+        except CheckError:
+            continue
+        return True
+    return False
 
 
 def growth(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) -> None:
@@ -197,6 +239,8 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) ->
         equations = len(evidence.finite) + len(evidence.moving)
         size = len(evidence.problem.coordinates)
         return equal(claim, max(0, equations - (size - verified["/velocity_dof"])))
+    if path == "/redundancies" and verified["/redundant_equations"] == 0:
+        return equal(claim, [])
     if path == "/velocity_dof" and not evidence.moving:
         return equal(claim, verified["/dof"])
     if path == "/singular":

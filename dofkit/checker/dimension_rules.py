@@ -12,7 +12,7 @@ from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import field_named, independent, involutive, span, tangent
 from dofkit.checker.points import CheckedPoint, in_turn
-from dofkit.checker.texts import has_value_everywhere
+from dofkit.checker.steps import Consequence
 from dofkit.checker.trees import ZERO, Tree, add, negative, symbol, times
 
 Told = dict[str, Any]
@@ -141,18 +141,17 @@ def _family(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
     return point, len(parameters)
 
 
-def _cover(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
-    """Blocks of rows, each with fields that keep it: ranks add up to the minor's at most, so the rank is constant.
+def _constant_rank(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
+    """Blocks of rows, each with fields that keep it: near the point the rank is that of the minor, of some of the rows.
 
-    A level set of constant rank r is a manifold of dimension n - r (implicit functions).
+    The fields are tangent identically, so a block has rank at most its variables less its fields, and the minor shows
+    that the sum is reached. Then all rows are functions of those of the minor (constant rank theorem).
     """
-    if evidence.moving:
-        raise CheckError("a cover is for finite relations")
     minor = evidence.minor(given["minor"])
     rows = [row for block in given["blocks"] for row in block["rows"]]
-    if set(rows) != set(evidence.finite) or len(rows) != len(set(rows)) or not set(minor.rows) <= set(rows):
+    if len(rows) != len(set(rows)) or not set(minor.rows) <= set(rows) <= set(evidence.finite):
         raise CheckError("the blocks do not hold each finite relation once, or the minor has other rows")
-    evidence.on_set(minor.point, evidence.finite)
+    evidence.on_set(minor.point, rows)
     total = 0
     for block in given["blocks"]:
         fields = [field_named(evidence, name) for name in block["fields"]]
@@ -163,10 +162,29 @@ def _cover(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
         tangent(evidence, fields, block["rows"])
         if fields:
             independent(evidence, fields, block["columns"], minor.point)
-        total += len(own) - len(fields)
+        total += min(len(own) - len(fields), len(block["rows"]))
     if total != len(minor.rows):
         raise CheckError(f"the blocks have rank {total} at most, the minor {len(minor.rows)}")
-    return minor.point, len(evidence.problem.coordinates) - total
+    return minor
+
+
+def _cover(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
+    """A level set of constant rank r is a manifold of dimension n - r (constant rank theorem)."""
+    minor = _constant_rank(evidence, given)
+    if evidence.moving or {row for block in given["blocks"] for row in block["rows"]} != set(evidence.finite):
+        raise CheckError("a cover is of all finite relations, where there are no others")
+    return minor.point, len(evidence.problem.coordinates) - len(minor.rows)
+
+
+def take_cover(evidence: CheckedEvidence, name: Any) -> None:
+    """Near the point the rows of a cover follow from those of its minor."""
+    given = evidence.named("covers", name)
+    minor = _constant_rank(evidence, given)
+    for block in given["blocks"]:
+        for row in block["rows"]:
+            follows = Consequence(row, minor.rows, (), (), minor.point.name)
+            if row not in minor.rows and follows not in evidence.consequences:
+                evidence.consequences.append(follows)
 
 
 def freedom(evidence: CheckedEvidence, claim: Told) -> str:
@@ -191,35 +209,6 @@ def nothing(evidence: CheckedEvidence, claim: Told) -> None:
     if evidence.finite or evidence.moving:
         raise CheckError("there are equations")
     equal(claim, len(evidence.problem.coordinates))
-
-
-def graph(evidence: CheckedEvidence, claim: Told) -> None:
-    """Each relation gives a coordinate, a number times it and what is free or given before: the set is a graph."""
-    order = [(name, q) for name, q in claim["order"]]
-    if {name for name, _ in order} != set(evidence.finite) or evidence.moving or len(order) != len(evidence.finite):
-        raise CheckError("the order does not hold each relation once, or there are velocities")
-    later = [q for _, q in order]
-    if len(set(later)) != len(later) or not set(later) <= set(evidence.problem.coordinates):
-        raise CheckError("each relation gives a coordinate of its own")
-    for i, (name, q) in enumerate(order):
-        left = evidence.relation(name).left
-        if not evidence.ring.rational(derivative(left, q)) or not has_value_everywhere(left):
-            raise CheckError(f"`{name}` does not give `{q}` everywhere")
-        if not symbols_in(left).isdisjoint(later[i + 1 :]):
-            raise CheckError(f"`{name}` holds what is given later")
-    if claim.get("about") != "everywhere":
-        raise CheckError("a graph is about everywhere")
-    equal(claim, len(evidence.problem.coordinates) - len(order))
-
-
-def one_relation(evidence: CheckedEvidence, claim: Told) -> None:
-    """The zeros of one analytic function that is not 0 everywhere: n - 1 near a regular one, and nowhere more."""
-    minor = regular(evidence, claim["minor"])
-    if len(evidence.finite) != 1 or evidence.moving or len(minor.rows) != 1 or evidence.problem.functions:
-        raise CheckError("there is not just one relation")
-    if not has_value_everywhere(evidence.relation(evidence.finite[0]).left) or claim.get("about") != "everywhere":
-        raise CheckError("the relation is not analytic everywhere")
-    equal(claim, len(evidence.problem.coordinates) - 1)
 
 
 def instantaneous(evidence: CheckedEvidence, claim: Told) -> None:

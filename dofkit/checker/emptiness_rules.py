@@ -14,6 +14,7 @@ from dofkit.checker.dimension_rules import Told, equal, names_told
 from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.points import CheckedPoint
+from dofkit.checker.problem import CheckedRelation
 from dofkit.checker.texts import has_value_everywhere
 from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, number, symbol, times
 
@@ -26,10 +27,24 @@ def consistent(evidence: CheckedEvidence, claim: Told) -> None:
     for one in evidence.problem.relations:
         if one.kind == "inequality":
             places = claim.get("inequalities", {})
-            point = evidence.point(places.get(one.name, places.get(one.owner, claim.get("at"))))
-            value = point.value(one.left)
-            if not value > 0 and (one.strict or not evidence.ring.vanishes(point.prepared(one.left))):
-                raise CheckError(f"the inequality `{one.name}` is not shown to hold at its point")
+            _met(evidence, one, evidence.point(places.get(one.name, places.get(one.owner, claim.get("at")))))
+    equal(claim, True)
+
+
+def _met(evidence: CheckedEvidence, one: CheckedRelation, point: CheckedPoint) -> None:
+    if not point.value(one.left) > 0 and (one.strict or not evidence.holds(one.name, point)):
+        raise CheckError(f"the inequality `{one.name}` is not shown to hold at its point")
+
+
+def feasible(evidence: CheckedEvidence, claim: Told) -> None:
+    """At one point a motion meets all equations, and all inequalities hold."""
+    moves(evidence, claim, (*evidence.finite, *evidence.moving))
+    point = evidence.point(claim["at"]) if claim["rule"] == "point" else evidence.minor(claim["minor"]).point
+    for one in evidence.problem.relations:
+        if one.kind == "inequality":
+            if evidence.has_velocities(one.left):
+                raise CheckError("an inequality between velocities needs more than a point")
+            _met(evidence, one, point)
     equal(claim, True)
 
 

@@ -2,8 +2,8 @@
 
 A certificate is a JSON object: ``certificate`` (1), ``scene`` (``name``, ``sha256`` of the canonical JSON of the
 scene's document, optionally the ``document``), ``cayley`` (bodies that are read with Cayley parameters where a claim
-says ``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``fields``, ``claims``, ``uncovered``. A TEXT
-is an expression in the grammar of scenes (numbers exact); an ID names a relation of the scene (``c4``, ``c4.1``) or a
+says ``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``fields``, ``covers``, ``claims``,
+``uncovered``. A TEXT is an expression in the grammar of scenes (numbers exact); an ID names a relation of the scene (``c4``, ``c4.1``) or a
 step. Steps, points, minors and fields are looked at only where a claim uses them.
 
 STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of the scene and of steps before it).
@@ -45,6 +45,11 @@ FIELDS ``{"id", "components": {coordinate or t: TEXT}}``: a velocity field; what
 be made from a minor: ``{"id", "cramer": {"rows": [ID], "columns": [coordinate], "free": coordinate or t}}`` (at most
 5 rows): the field with the determinant at ``free``, 0 at other free columns, and Cramer's numerators at ``columns``.
 A WORD is a list of ids of fields: [A, B, C] is [[A, B], C].
+
+COVERS ``{"id", "minor", "blocks": [{"rows": [ID], "fields": [id], "columns": [coordinate]}]}``: blocks of finite
+relations of the scene, with fields that keep them (tangent identically, without t; columns: a minor of the fields at the
+minor's point). Sum over blocks of (coordinates that occur less fields, at most the rows) = rows of the minor. Then all
+rows of the blocks follow from those of the minor near its point. A claim of any rule names them in ``covers`` [id].
 
 BOUNDS of dof (``most`` and ``least`` of squeeze), and of velocity_dof:
 
@@ -100,13 +105,26 @@ path                                    rule           fields
 /dof, /velocity_dof                     regular        minor; about (most and least in one, all rows of one kind)
 /dof                                    nothing        no relation but inequalities: n, everywhere
 /velocity_dof                           count          equals /dof: no velocity relations
-/dof everywhere                         graph          order [[ID, coordinate]]: each solves its coordinate
-/dof everywhere                         one relation   minor: of the only relation, analytic everywhere
+/dof everywhere                         everywhere     order [[ID, coordinate]]: each gives its coordinate (a number
+                                                       times it and what is free or given before); blocks [ID]:
+                                                       single analytic relations; generic [[ID, symbol]]: each with
+                                                       a symbol of its own; minor: rows are all finite relations
+                                                       (left out where there is order alone). Every finite relation
+                                                       in one place; blocks and generic share no free coordinate.
+                                                       ``graph`` and ``one relation`` are names of the same rule
+/dof everywhere                         generic rank   order, generic as above; minor (rows of some), covers [ID]: one
+                                                       cover of all finite relations
 /instantaneous_dof                      rank           at: the reference. Rational rows: nothing more. Else minor and
                                                        dependent {ID: {row: TEXT}}: ID's row is that sum of rows
 /singular                               compare        (of verified /instantaneous_dof and /velocity_dof)
 /holonomic, /scleronomic                count          (of the verified entries)
 /redundant_equations                    count          (of verified /velocity_dof)
+/redundancies []                        count          (of verified /redundant_equations 0)
+/feasible true                          point, regular at, or minor: equations as for /consistent; all inequalities
+                                                       hold at that point
+/integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of
+                                                       the texts of the basis, in order; /dof verified before at the
+                                                       same point. Nothing more where the basis is null
 /count/independent                      independent    minor: finite rows, all finite relations follow
 /generalized_coordinates                minor          minor (rows finite or integrals): columns are all the other
                                                        coordinates; /dof verified before, at the same point. With
@@ -115,7 +133,8 @@ path                                    rule           fields
                                                        minor (regular: all rows). Upper bounds: Witt, and /dof
                                                        verified before, at the same point
 /redundant                              cofactors      minor: rows are relations of the scene, all others follow from
-                                                       them with numbers (or one, with cofactors not 0 at the point)
+                                                       them with numbers (or one, with cofactors not 0 at the
+                                                       point; or all are linear or have generic lengths, by covers)
 /constraints/NAME/holonomic             finite, inequality
 /constraints/NAME/holonomic_alone       the same       of the constraint's own relations only (``alone`` is implied)
 .../holonomic true                      integral       at; integrals [ID of integral steps]: NAME's relations follow
@@ -131,7 +150,8 @@ path                                    rule           fields
                                                        true: a nonlinear relation that is no cone at the state ``at``
 .../catastatic false                    turns          at, relation ID: the coefficient of tdot is not 0
 .../exact true                          exact          closed
-.../exact false                         not exact      at, pair [x, y]
+.../exact false                         not exact      at, pair [x, y]; relation ID where there are several forms
+.../independent 0                       inequality     of nothing but inequalities
 .../integrating_factor                  integral       at; the value mu makes mu * form closed and is not 0 there
 .../integral                            integral       at, function TEXT (value is "function = C"); alone: d function =
                                                        factor * form, factor TEXT. In the system: step ID of the
@@ -157,7 +177,7 @@ from dofkit.checker.errors import CheckError
 
 VERSION = 1
 LARGEST_TEXT, MOST_CLAIMS, MOST_ENTRIES = 20_000_000, 20_000, 20_000
-PARTS = ("relations", "points", "minors", "fields")
+PARTS = ("relations", "points", "minors", "fields", "covers")
 KEYS = ("certificate", "scene", "cayley", *PARTS, "claims", "uncovered")
 
 

@@ -38,10 +38,12 @@ def finite(evidence: CheckedEvidence, claim: Told) -> None:
 
 
 def inequality(evidence: CheckedEvidence, claim: Told) -> None:
-    """An inequality is not holonomic."""
+    """An inequality is not holonomic; where there is nothing else, it has no independent equation."""
     if not evidence.owned(claim["owner"], ("inequality",)):
         raise CheckError("no inequality")
-    equal(claim, False)
+    if claim["field"] == "independent" and evidence.owned(claim["owner"]):
+        raise CheckError("there are equations as well")
+    equal(claim, 0 if claim["field"] == "independent" else False)
 
 
 def _follow(evidence: CheckedEvidence, claim: Told, start: set[str], point: CheckedPoint) -> None:
@@ -156,15 +158,22 @@ def wedge(evidence: CheckedEvidence, claim: Told) -> None:
 
 def closed(evidence: CheckedEvidence, claim: Told) -> None:
     """A form is exact near every point where it is closed."""
-    form = _only_form(evidence, claim)
-    for i, j in combinations(_variables(evidence, form), 2):
-        evidence.identity(_curl(form, i, j), f"the curl in {i}, {j}")
+    forms = [form_of(evidence, name) for name in own(evidence, claim) if evidence.relation(name).kind == "velocity"]
+    for form in forms:
+        for i, j in combinations(_variables(evidence, form), 2):
+            evidence.identity(_curl(form, i, j), f"the curl in {i}, {j}")
+    if not forms:
+        raise CheckError("there is no form")
     equal(claim, True)
 
 
 def not_closed(evidence: CheckedEvidence, claim: Told) -> None:
-    """A curl that is not 0 at a point."""
-    form, (i, j) = _only_form(evidence, claim), claim["pair"]
+    """A curl that is not 0 at a point, of the constraint's form or of that of its forms which is named."""
+    form, (i, j) = _only_form(evidence, claim) if "relation" not in claim else {}, claim["pair"]
+    if "relation" in claim:
+        if claim["relation"] not in own(evidence, claim):
+            raise CheckError("no relation of the constraint")
+        form = form_of(evidence, claim["relation"])
     if not {i, j} <= set(evidence.variables) or not excludes_zero(evidence.point(claim["at"]).value(_curl(form, i, j))):
         raise CheckError("the curl may be 0 at the point")
     equal(claim, False)
@@ -187,9 +196,13 @@ def _reduced(evidence: CheckedEvidence, name: str, steps: Any) -> list[str]:
 def timeless(evidence: CheckedEvidence, claim: Told) -> None:
     """Neither t nor dt occurs, once factors that are nowhere 0 are taken out."""
     pieces = own(evidence, claim, ("finite", "velocity", "inequality"))
+    if claim["field"] == "catastatic" and not any(evidence.relation(name).kind == "velocity" for name in pieces):
+        raise CheckError("there is no form")
     for name in (one for piece in pieces for one in _reduced(evidence, piece, claim.get("steps", []))):
         left = evidence.relation(name).left
-        if claim["field"] == "catastatic" and form_of(evidence, name).get("t") is None:
+        if claim["field"] == "catastatic" and (
+            evidence.relation(name).kind == "finite" or form_of(evidence, name).get("t") is None
+        ):
             continue
         evidence.identity(derivative(left, "tdot"), f"the dt term of `{name}`")
         if claim["field"] == "scleronomic":
@@ -234,7 +247,7 @@ def _moved_by_time(evidence: CheckedEvidence, claim: Told, names: tuple[str, ...
     one = evidence.relation(claim["relation"])
     if one.kind == "finite":
         evidence.on_set(point, names)
-    elif not evidence.ring.vanishes(point.prepared(one.left)):
+    elif not evidence.holds(one.name, point):
         raise CheckError("the relation is not shown to be 0 at the point")
     if one.kind == "velocity" and claim.get("euler") is True:
         return add(*(times(symbol(v), derivative(one.left, v)) for v in sorted(evidence.velocities - {"tdot"})))

@@ -97,13 +97,23 @@ class CheckedRing(QuotientRing):
             found = self.generator(("abs", self.key(u)))
             self.rules.setdefault(self.places[("abs", self.key(u))], (2, self.times(u, u)))
             return found
-        if head == "log" and u == self.constant(1):
+        if self._is_zero_at(head, below):
             return self.constant(0)
         key = (head, tree.value, tree.orders, tuple(self.key(part) for part in below))
         found = self.generator(key)
         if head in ("asin", "acos", "atan", "atan2", "log"):
             self.inverses[self.places[key]] = (head, tuple(below))
         return found
+
+    def _is_zero_at(self, head: str, below: list[Quotient]) -> bool:
+        """log 1, acos 1, asin 0, atan 0 and atan2(0, x), x a positive number."""
+        if head in ("log", "acos"):
+            return self._fresh(below[0]) == self.constant(1)
+        if head == "atan2":
+            x, under = below[1]
+            if not (x.is_constant() and under.is_constant() and self._number(x) / self._number(under) > 0):
+                return False
+        return head in ("asin", "atan", "atan2") and bool(below[0].above == 0)
 
     def _power(self, base: Tree, exponent: Tree) -> Quotient:
         value = exponent.value

@@ -18,12 +18,16 @@ from dofkit.checker.trees import Tree, add, negative, number, power, symbol, tim
 
 @dataclass(frozen=True)
 class Consequence:
-    """``target`` holds where all ``sources`` do, where the ``nonzero`` are not 0 and the ``defined`` have a value."""
+    """``target`` holds where all ``sources`` do, where the ``nonzero`` are not 0 and the ``defined`` have a value.
+
+    Near the point ``at`` only, where one is named.
+    """
 
     target: str
     sources: tuple[str, ...]
     nonzero: tuple[Tree, ...] = ()
     defined: tuple[Tree, ...] = ()
+    at: str = ""
 
 
 @dataclass(frozen=True)

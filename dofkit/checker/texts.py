@@ -91,7 +91,7 @@ class CheckedTexts:
         elif "parameters" in why:
             product = self.text(why["parameters"])
             self.identity(add(tree, negative(product)), "the product of parameters")
-            if not self._nonzero_product(product):
+            if not self.is_nonzero_product(product):
                 raise CheckError("not a product of parameters that are not 0")
         elif "exp" in why:
             self.identity(add(tree, negative(call("exp", self.text(why["exp"])))), "the exponential")
@@ -99,11 +99,12 @@ class CheckedTexts:
             raise CheckError("a number may be 0")
         return True
 
-    def _nonzero_product(self, tree: Tree) -> bool:
+    def is_nonzero_product(self, tree: Tree) -> bool:
+        """Whether a tree is a product of powers of numbers and of parameters that are not 0."""
         if tree.head == "product":
-            return all(self._nonzero_product(part) for part in tree.below)
+            return all(self.is_nonzero_product(part) for part in tree.below)
         if tree.head == "power":
-            return self._nonzero_product(tree.below[0]) and not symbols_in(tree.below[1])
+            return self.is_nonzero_product(tree.below[0]) and not symbols_in(tree.below[1])
         if tree.head == "symbol":
             return self.problem.parameters.get(str(tree.value)) in ("positive", "nonzero")
         return not symbols_in(tree) and excludes_zero(evaluated(tree, {}, self.effort))
@@ -122,3 +123,8 @@ def has_value_everywhere(tree: Tree) -> bool:
 
 def _parts_have(tree: Tree) -> bool:
     return all(has_value_everywhere(part) for part in tree.below)
+
+
+def heads_in(tree: Tree) -> set[str]:
+    """The kinds of nodes that occur in a tree."""
+    return {tree.head}.union(*(heads_in(part) for part in tree.below))

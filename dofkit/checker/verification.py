@@ -7,13 +7,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from dofkit.checker import dependence_rules, dimension_rules, emptiness_rules, label_rules
+from dofkit.checker import dependence_rules, dimension_rules, emptiness_rules, everywhere_rules, label_rules
 from dofkit.checker.document import document_of, sha256_of
 from dofkit.checker.effort import Effort
 from dofkit.checker.errors import CheckError
-from dofkit.checker.evidence import FAULTS, CheckedEvidence, told
+from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.format import PARTS, certificate_of
 from dofkit.checker.problem import read_problem
+from dofkit.checker.relations import FAULTS, told
 
 Rule = Callable[[CheckedEvidence, dict[str, Any]], object]
 Counting = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], None]
@@ -23,9 +24,10 @@ WHOLE: dict[tuple[str, str], Rule] = {
     **{("/consistent", rule): emptiness_rules.inconsistent for rule in ("nullstellensatz", "polygon", "boxes")},
     ("/conflicting", "conflict"): emptiness_rules.conflict,
     **{(path, rule): dimension_rules.freedom for path in ("/dof", "/velocity_dof") for rule in ("squeeze", "regular")},
-    **{(path, "nothing"): dimension_rules.nothing for path in ("/dof", "/velocity_dof")},
-    ("/dof", "graph"): dimension_rules.graph,
-    ("/dof", "one relation"): dimension_rules.one_relation,
+    **{(path, "nothing"): everywhere_rules.nothing for path in ("/dof", "/velocity_dof")},
+    **{("/dof", rule): everywhere_rules.everywhere for rule in ("everywhere", "graph", "one relation")},
+    ("/dof", "generic rank"): everywhere_rules.generic_rank,
+    **{("/feasible", rule): emptiness_rules.feasible for rule in ("point", "regular")},
     ("/instantaneous_dof", "rank"): dimension_rules.instantaneous,
     ("/count/independent", "independent"): dependence_rules.independent_in_all,
     ("/redundant", "cofactors"): dependence_rules.redundant,
@@ -33,6 +35,8 @@ WHOLE: dict[tuple[str, str], Rule] = {
 COUNTING: dict[tuple[str, str], Counting] = {
     **{(path, "count"): dependence_rules.counted for path in ("/velocity_dof", "/holonomic", "/scleronomic")},
     ("/redundant_equations", "count"): dependence_rules.counted,
+    ("/redundancies", "count"): dependence_rules.counted,
+    ("/integrable_part", "integrals"): dependence_rules.integrable_part,
     ("/singular", "compare"): dependence_rules.counted,
     ("/generalized_coordinates", "minor"): dependence_rules.generalized_coordinates,
     ("/growth_vector", "span"): dependence_rules.growth,
@@ -58,6 +62,7 @@ ENTRY: dict[tuple[str, str], Rule] = {
     ("integrating_factor", "integral"): label_rules.factor,
     ("integral", "integral"): label_rules.integral,
     ("circuit", "cofactors"): dependence_rules.circuit,
+    ("independent", "inequality"): label_rules.inequality,
     ("independent", "independent"): dependence_rules.independent_of_those_before,
 }
 
@@ -89,10 +94,10 @@ def verify(scene: Mapping[str, Any] | str | None, certificate: Mapping[str, Any]
     if scene is None:
         raise CheckError("no scene is given, and none is in the certificate")
     document = document_of(scene) if isinstance(scene, str) else scene
-    return _Verifier(document, given).run()
+    return Verifier(document, given).run()
 
 
-class _Verifier:
+class Verifier:
     """One certificate while it is verified."""
 
     def __init__(self, document: Mapping[str, Any], given: dict[str, Any]) -> None:
@@ -127,18 +132,21 @@ class _Verifier:
                     raise CheckError("the path is claimed twice")
                 if path in self.given["uncovered"]:
                     raise CheckError("the path is claimed and uncovered")
-                self._check(claim)
+                self.check(claim)
             except FAULTS as error:
                 failed.append({"path": path, "rule": rule, "why": told(error)})
             seen.add(path)
         count = len(self.given["claims"])
         return Verification(self.problem.name, count, count - len(failed), failed, list(self.given["uncovered"]))
 
-    def _check(self, claim: dict[str, Any]) -> None:
+    def check(self, claim: dict[str, Any]) -> None:
+        """`CheckError` unless the claim is shown; what was verified before may be used."""
         path, rule = claim["path"], claim["rule"]
         evidence = self.evidence(claim.get("cayley") is True)
         if claim.get("cayley") is True and claim.get("about") == "everywhere":
             raise CheckError("a chart of poses near the configuration is not everywhere")
+        for name in claim.get("covers", []):
+            dimension_rules.take_cover(evidence, name)
         parts = path.split("/")
         if (path, rule) in WHOLE:
             place = WHOLE[path, rule](evidence, claim)
