@@ -57,12 +57,16 @@ def length(a: Sequence[Tree]) -> Tree:
 
 
 class MaterialPoint(NamedTuple):
-    """X = over / under. ``start``: where it stands in the reference, if that is known; ``carrier``: its body."""
+    """X = over / under. ``start``: where it stands in the reference, if that is known."""
 
     over: Vector
     under: Tree
     start: Vector | None
-    carrier: str | None
+
+    @property
+    def place(self) -> Vector:
+        """X."""
+        return self.over if self.under == ONE else scaled(power(self.under, number(-1)), self.over)
 
 
 @dataclass(frozen=True)
@@ -82,14 +86,9 @@ class BodyFrame:
     cayley: bool = False
 
     @property
-    def fixed(self) -> bool:
-        """Is it the ground?"""
-        return self.name == "ground"
-
-    @property
     def gibbs(self) -> Vector | None:
         """The Cayley parameters; 0 for the ground."""
-        if self.fixed:
+        if self.name == "ground":
             return (ZERO,) * 3
         return tuple(map(symbol, self.angles)) if self.cayley else None
 
@@ -106,9 +105,9 @@ class BodyFrame:
         """The material point that stands at ``a`` in the reference."""
         arm = less(a, self.start)
         if all(part == ZERO for part in arm):
-            return MaterialPoint(self.position, ONE, a, self.name)
+            return MaterialPoint(self.position, ONE, a)
         over = tuple(add(times(self.under, p), q) for p, q in zip(self.position, self.carry(arm), strict=True))
-        return MaterialPoint(over, self.under, a, self.name)
+        return MaterialPoint(over, self.under, a)
 
 
 def apart(first: MaterialPoint, second: MaterialPoint) -> tuple[Vector, Tree]:
@@ -129,15 +128,15 @@ def plane_turn(angle: Tree) -> tuple[Vector, ...]:
     return ((c, negative(s)), (s, c))
 
 
+def space_turn(angle: Tree, axis: int) -> tuple[Vector, ...]:
+    """The rotation of space about x (0) or z (2)."""
+    ((c, _), (s, _)), o, e = plane_turn(angle), ZERO, ONE
+    return ((e, o, o), (o, c, negative(s)), (o, s, c)) if axis == 0 else ((c, negative(s), o), (s, c, o), (o, o, e))
+
+
 def euler_turn(phi: Tree, theta: Tree, psi: Tree) -> tuple[Vector, ...]:
     """Rz(phi) Rx(theta) Rz(psi)."""
-    (a, _), (b, _) = plane_turn(phi)
-    (c, _), (s, _) = plane_turn(theta)
-    first = ((a, negative(b), ZERO), (b, a, ZERO), (ZERO, ZERO, ONE))
-    middle = ((ONE, ZERO, ZERO), (ZERO, c, negative(s)), (ZERO, s, c))
-    (a, _), (b, _) = plane_turn(psi)
-    last = ((a, negative(b), ZERO), (b, a, ZERO), (ZERO, ZERO, ONE))
-    return matrix_product(first, matrix_product(middle, last))
+    return matrix_product(space_turn(phi, 2), matrix_product(space_turn(theta, 0), space_turn(psi, 2)))
 
 
 def cayley_turn(g: Vector) -> tuple[Vector, ...]:

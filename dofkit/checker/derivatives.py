@@ -6,10 +6,7 @@ from collections.abc import Collection, Mapping
 from fractions import Fraction
 
 from dofkit.checker.errors import CheckError
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, times
-
-#: A tree with more nodes than this is not worked on.
-LARGEST = 200_000
+from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
 
 
 def symbols_in(tree: Tree) -> frozenset[str]:
@@ -93,81 +90,45 @@ def _chain(node: Tree, inner: list[Tree]) -> Tree:
 
 def _slope(node: Tree, u: Tree) -> Tree:
     """The derivative of an elementary function of one argument."""
-    one_over_root = power(call("sqrt", add(ONE, negative(power(u, number(2))))), number(-1))
-    slopes = {
-        "sin": lambda: call("cos", u),
-        "cos": lambda: negative(call("sin", u)),
-        "tan": lambda: power(call("cos", u), number(-2)),
-        "cot": lambda: negative(power(call("sin", u), number(-2))),
-        "sec": lambda: times(node, call("tan", u)),
-        "csc": lambda: negative(times(node, call("cot", u))),
-        "asin": lambda: one_over_root,
-        "acos": lambda: negative(one_over_root),
-        "atan": lambda: power(add(ONE, power(u, number(2))), number(-1)),
-        "sinh": lambda: call("cosh", u),
-        "cosh": lambda: call("sinh", u),
-        "tanh": lambda: power(call("cosh", u), number(-2)),
-        "exp": lambda: node,
-        "log": lambda: power(u, number(-1)),
-        "sqrt": lambda: times(number(Fraction(1, 2)), power(node, number(-1))),
-        "abs": lambda: times(u, power(node, number(-1))),
-    }
-    if node.head not in slopes:
+    if node.head not in _SLOPES:
         raise CheckError(f"`{node.head}` has no derivative here")
-    return slopes[node.head]()
+    return substituted(_SLOPES[node.head], {"u": u})
 
 
-def degree_parts(tree: Tree, names: Collection[str]) -> dict[int, Tree] | None:
-    """A polynomial in symbols by its degrees in them; None where it is none as written."""
-    if not tree.below or symbols_in(tree).isdisjoint(names):
-        return {1 if tree.head == "symbol" and tree.value in names else 0: tree}
-    if tree.head == "sum":
-        return _added([degree_parts(part, names) for part in tree.below])
-    if tree.head == "product":
-        found: dict[int, Tree] | None = {0: ONE}
-        for part in tree.below:
-            found = _multiplied(found, degree_parts(part, names))
-        return found
-    if tree.head == "power" and isinstance(tree.below[1].value, Fraction):
-        exponent, base = tree.below[1].value, degree_parts(tree.below[0], names)
-        if exponent.denominator == 1 and 0 < exponent <= 8:
-            found = {0: ONE}
-            for _ in range(int(exponent)):
-                found = _multiplied(found, base)
-            return found
-    return None
+_U = symbol("u")
+_INVERSE_ROOT = power(call("sqrt", add(ONE, negative(power(_U, number(2))))), number(-1))
+_SLOPES = {
+    "sin": call("cos", _U), "cos": negative(call("sin", _U)), "tan": power(call("cos", _U), number(-2)),
+    "cot": negative(power(call("sin", _U), number(-2))), "sec": times(call("sec", _U), call("tan", _U)),
+    "csc": times(number(-1), call("csc", _U), call("cot", _U)), "asin": _INVERSE_ROOT, "acos": negative(_INVERSE_ROOT),
+    "atan": power(add(ONE, power(_U, number(2))), number(-1)), "sinh": call("cosh", _U), "cosh": call("sinh", _U),
+    "tanh": power(call("cosh", _U), number(-2)), "exp": call("exp", _U), "log": power(_U, number(-1)),
+    "sqrt": times(number(Fraction(1, 2)), power(call("sqrt", _U), number(-1))),
+    "abs": times(_U, power(call("abs", _U), number(-1))),
+}  # fmt: skip
 
 
-def _added(parts: list[dict[int, Tree] | None]) -> dict[int, Tree] | None:
-    found: dict[int, list[Tree]] = {}
-    for part in parts:
-        if part is None:
-            return None
-        for degree, term in part.items():
-            found.setdefault(degree, []).append(term)
-    return {degree: add(*terms) for degree, terms in found.items()}
-
-
-def _multiplied(first: dict[int, Tree] | None, second: dict[int, Tree] | None) -> dict[int, Tree] | None:
-    if first is None or second is None:
+def linear_parts(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree] | None:
+    """The slopes and the rest of a tree that is linear in some symbols; None where it is not, as written."""
+    used = sorted(symbols_in(tree).intersection(names))
+    slopes = {name: derivative(tree, name) for name in used}
+    if any(not symbols_in(slope).isdisjoint(used) for slope in slopes.values()):
         return None
-    return _added([{i + j: times(a, b)} for i, a in first.items() for j, b in second.items()])
+    return slopes, substituted(tree, dict.fromkeys(used, ZERO))
 
 
 def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
     """The degree in symbols in which every term of a tree is homogeneous; None where there is none."""
-    if not tree.below or symbols_in(tree).isdisjoint(names):
-        return Fraction(tree.head == "symbol" and tree.value in names)
-    below = [homogeneous_degree(part, names) for part in tree.below]
-    if None in below:
-        return None
-    degrees = [degree for degree in below if degree is not None]
-    if tree.head == "sum":
-        return degrees[0] if len(set(degrees)) == 1 else None
+    if symbols_in(tree).isdisjoint(names):
+        return Fraction(0)
+    degrees = [homogeneous_degree(part, names) for part in tree.below]
+    known = [degree for degree in degrees if degree is not None]
+    if not degrees or len(known) < len(degrees):
+        return None if degrees else Fraction(1)
     if tree.head == "product":
-        return sum(degrees, Fraction(0))
+        return sum(known, Fraction(0))
     if tree.head == "power" and isinstance(tree.below[1].value, Fraction):
-        return degrees[0] * tree.below[1].value
+        return known[0] * tree.below[1].value
     if tree.head == "sqrt":
-        return degrees[0] / 2
-    return degrees[0] if tree.head == "abs" else Fraction(0) if not any(degrees) else None
+        return known[0] / 2
+    return known[0] if len(set(known)) == 1 and (tree.head == "sum" or known[0] == 0) else None

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
-from dofkit.checker.derivatives import degree_parts, homogeneous_degree, substituted, symbols_in
+from dofkit.checker.derivatives import homogeneous_degree, linear_parts, substituted, symbols_in
 from dofkit.checker.errors import CheckError
 from dofkit.checker.grammar import Sided, parse_relations
-from dofkit.checker.places import scaled_down
 from dofkit.checker.surroundings import Entry, Surroundings
 from dofkit.checker.trees import ONE, ZERO, Tree, add, symbol, times
 
@@ -17,7 +17,7 @@ TIME_RATE = "tdot"
 
 def equation(world: Surroundings, entry: Entry) -> Iterator[Sided]:
     """The relations of a text, in velocities."""
-    for found in parse_relations(str(entry["text"]), world.names):
+    for found in parse_relations(entry["text"], world.names):
         yield found._replace(tree=in_velocities(found.tree, world.names.coordinates))
 
 
@@ -27,48 +27,45 @@ def in_velocities(tree: Tree, coordinates: frozenset[str]) -> Tree:
     What is linear in velocities becomes a form, its terms without one times ``tdot``. Other relations that are
     homogeneous in differentials are divided by a power of dt.
     """
-    names = symbols_in(tree)
-    if any(f"{q}ddot" in names for q in coordinates):
-        raise CheckError("second derivatives are not read")
     differentials = {"dt": symbol(TIME_RATE)} | {f"d{q}": symbol(f"{q}dot") for q in coordinates}
     rates = {f"{q}dot" for q in coordinates} | {TIME_RATE}
-    if not names.isdisjoint(differentials):
+    if not symbols_in(tree).isdisjoint(differentials):
         degree = homogeneous_degree(tree, differentials.keys())
         if degree is None:
             raise CheckError("differentials and finite terms are added together")
-        moving = substituted(tree, differentials)
-        if degree == 1 and set(degree_parts(moving, rates) or ()) == {1}:
-            return moving
-        tree = substituted(moving, {TIME_RATE: ONE})
-        names = symbols_in(tree)
-    if names.isdisjoint(rates):
+        tree = substituted(tree, differentials)
+        form = linear_parts(tree, rates) if degree == 1 else None
+        if form is not None and form[1] == ZERO:
+            return tree
+        tree = substituted(tree, {TIME_RATE: ONE})
+    parts = linear_parts(tree, rates)
+    if parts is None or not parts[0] or parts[1] == ZERO:
         return tree
-    parts = degree_parts(tree, rates)
-    if parts is None or max(parts) > 1:
-        return tree
-    return add(parts.get(1, ZERO), times(parts[0], symbol(TIME_RATE))) if 0 in parts else tree
+    return add(*(times(slope, symbol(rate)) for rate, slope in parts[0].items()), times(parts[1], symbol(TIME_RATE)))
+
+
+def lettered(world: Surroundings, texts: Sequence[Any], letters: Sequence[str], more: frozenset[str]) -> list[Sided]:
+    """Relations in letters that stand for coordinates of a point, parameters, t and what ``more`` names."""
+    names = world.names
+    own = replace(
+        names,
+        coordinates=more.union(letters),
+        values={name: tree for name, tree in names.values.items() if name not in letters},
+        functions={name: given for name, given in names.functions.items() if name not in letters},
+    )
+    found = [relation for text in texts for relation in parse_relations(text, own)]
+    if any(not symbols_in(one.tree) <= own.coordinates.union(world.signs, "t") for one in found):
+        raise CheckError("a surface mentions positions, parameters and t only")
+    return found
 
 
 def on(world: Surroundings, entry: Entry) -> Iterator[Sided]:
     """Every text at every member, whose coordinates x, y, z stand for."""
-    if (entry.get("surface") is None) == (entry.get("curve") is None):
+    texts = [text for key in ("surface", "curve") if (text := entry.get(key)) is not None]
+    if len(texts) != 1:
         raise CheckError("either a surface or a curve is needed")
-    curve = entry.get("curve")
-    texts = [entry["surface"]] if curve is None else [curve] if isinstance(curve, str) else list(curve)
     letters = ("x", "y", "z")[: world.dimension]
-    names = world.names
-    own = replace(
-        names,
-        coordinates=names.coordinates | set(letters),
-        values={name: tree for name, tree in names.values.items() if name not in letters},
-        functions={name: given for name, given in names.functions.items() if name not in letters},
-    )
-    read = [found for text in texts for found in parse_relations(str(text), own)]
-    for found in read:
-        other = symbols_in(found.tree) - own.coordinates - {"t", *world.signs}
-        if other:
-            raise CheckError(f"`{min(other)}` cannot stand in a surface")
+    read = lettered(world, texts[0] if isinstance(texts[0], list) else texts, letters, world.names.coordinates)
     for member in entry["members"]:
-        values = dict(zip(letters, scaled_down(world.point(member)), strict=True))
-        for found in read:
-            yield found._replace(tree=substituted(found.tree, values))
+        values = dict(zip(letters, world.point(member).place, strict=True))
+        yield from (found._replace(tree=substituted(found.tree, values)) for found in read)

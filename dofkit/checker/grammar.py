@@ -8,26 +8,27 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.checker.derivatives import degree_parts, derivative, substituted, symbols_in
+from dofkit.checker.derivatives import derivative, linear_parts, substituted, symbols_in
 from dofkit.checker.errors import CheckError
-from dofkit.checker.tokens import LARGEST_EXPONENT, Lexeme, tokens_of
+from dofkit.checker.tokens import Lexeme, tokens_of
 from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
-from dofkit.checker.words import EULER, PI, KnownNames, moved
+from dofkit.checker.words import EULER, PI, KnownNames
 
 DEEPEST = 60
-MOST_ORDERS = 6
-#: A tree of more nodes is not differentiated while a text is read.
-LARGEST = 400
+LARGEST_EXPONENT = 64
+MOST_BITS = 8192
+#: How often a function is differentiated, and the nodes of a tree that is differentiated while a text is read.
+MOST_ORDERS, LARGEST = 6, 400
 _PAIRS = {"(": ")", "[": "]", "{": "}"}
-_BEGIN = ("value", "moving", "function", "declared", "operator", "(", "|")
+_BEGIN = ("value", "moving", "function", "declared", "operator", "(")
 
 
 class Sided(NamedTuple):
     """One relation: ``tree`` = 0; with the sign ``>`` it is > 0 (``strict``) or >= 0."""
 
     tree: Tree
-    sign: str
-    strict: bool
+    sign: str = "="
+    strict: bool = False
 
 
 def parse(text: str, names: KnownNames) -> Tree:
@@ -46,11 +47,10 @@ def parse_relations(text: str, names: KnownNames) -> list[Sided]:
         sign = reader.take().name
         right = reader.sum()
         larger, smaller = (right, left) if "<" in sign else (left, right)
-        strict = sign in ("<", ">")
-        found.append(Sided(add(larger, negative(smaller)), "=" if sign in ("=", "==") else ">", strict))
+        found.append(Sided(add(larger, negative(smaller)), ">" if sign[0] in "<>" else "=", sign in ("<", ">")))
         left = right
     reader.expect("end")
-    return found or [Sided(left, "=", False)]
+    return found or [Sided(left)]
 
 
 class _Reader:
@@ -59,7 +59,7 @@ class _Reader:
     def __init__(self, text: str, names: KnownNames) -> None:
         self.names = names
         self.tokens = tokens_of(text, names)
-        self.at = self.depth = self.bars = 0
+        self.at = self.depth = 0
 
     @property
     def next(self) -> Lexeme:
@@ -81,9 +81,7 @@ class _Reader:
             raise CheckError("a text is nested too deep")
         terms = [self.term()]
         while self.next.kind in ("+", "-"):
-            sign = self.take().kind
-            term = self.term()
-            terms.append(term if sign == "+" else negative(term))
+            terms.append(negative(self.term()) if self.take().kind == "-" else self.term())
         self.depth -= 1
         return terms[0] if len(terms) == 1 else add(*terms)
 
@@ -91,37 +89,29 @@ class _Reader:
         """Factors; a space after a quotient makes what follows a factor of all that was before."""
         factors = [self.factor()]
         quotient = False
-        while True:
-            token = self.next
-            if token.kind in ("*", "/"):
-                self.at += 1
-                quotient = token.kind == "/" and not self.divide(factors)
-                if token.kind == "*":
-                    factors.append(self.factor())
-            elif token.kind in _BEGIN and not (token.kind == "|" and self.bars):
-                if quotient and token.touching:
+        while self.next.kind in ("*", "/", *_BEGIN):
+            kind = self.next.kind
+            if kind not in "*/":
+                if quotient and self.next.touching:
                     raise CheckError("what stands under a fraction line can be read in two ways")
-                quotient = False
                 factors.append(self.power())
-            elif token.kind == "number":
-                raise CheckError("a number stands right after a factor")
-            else:
-                return times(*factors)
+            elif self.take().kind == "*":
+                factors.append(self.factor())
+            quotient = kind == "/" and not self.divide(factors)
+        if self.next.kind == "number":
+            raise CheckError("a number stands right after a factor")
+        return times(*factors)
 
     def divide(self, factors: list[Tree]) -> bool:
         """Divide by the next factor; True for ``dx/dt``, which is one unit."""
         divisor = self.factor()
         if divisor == symbol("dt"):
             rates = {f"d{q}": symbol(f"{q}dot") for q in self.names.coordinates} | {"dt": ONE}
-            if set(degree_parts(factors[-1], rates.keys()) or ()) == {1}:
+            parts = linear_parts(factors[-1], rates)
+            if parts is not None and parts[0] and parts[1] == ZERO:
                 factors[-1] = substituted(factors[-1], rates)
                 return True
-        if divisor.head == "symbol" and factors[-1].head == "product" and divisor in factors[-1].below:
-            above = list(factors[-1].below)
-            above.remove(divisor)
-            factors[-1] = times(*above)
-        else:
-            factors.append(_power(divisor, number(-1)))
+        factors.append(_power(divisor, number(-1)))
         return False
 
     def factor(self) -> Tree:
@@ -129,26 +119,23 @@ class _Reader:
         minus = False
         while self.next.kind in ("+", "-"):
             minus ^= self.take().kind == "-"
-        found = self.power()
-        return negative(found) if minus else found
+        return negative(self.power()) if minus else self.power()
 
     def power(self) -> Tree:
         """A primary, perhaps raised; ``x^y^z`` is x^(y^z)."""
         base = self.primary()
         if self.next.kind == "raised":
-            found = _power(base, self.take().tree)
+            base = _power(base, self.take().tree)
             if self.next.kind in ("^", "raised"):
                 raise CheckError("one power stands on another")
-            return found
-        if self.next.kind != "^":
-            return base
-        self.at += 1
-        self.depth += 1
-        if self.depth > DEEPEST:
-            raise CheckError("a text is nested too deep")
-        exponent = self.factor()
-        self.depth -= 1
-        return _power(base, exponent)
+        elif self.next.kind == "^":
+            self.at += 1
+            self.depth += 1
+            if self.depth > DEEPEST:
+                raise CheckError("a text is nested too deep")
+            base = _power(base, self.factor())
+            self.depth -= 1
+        return base
 
     def primary(self) -> Tree:
         """A number, a name, a group, or a function of something."""
@@ -158,156 +145,105 @@ class _Reader:
         if token.kind in ("value", "moving"):
             return self.named(token)
         if token.kind == "(":
-            bars, self.bars = self.bars, 0
-            found = self.sum()
-            self.bars = bars
-            self.expect(")", token.name)
-            return found
-        if token.kind == "|":
-            self.bars += 1
-            found = self.sum()
-            self.bars -= 1
-            self.expect("|")
-            return call("abs", found)
+            self.at -= 1
+            return self.arguments(1)[0]
         readers = {"function": self.function, "declared": self.declared, "operator": self.derivative}
         if token.kind not in readers:
             raise CheckError(f"`{token.name or token.kind}` cannot stand here")
         return readers[token.kind](token)
 
-    def arguments(self) -> list[Tree]:
+    def arguments(self, most: int) -> list[Tree]:
         """Values in parentheses, with commas between them."""
-        opening = self.take().name
-        bars, self.bars = self.bars, 0
+        opening = self.take()
+        if opening.kind != "(":
+            raise CheckError("parentheses are missing")
         found = [self.sum()]
-        while self.next.kind == ",":
+        while self.next.kind == "," and len(found) < most:
             self.at += 1
             found.append(self.sum())
-        self.bars = bars
-        self.expect(")", opening)
+        self.expect(")", opening.name)
         return found
 
     def named(self, token: Lexeme) -> Tree:
-        """A name with its primes; ``x(t)`` is x, and ``x(y)`` a question."""
+        """A name with its prime; ``x(y)`` is a question, as is ``x (t)``."""
         found = token.tree
         if self.next.kind == "prime" and self.next.touching:
-            motion = moved(token.name, self.take().order) if token.name else None
+            motion = self.names.moved(token.name, "{}dot") if self.take().name == "'" else None
             if motion is None:
                 raise CheckError("a prime stands where nothing can be differentiated by time")
             found = motion.tree
         ahead = [token.kind for token in self.tokens[self.at : self.at + 3]]
-        if ahead in (["(", "value", ")"], ["(", "number", ")"]) and found not in (PI, EULER, symbol("t"), symbol("dt")):
-            inside = self.tokens[self.at + 1]
-            moves = token.kind == "moving" or bool(token.name)
-            if inside.tree == symbol("t"):
-                if not moves:
-                    raise CheckError("a constant is no function of t")
-                self.at += 3
-            elif self.next.touching:
-                raise CheckError("a name before parentheses may be a factor or a function")
+        called = ahead in (["(", "value", ")"], ["(", "number", ")"]) and found not in (PI, EULER, symbol("t"))
+        if called and (self.next.touching or self.tokens[self.at + 1].tree == symbol("t")):
+            raise CheckError("a name before parentheses may be a factor or a function")
         return found
 
     def function(self, token: Lexeme) -> Tree:
-        """``sin(x)``, ``sin x``, ``sin^2(x)``."""
+        """``sin(x)``, ``sin^2(x)``, ``sin x``."""
         exponent = ONE
         if self.next.kind in ("^", "raised"):
-            exponent = ZERO
-            if self.take().kind == "raised":
-                exponent = self.tokens[self.at - 1].tree
-            elif self.next.kind in ("number", "("):
-                exponent = self.primary()
-            value = exponent.value
-            if not isinstance(value, Fraction) or value.denominator != 1 or value < 1:
+            raised = self.take()
+            raised = self.take() if raised.kind == "^" and self.next.kind == "number" else raised
+            exponent = raised.tree
+            if not isinstance(exponent.value, Fraction) or exponent.value.denominator != 1 or exponent.value < 2:
                 raise CheckError(f"this power of `{token.name}` can be read in two ways")
-        given = self.arguments() if self.next.kind == "(" else [self.bare(token)]
+        given = self.arguments(2) if self.next.kind == "(" else [self.bare(token)]
         if len(given) != (2 if token.name == "atan2" else 1):
             raise CheckError(f"`{token.name}` has {len(given)} arguments")
-        found = ONE if (token.name, given) == ("exp", [ZERO]) else call(token.name, *given)
-        return _power(found, exponent)
+        return _power(ONE if (token.name, given) == ("exp", [ZERO]) else call(token.name, *given), exponent)
 
     def bare(self, token: Lexeme) -> Tree:
-        """What a function without parentheses is taken of: a number and a name, or one of them, and nothing after."""
-        parts = [self.take().tree] if self.next.kind == "number" else []
-        number_alone = bool(parts) and self.next.kind != "value"
-        if self.next.kind == "value":
-            parts.append(self.named(self.take()))
-        elif self.next.kind in ("moving", "declared") and not parts:
-            parts.append(self.primary())
-        after = self.next
-        open_ended = after.kind in ("value", "number", "^", "raised", "(") or (number_alone and after.kind in _BEGIN)
-        open_ended = open_ended or (after.kind in ("*", "/") and after.touching)
-        if not parts or open_ended:
+        """What a function without parentheses is taken of: one name, where nothing after it could belong to it."""
+        if self.next.kind != "value":
             raise CheckError(f"it is not clear what `{token.name}` is taken of")
-        return times(*parts)
-
-    def declared(self, token: Lexeme) -> Tree:
-        """``h(s)``, ``h'(s)``, ``h`` alone, ``hdot``, ``dh``."""
-        own = self.names.functions[token.name]
-        primes = self.take().order if self.next.kind == "prime" and self.next.touching else 0
-        ahead = [t.kind for t in self.tokens[self.at : self.at + 3]]
-        if ahead == ["^", "number", "("] or ahead[:2] == ["raised", "("]:
-            raise CheckError(f"a power stands between `{token.name}` and its argument")
-        if self.next.kind == "(":
-            given = self.arguments()
-        else:
-            meanings = [self.names.meaning(name) for name in own]
-            if any(meaning is None or meaning.kind != "value" for meaning in meanings):
-                raise CheckError(f"`{token.name}` alone has arguments that are not declared")
-            given = [meaning.tree for meaning in meanings if meaning is not None]
-            if self.next.kind == "value" and self.next.tree in given:
-                raise CheckError(f"`{token.name}` beside its argument may be a value or a product")
-        if len(given) != len(own) or (primes and len(own) != 1) or primes > MOST_ORDERS:
-            raise CheckError(f"`{token.name}` is declared with {len(own)} arguments")
-        found = Tree("apply", tuple(given), token.name, (primes,) if primes else (0,) * len(own))
-        if token.order == -1:
-            return self.total(found, -1)
-        for _ in range(token.order):
-            found = self.total(found, 1)
+        found = self.named(self.take())
+        after = self.next
+        if after.kind in ("value", "number", "^", "raised", "(") or (after.kind in ("*", "/") and after.touching):
+            raise CheckError(f"it is not clear what `{token.name}` is taken of")
         return found
 
-    def total(self, tree: Tree, order: int) -> Tree:
-        """The derivative by time, or (-1) the differential."""
-        _bounded(tree)
-        terms = []
-        for name in sorted(symbols_in(tree)):
-            step = {"t": ONE if order == 1 else symbol("dt")}.get(name)
-            if name in self.names.coordinates:
-                step = symbol(f"{name}dot" if order == 1 else f"d{name}")
-            elif name.endswith("dot") and name[:-3] in self.names.coordinates and order == 1:
-                step = symbol(f"{name[:-3]}ddot")
-            if step is not None:
-                terms.append(times(derivative(tree, name), step))
-        return add(*terms)
+    def declared(self, token: Lexeme) -> Tree:
+        """``h(s)``, ``h'(s)``, ``h`` alone."""
+        own = self.names.functions[token.name]
+        primes = len(self.take().name) if self.next.kind == "prime" and self.next.touching else 0
+        if self.next.kind == "(":
+            given = self.arguments(len(own))
+        else:
+            meanings = [self.names.meaning(name) for name in own]
+            given = [meaning.tree for meaning in meanings if meaning is not None and meaning.kind == "value"]
+            if self.next.kind in ("value", "^", "raised"):
+                raise CheckError(f"`{token.name}` needs its argument in parentheses here")
+        if len(given) != len(own) or (primes and len(own) != 1) or primes > MOST_ORDERS:
+            raise CheckError(f"`{token.name}` is declared with {len(own)} arguments")
+        return Tree("apply", tuple(given), token.name, (primes,) if primes else (0,) * len(own))
 
     def derivative(self, token: Lexeme) -> Tree:
-        """``diff(h(s), s)``, ``diff(h(s), s, 2)``, ``partial(h(x, t), 2)``; ``diff`` by t is total."""
-        found, *steps = self.arguments()
-        total = 0
-        for i, step in enumerate(steps):
-            by_place = token.name == "partial" and step.head == "number"
-            if step.head == "number" and not by_place:
-                continue
-            after = steps[i + 1] if i + 1 < len(steps) and not by_place else ONE
-            times_over = int(after.value) if isinstance(after.value, Fraction) and after.value.denominator == 1 else 1
-            total += times_over
-            if total > MOST_ORDERS or times_over < 1:
-                raise CheckError("a derivative of this order is not read")
-            for _ in range(times_over):
-                found = self.once(found, step, token.name)
-        if not total:
+        """``diff(h(s), s)``, ``diff(h(s), s, 2)``; ``partial(h(x, x), 2)`` by the place of an argument."""
+        found, *steps = self.arguments(2 * MOST_ORDERS)
+        by: list[Tree] = []
+        for step in steps:
+            count = int(step.value) if isinstance(step.value, Fraction) and step.value.denominator == 1 else 0
+            if by and token.name == "diff" and 0 < count <= MOST_ORDERS:
+                by += by[-1:] * (count - 1)
+            else:
+                by.append(step)
+        if not 0 < len(by) <= MOST_ORDERS:
             raise CheckError(f"`{token.name}` needs what to differentiate and by what")
+        for step in by:
+            found = self.once(found, step, token.name)
         return found
 
     def once(self, tree: Tree, step: Tree, name: str) -> Tree:
         """One derivative, by a symbol or by the place of an argument."""
-        _bounded(tree)
-        if step == symbol("t") and name == "diff":
-            return self.total(tree, 1)
         if step.head == "symbol":
+            total = step == symbol("t") and name == "diff" and not symbols_in(tree) <= {"t", *self.names.values}
+            if total or _size(tree) > LARGEST:
+                raise CheckError("this derivative by time, or of a long expression, is not read")
             return derivative(tree, str(step.value))
-        place = int(step.value) - 1 if isinstance(step.value, Fraction) else -1
-        if tree.head != "apply" or not 0 <= place < len(tree.below) or number(place + 1) != step:
+        places = [i for i in range(len(tree.below)) if number(i + 1) == step]
+        if tree.head != "apply" or not places:
             raise CheckError(f"`{name}` differentiates by a symbol, or a declared function by its argument")
-        return Tree("apply", tree.below, tree.value, tuple(k + (i == place) for i, k in enumerate(tree.orders)))
+        return Tree("apply", tree.below, tree.value, tuple(k + (i in places) for i, k in enumerate(tree.orders)))
 
 
 def _power(base: Tree, exponent: Tree) -> Tree:
@@ -317,36 +253,30 @@ def _power(base: Tree, exponent: Tree) -> Tree:
         return call("exp", exponent)
     if not isinstance(value, Fraction):
         return power(base, exponent)
-    if abs(value.numerator) > LARGEST_EXPONENT or value.denominator > LARGEST_EXPONENT:
+    if (
+        value.denominator > LARGEST_EXPONENT
+        or max(Fraction(abs(value.numerator)), _nested(base) * abs(value)) > LARGEST_EXPONENT
+    ):
         raise CheckError("an exponent is too large")
-    if abs(value) > 1 and _nested(base) * abs(value) > LARGEST_EXPONENT:
-        raise CheckError("powers of powers are too large")
-    if isinstance(base.value, Fraction):
-        if base == ZERO and value <= 0:
-            raise CheckError("0 stands in a denominator")
-        if base.value < 0 and value.denominator != 1:
-            raise CheckError("a root of a negative number is not real")
-        if value.denominator == 1:
-            found = base.value ** int(value)
-            if max(found.numerator.bit_length(), found.denominator.bit_length()) > 8192:
-                raise CheckError("a number is too large")
-            return number(found)
-    return power(base, exponent)
-
-
-def _bounded(tree: Tree) -> None:
-    """Refuse a tree that is too large to be differentiated."""
-    stack, count = [tree], 0
-    while stack:
-        stack.extend(stack.pop().below)
-        count += 1
-        if count > LARGEST:
-            raise CheckError("this is too long to be differentiated here")
+    if not isinstance(base.value, Fraction):
+        return power(base, exponent)
+    if (base == ZERO and value <= 0) or (base.value < 0 and value.denominator != 1):
+        raise CheckError("0 stands in a denominator, or a negative number under a root")
+    if value.denominator != 1:
+        return power(base, exponent)
+    found = base.value ** int(value)
+    if max(found.numerator.bit_length(), found.denominator.bit_length()) > MOST_BITS:
+        raise CheckError("a number is too large")
+    return number(found)
 
 
 def _nested(tree: Tree) -> Fraction:
     """The largest product of exponents within each other."""
-    inner = max((_nested(part) for part in tree.below), default=Fraction(1))
-    if tree.head == "power" and isinstance(tree.below[1].value, Fraction):
-        return inner * max(Fraction(1), abs(tree.below[1].value))
-    return inner
+    inner = max([Fraction(1), *map(_nested, tree.below)])
+    exponent = tree.below[1].value if tree.head == "power" else ""
+    return inner * max(Fraction(1), abs(exponent)) if isinstance(exponent, Fraction) else inner
+
+
+def _size(tree: Tree) -> int:
+    """The number of nodes."""
+    return 1 + sum(map(_size, tree.below))

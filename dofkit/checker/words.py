@@ -16,50 +16,51 @@ GREEK = {
     "θ": "theta", "ι": "iota", "κ": "kappa", "λ": "lambda", "μ": "mu", "ν": "nu", "ξ": "xi", "π": "pi",
     "ρ": "rho", "σ": "sigma", "τ": "tau", "υ": "upsilon", "φ": "phi", "χ": "chi", "ψ": "psi", "ω": "omega",
     "Γ": "Gamma", "Δ": "Delta", "Θ": "Theta", "Λ": "Lambda", "Ξ": "Xi", "Π": "Pi", "Σ": "Sigma",
-    "Φ": "Phi", "Ψ": "Psi", "Ω": "Omega",
+    "Φ": "Phi", "Ψ": "Psi", "Ω": "Omega", "ϑ": "theta", "ϕ": "phi",
 }  # fmt: skip
-#: Letters that are drawn in another way.
-VARIANTS = dict(zip("ϑϕϵϱςϰµ∆", "θφερσκμΔ", strict=True))
-#: One and two dots above a letter.
-DOT, TWO_DOTS = "\u0307", "\u0308"
+#: A dot above the letter before it.
+DOT = "\u0307"
 SYNONYMS = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctan2": "atan2", "ln": "log", "cosec": "csc"}
 ELEMENTARY = {**{name: name for name in FUNCTIONS}, **SYNONYMS}
-OPERATORS = ("diff", "partial")
 PI = Tree("pi")
 EULER = call("exp", ONE)
 LONGEST_NAME = 64
-
-_INDEXED = re.compile(r"(.*[A-Za-z])(_?)(\d+)")
-_SUFFIXED = re.compile(r"(.+?)_?(d?dot)(_.*)?")
-_MARKED = re.compile(f"([^{DOT}{TWO_DOTS}]+)([{DOT}{TWO_DOTS}]+)([_0-9][^{DOT}{TWO_DOTS}]*)?")
+_SUFFIXED = re.compile(r"(.+?)_?dot(_.*)?")
+_DOTTED = re.compile(f"([^{DOT}]+){DOT}([_0-9][^{DOT}]*)?")
 
 
 class Meaning(NamedTuple):
     """What a word stands for.
 
-    ``kind``: ``value`` (of ``tree``), ``moving`` (a velocity, differential or acceleration: ``tree``), ``function``
-    (elementary), ``declared`` (a declared function, ``order`` times differentiated by time; -1 its differential) or
-    ``operator`` (``diff``).
+    ``kind``: ``value`` (of ``tree``), ``moving`` (a velocity or differential: ``tree``), ``function`` (elementary),
+    ``declared`` (a declared function) or ``operator`` (``diff``).
     """
 
     kind: str
     tree: Tree = ONE
     name: str = ""
-    order: int = 0
+
+
+BUILT_IN = {
+    **{name: Meaning("function", name=head) for name, head in ELEMENTARY.items()},
+    **{name: Meaning("operator", name=name) for name in ("diff", "partial")},
+    "pi": Meaning("value", PI),
+    "t": Meaning("value", symbol("t")),
+    "dt": Meaning("moving", symbol("dt")),
+}
 
 
 def spelled_out(name: str) -> str:
     """A name with its Greek letters in Latin ones."""
-    return "".join(GREEK.get(VARIANTS.get(c, c), c) for c in name)
+    return "".join(GREEK.get(c, c) for c in name)
 
 
 @dataclass(frozen=True)
 class KnownNames:
     """What a text may mention.
 
-    ``coordinates`` have differentials ``dq``, velocities ``qdot`` and accelerations ``qddot``: these are the names of
-    their symbols. ``values``: parameters, each a symbol or what it was given. ``functions``: the names of the
-    arguments of each declared function.
+    ``coordinates`` have differentials ``dq`` and velocities ``qdot``: these are the names of their symbols. ``values``:
+    parameters, each a symbol or what it was given. ``functions``: the names of the arguments of each declared function.
     """
 
     coordinates: frozenset[str] = frozenset()
@@ -68,71 +69,55 @@ class KnownNames:
 
     @cached_property
     def declared(self) -> dict[str, Meaning]:
-        """The declared names, spelled out; ``x1`` and ``x_1`` are one name unless both are declared."""
-        found: dict[str, Meaning] = {}
+        """The declared names, spelled out."""
         entries = [(name, Meaning("declared", name=name)) for name in self.functions]
         entries += [(name, Meaning("value", tree)) for name, tree in self.values.items()]
-        entries += [(name, Meaning("value", symbol(name), name)) for name in sorted(self.coordinates)]
-        for name, meaning in entries:
-            if spelled_out(name) in found:
-                raise CheckError(f"the name '{name}' is declared twice")
-            found[spelled_out(name)] = meaning
-        twins = {}
-        for word, meaning in found.items():
-            match = _INDEXED.fullmatch(word)
-            twin = f"{match[1]}{'' if match[2] else '_'}{match[3]}" if match else word
-            if twin not in found and _built_in(twin) is None:
-                twins[twin] = meaning
-        return {**twins, **found}
+        entries += [(name, Meaning("value", symbol(name), name)) for name in self.coordinates]
+        found = {spelled_out(name): meaning for name, meaning in entries}
+        if len(found) < len(entries):
+            raise CheckError("a name is declared twice")
+        return found
 
     @cached_property
-    def remembered(self) -> dict[str, tuple[tuple[Meaning, int], ...]]:
+    def remembered(self) -> dict[str, tuple[Meaning, ...]]:
         """Words that were read before."""
         return {}
 
     def meaning(self, word: str) -> Meaning | None:
         """What a whole word means."""
         word = spelled_out(word)
-        found = self.declared.get(word) or _built_in(word)
-        if found is None and (match := _MARKED.fullmatch(word)):
-            return self._moving(match[1] + (match[3] or ""), match[2].count(DOT) + 2 * match[2].count(TWO_DOTS))
+        found = self.declared.get(word) or BUILT_IN.get(word)
+        if found is None and (match := _DOTTED.fullmatch(word) or _SUFFIXED.fullmatch(word)):
+            found = self.moved(match[1] + (match[2] or ""), "{}dot")
         if found is None and word[0] == "d":
-            found = self._moving(word[1:], -1)
-        if found is None and "dot" in word and (match := _SUFFIXED.fullmatch(word)):
-            found = self._moving(match[1] + (match[3] or ""), 1 if match[2] == "dot" else 2)
+            found = self.moved(word[1:], "d{}")
         return Meaning("value", EULER) if found is None and word == "E" else found
 
-    def _moving(self, word: str, order: int) -> Meaning | None:
+    def moved(self, word: str, form: str) -> Meaning | None:
+        """The velocity ``{}dot`` or differential ``d{}`` of a coordinate."""
         base = self.declared.get(word)
-        if base is None or order > 2:
-            return None
-        if base.kind == "declared":
-            return base._replace(order=order)
-        return moved(base.name, order) if base.name else None
+        return (
+            Meaning("moving", symbol(form.format(base.name))) if base and base.kind == "value" and base.name else None
+        )
 
-    def parts(self, word: str) -> tuple[tuple[Meaning, int], ...]:
-        """The factors of a word, each with the place where it ends."""
-        if len(word) > LONGEST_NAME:
-            raise CheckError(f"a name of {len(word)} letters is too long")
+    def parts(self, word: str) -> tuple[Meaning, ...]:
+        """The factors of a word."""
+        if len(word) > LONGEST_NAME or len(self.remembered) > 20_000:
+            raise CheckError(f"`{word[:20]}...` is too long, or there are too many words")
         if word not in self.remembered:
             whole = self.meaning(word)
-            if len(self.remembered) > 5000:
-                self.remembered.clear()
-            self.remembered[word] = ((whole, len(word)),) if whole else self._split(word)
+            self.remembered[word] = (whole,) if whole else self._split(word)
         return self.remembered[word]
 
-    def _split(self, word: str) -> tuple[tuple[Meaning, int], ...]:
-        ways: list[list[tuple[tuple[Meaning, int], ...]]] = [[()], *([] for _ in word)]
+    def _split(self, word: str) -> tuple[Meaning, ...]:
+        ways: list[list[tuple[Meaning, ...]]] = [[()], *([] for _ in word)]
         for start in range(len(word)):
             for end in range(start + 1, len(word) + 1) if ways[start] else ():
                 found = self._piece(word, start, end)
                 if found is not None:
-                    ways[end] += [(*before, (found, end)) for before in ways[start]]
-                    del ways[end][2:]
-        if not ways[-1]:
-            raise CheckError(f"`{word}` is not declared")
-        if len(ways[-1]) > 1:
-            raise CheckError(f"`{word}` can be read as a product in several ways")
+                    ways[end] = [*ways[end], *((*before, found) for before in ways[start])][:2]
+        if len(ways[-1]) != 1:
+            raise CheckError(f"`{word}` " + ("is a product in several ways" if ways[-1] else "is not declared"))
         return ways[-1][0]
 
     def _piece(self, word: str, start: int, end: int) -> Meaning | None:
@@ -140,25 +125,5 @@ class KnownNames:
         if not word[start].isalpha() or (end < len(word) and not word[end].isalpha()):
             return None
         found = self.meaning(word[start:end])
-        if found is None or found.kind == "operator":
-            return None
-        return None if start and word[start:end].isascii() and found.tree in (PI, EULER) else found
-
-
-def moved(name: str, order: int) -> Meaning | None:
-    """The differential (-1), velocity (1) or acceleration (2) of a coordinate."""
-    if order not in (-1, 1, 2):
-        return None
-    return Meaning("moving", symbol({-1: f"d{name}", 1: f"{name}dot", 2: f"{name}ddot"}[order]))
-
-
-def _built_in(word: str) -> Meaning | None:
-    if word in ELEMENTARY:
-        return Meaning("function", name=ELEMENTARY[word])
-    if word in OPERATORS:
-        return Meaning("operator", name=word)
-    if word == "pi":
-        return Meaning("value", PI)
-    if word == "t":
-        return Meaning("value", symbol("t"))
-    return Meaning("moving", symbol("dt")) if word == "dt" else None
+        number = found is not None and found.tree in (PI, EULER) and start > 0 and word[start:end].isascii()
+        return None if number or found is None or found.kind == "operator" else found

@@ -18,6 +18,7 @@ from dofkit.checker.errors import CheckError
 from dofkit.checker.grammar import parse
 from dofkit.checker.problem import Problem, read_problem
 from dofkit.checker.trees import number
+from dofkit.checker.words import KnownNames
 from tests.checker.values import of_tree, rows_of_trees
 from tests.shared.known_scenes import SCENES, scene_of, stem
 
@@ -34,7 +35,7 @@ def agrees(problem: Problem, name: str, text: str, factor: float = 1) -> None:
     """The relation is ``text`` times a number, at random places."""
     (relation,) = (relation for relation in problem.relations if relation.name == name)
     names = [*problem.coordinates, *problem.rates, *problem.parameters, *problem.generic, "t", "tdot"]
-    known = type(problem.names)(frozenset(names) - {"t"}, {}, problem.names.functions)
+    known = KnownNames(frozenset(names) - {"t"})
     for seed in range(4):
         values = {q: random.Random(f"{q} {seed}").uniform(0.2, 1.2) for q in names}
         assert of_tree(relation.left, values) == pytest.approx(factor * of_tree(parse(text, known), values)), name
@@ -194,7 +195,6 @@ MISTAKEN: dict[str, str] = {
     "an axis that may be zero": "parameters: [a]\nbodies: [A]\n"
     "constraints: [{type: prismatic, between: [ground, A], axis: [a, 0, 0]}]",
     "a place without axis": "bodies: [A]\nconstraints: [{type: revolute, between: [ground, A], at: [0, 0, 0]}]",
-    "a joint to itself": "bodies: [A]\nconstraints: [{type: weld, between: [A, A]}]",
     "a value with a coordinate": "coordinates: [x]\nparticles: [{name: A, at: [x, 0, 0]}]",
     "two keys": "coordinates: [x]\ncoordinates: [y]",
     "a tag": "coordinates: !!python/object:os.system [x]",
@@ -223,8 +223,8 @@ def test_a_text_that_mentions_an_angle_refuses_the_cayley_chart() -> None:
 
 
 def test_numbers_are_exact_and_words_are_words() -> None:
-    found = document_of('y: [0.5, 1e-6, 017, 0x1F, "0.5", on, yes, ~, true, -3., 2.0]')
-    assert found == {"y": ["1/2", "1/1000000", 17, 31, "0.5", "on", "yes", None, True, -3, 2]}
+    found = document_of('y: [0.5, 1e-6, 017, "0.5", on, yes, ~, true, -3., 2.0]')
+    assert found == {"y": ["1/2", "1/1000000", 17, "0.5", "on", "yes", None, True, -3, 2]}
     assert exact_document({"a": 0.1, "b": Fraction(4, 2)}) == {"a": "1/10", "b": 2}
     assert document_of('{"y": [0.5, 1e-6, "on"]}') == {"y": ["1/2", "1/1000000", "on"]}
 
@@ -300,7 +300,7 @@ def test_both_charts_of_a_body_say_the_same(path: Path) -> None:
         ours = [r.left for r in cayley.relations if r.owner == owner and r.kind == "finite"]
         others = [r.left for r in angles.relations if r.owner == owner and r.kind == "finite"]
         point = solved(ours, cayley, random.Random(f"{path.stem} {owner}"))
-        same = {**point, **in_angles(point, names, angles, document["configuration"])}
+        same = {**point, **in_angles(point, names, document["configuration"])}
         assert [of_tree(tree, same) for tree in others] == pytest.approx([0.0] * len(others), abs=1e-7)
         ranks = [
             np.linalg.matrix_rank(rows_of_trees(ours, cayley.coordinates, point), tol=1e-6),
@@ -330,13 +330,11 @@ def solved(trees: list[Any], problem: Problem, rng: random.Random) -> dict[str, 
     raise AssertionError("no zero was found")
 
 
-def in_angles(
-    point: Mapping[str, float], names: Mapping[str, Any], problem: Problem, given: Mapping[str, Any]
-) -> dict[str, float]:
+def in_angles(point: Mapping[str, float], names: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, float]:
     """The angles of every body, at poses given by Cayley parameters."""
     found: dict[str, float] = {}
     for body, own in names.items():
-        initial = [of_tree(parse(str(given[q]), problem.names), dict(point)) for q in own[3:]]
+        initial = [of_tree(parse(str(given[q]), KnownNames()), dict(point)) for q in own[3:]]
         g = np.array([point[f"{body}_{letter}"] for letter in "abc"])
         found |= dict(zip(own[3:], euler_angles(turned_by(g) @ turned_by_angles(*initial)), strict=True))
     return found
