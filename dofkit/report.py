@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
@@ -180,7 +180,9 @@ class Report(ToldModel):
     ``verdicts`` says of every field that can be wrong how sure it is, and ``verdict`` is the weakest of these, those of
     the entries included; ``witness`` is a certified configuration (coordinate -> text, and parameters and ``t`` where
     they occur), None where none was found.
+    ``certificate``: the evidence of what is proved, for `dofkit.verify`, where it was asked for.
     A number that could not be decided is None, ``verdict`` is then ``undecided`` and ``warnings`` says why.
+    ``certificate``: evidence for what is proved, which `dofkit.verify` rechecks (None unless it was asked for).
     ``feasible``: whether the inequalities can all be met together with the constraints (None where that is not known,
     or where there are none); ``feasible_at`` is then a point at which they are: what is coupled to them, parameters
     and time (``t``) and velocities (``xdot``) included; ``infeasible`` a minimal set that cannot be met.
@@ -218,6 +220,7 @@ class Report(ToldModel):
     verdict: Verdict
     verdicts: dict[str, FieldVerdict] = {}
     witness: dict[str, str] | None = None
+    certificate: dict[str, Any] | None = None
     method: str
     modelled: str
     warnings: list[str]

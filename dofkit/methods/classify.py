@@ -6,6 +6,7 @@ from dofkit.base.arguments import require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.classification.study import study
 from dofkit.exact.points.balls import precise_for
+from dofkit.methods.certificates.lowering import with_certificate
 from dofkit.methods.in_worker import in_worker
 from dofkit.methods.names import MethodName
 from dofkit.methods.stages import classified
@@ -13,12 +14,15 @@ from dofkit.methods.table import METHODS
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import SceneLike, scene_or_system
+from dofkit.scene.scene import Scene
 from dofkit.system import System
 
 _UNWATCHED = "No worker process could be started here: the time was watched, but nothing would have been killed."
 
 
-def classify(scene: SceneLike | System, budget: float | None = None, method: MethodName = "auto") -> Report:
+def classify(
+    scene: SceneLike | System, budget: float | None = None, method: MethodName = "auto", certificate: bool = False
+) -> Report:
     """How the system of ``scene`` can move: its freedom, labels, integrals and redundancy, each with a verdict.
 
     ``scene``: a Scene, a path, a catalog name, a mapping or a System.
@@ -26,6 +30,9 @@ def classify(scene: SceneLike | System, budget: float | None = None, method: Met
     its own, which is killed where it does not end by itself (1 s or a quarter of the budget later), or needs too much
     memory: then everything is undecided, and the reason says so. Without a budget it is done here, and no new part of
     it is begun after 60 s. ``method``: a name of `METHODS`; one alone leaves open what it cannot answer.
+    ``certificate``: with the evidence of what is proved, for `dofkit.verify`; what that refuses is undecided.
+    ``certificate``: whether evidence is looked for, in a few seconds more; what it contradicts is no longer told as
+    proved, and a warning says so. A System has no scene that could be read again, and gets none.
     Returns a Report: numbers of freedoms, names and texts, without units. Raises `SceneError` with every fault where
     the scene cannot be read as mathematics, and `ArgumentError` for what is no scene, no method or no number.
 
@@ -36,6 +43,11 @@ def classify(scene: SceneLike | System, budget: float | None = None, method: Met
     """
     require_one_of(method, METHODS, "method")
     given = scene_or_system(scene)
+    report = _classified(given, budget, method)
+    return with_certificate(given, report) if certificate and isinstance(given, Scene) else report
+
+
+def _classified(given: Scene | System, budget: float | None, method: MethodName) -> Report:
     if budget is None:
         return classified(given, DEFAULT_SECONDS, method)
     seconds = seconds_of(budget)

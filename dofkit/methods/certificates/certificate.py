@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from dofkit.checker.document import sha256_of
+from dofkit.checker.document import canonical, sha256_of
 from dofkit.checker.errors import CheckError
 from dofkit.checker.format import PARTS
 from dofkit.checker.problem import Problem, read_problem
@@ -28,7 +28,8 @@ NUMBERS: dict[str, Maker] = {
     "scleronomic": freedom.counted,
     "redundant_equations": freedom.counted,
     "redundancies": freedom.counted,
-    "integrable_part": freedom.counted,
+    "integrable_part": freedom.integrable_part,
+    "feasible": freedom.feasible,
     "redundant": freedom.redundant,
     "generalized_coordinates": freedom.generalized_coordinates,
     "growth_vector": forms.growth_vector,
@@ -43,6 +44,7 @@ LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Iterator[Told]]] = {
     "integrating_factor": labels.integrating_factor,
     "integral": labels.integral,
     "independent": freedom.independent,
+    "circuit": freedom.circuit,
 }
 #: Claims that follow from others, which therefore stand before them.
 LAST = ("/singular", "/holonomic", "/scleronomic", "/redundant_equations", "/redundancies", "/integrable_part")
@@ -51,20 +53,29 @@ HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError,
 
 def certificate_of(document: Mapping[str, Any], report: Report) -> dict[str, Any]:
     """The certificate of a report of the scene that a document writes."""
-    return _Certificate(document, report).written()
+    return certificate_and_contradictions(document, report)[0]
 
 
-class _Certificate:
+def certificate_and_contradictions(
+    document: Mapping[str, Any], report: Report
+) -> tuple[dict[str, Any], dict[str, str]]:
+    """The certificate, and the paths of claims that the evidence contradicts, with why."""
+    making = Certifying(document, report)
+    return making.written(), making.contradictions
+
+
+class Certifying:
     """A certificate while it is made."""
 
     def __init__(self, document: Mapping[str, Any], report: Report) -> None:
         self.document, self.report = document, report
-        scene = {"name": report.scene, "sha256": sha256_of(document), "document": dict(document)}
+        scene = {"name": report.scene, "sha256": sha256_of(document), "document": canonical(document)}
         self.parts: dict[str, list[Told]] = {part: [] for part in PARTS}
         self.found: dict[str, Any] = {"certificate": 1, "scene": scene, "cayley": [], **self.parts}
         self.found |= {"claims": [], "uncovered": []}
         self.rooms: list[Room] = []
         self.trial: Trial | None = None
+        self.contradictions: dict[str, str] = {}
 
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
@@ -97,6 +108,8 @@ class _Certificate:
                     return claim
                 if outcome == "contradicted" and contradicted is None:
                     contradicted = claim
+        if contradicted is not None and self.trial:
+            self.contradictions[path] = self.trial.reasons[path]
         return contradicted
 
     def _compare_about(self, path: str, claim: Told) -> None:
@@ -117,7 +130,7 @@ def _tried(make: Maker, room: Room) -> Iterator[Told]:
 def _without_spare_parts(found: dict[str, Any]) -> dict[str, Any]:
     """The certificate with only the parts that its claims use."""
     used = _texts_in(found["claims"])
-    for part in ("minors", "fields", "points"):
+    for part in ("covers", "minors", "fields", "points"):
         found[part] = [one for one in found[part] if one["id"] in used]
         used |= _texts_in(found[part])
     wanted = True

@@ -21,7 +21,7 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
     """Whether a step was found by which a relation follows from others near the point."""
     own = scenery.evidence.relation(name)
     kinds = [row for row in rows if scenery.evidence.relation(row).kind == own.kind]
-    step = f"{name} from others"
+    step = f"{scenery.label}{name} from others"
     if step in scenery.evidence.known:
         return True
     try:
@@ -50,8 +50,10 @@ def constant_cofactors(scenery: Scenery, name: str, rows: Sequence[str]) -> dict
     monomials = sorted({key for part in parts for key in part})
     if len(monomials) > LARGEST_ANSATZ or len(used) > LARGEST_ANSATZ:
         return None
-    found = solution([[part.get(key, fmpq(0)) for part in parts[1:]] for key in monomials],
-                     [parts[0].get(key, fmpq(0)) for key in monomials])
+    found = solution(
+        [[part.get(key, fmpq(0)) for part in parts[1:]] for key in monomials],
+        [parts[0].get(key, fmpq(0)) for key in monomials],
+    )
     if found is None:
         return None
     return {rows[i - 1]: value for i, value in zip(used[1:], found, strict=True) if value}
@@ -62,7 +64,9 @@ def solution(matrix: Sequence[Sequence[object]], right: Sequence[object]) -> lis
     if not matrix:
         return []
     width = len(matrix[0])
-    reduced, rank = fmpq_mat(len(matrix), width + 1, [x for row, b in zip(matrix, right, strict=True) for x in (*row, b)]).rref()
+    reduced, rank = fmpq_mat(
+        len(matrix), width + 1, [x for row, b in zip(matrix, right, strict=True) for x in (*row, b)]
+    ).rref()
     found = [Fraction(0)] * width
     for i in range(rank):
         lead = next(j for j in range(width + 1) if reduced[i, j] != 0)

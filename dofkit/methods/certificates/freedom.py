@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
-from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.errors import CheckError
 from dofkit.methods.certificates.forms import involutive_rows, integrable_names, orbit
-from dofkit.methods.certificates.rigid_fields import covering
-from dofkit.methods.certificates.room import Room, Standing, Told
+from dofkit.methods.certificates.everywhere import everywhere
+from dofkit.methods.certificates.integrals import integral_of_text
+from dofkit.methods.certificates.rigid_fields import backing
+from dofkit.methods.certificates.room import Room, Told
 from dofkit.report import ConstraintEntry
 
 
 def consistent(room: Room) -> Iterator[Told]:
     """A point with a motion through it."""
-    standing, timed = room.standing, room.scenery.timed
-    inequalities = _inequalities(room)
-    if room.report.consistent is False or standing is None or inequalities is None:
+    if room.report.consistent is False:
         return
-    if standing.accounted and (standing.rows or timed):
-        yield {"rule": "regular", "minor": room.minor(standing), "inequalities": inequalities}
+    standing, inequalities = room.standing, _inequalities(room)
+    if standing is None or inequalities is None:
+        return
+    if (backed := backing(room, standing)) is not None and (standing.rows or room.scenery.timed):
+        yield {"rule": "regular", "minor": room.minor(standing), "inequalities": inequalities, **backed}
     yield {"rule": "point", "at": standing.point.name, "inequalities": inequalities}
 
 
@@ -42,46 +44,8 @@ def dof(room: Room) -> Iterator[Told]:
         yield {"rule": "nothing", "about": "everywhere"}
         return
     if room.report.verdicts["dof"].about == "everywhere":
-        yield from _everywhere(room)
+        yield from everywhere(room)
     yield from _near(room)
-
-
-def _everywhere(room: Room) -> Iterator[Told]:
-    if room.scenery.evidence.moving or room.scenery.cayley:
-        return
-    if order := graph_order(room):
-        yield {"rule": "graph", "order": order, "about": "everywhere"}
-    standing = room.standing
-    if len(room.equations) == 1 and standing is not None and len(standing.rows) == 1:
-        yield {"rule": "one relation", "minor": room.minor(standing), "about": "everywhere"}
-
-
-def graph_order(room: Room) -> list[list[str]] | None:
-    """Each relation with a coordinate that it alone gives, once those after it are taken away."""
-    evidence = room.scenery.evidence
-    left = list(evidence.finite)
-    held = {name: symbols_in(evidence.relation(name).left) for name in left}
-    order: list[list[str]] = []
-    try:
-        while left:
-            found = next(
-                (
-                    [name, q]
-                    for name in left
-                    for q in room.problem.coordinates
-                    if q in held[name]
-                    and not any(q in held[other] for other in left if other != name)
-                    and evidence.ring.rational(derivative(evidence.relation(name).left, q))
-                ),
-                None,
-            )
-            if found is None:
-                return None
-            order.insert(0, found)
-            left.remove(found[0])
-    except CheckError:
-        return None
-    return order
 
 
 def _near(room: Room) -> Iterator[Told]:
@@ -89,28 +53,18 @@ def _near(room: Room) -> Iterator[Told]:
         yield from orbit(room)
         return
     standing = room.standing
-    if standing is None:
-        return
-    if standing.accounted:
-        yield {"rule": "regular", "minor": room.minor(standing), "about": room.about}
-    else:
-        yield from _squeezed(room, standing)
-
-
-def _squeezed(room: Room, standing: Standing) -> Iterator[Told]:
-    """Rows that depend on others without a step: the rank is constant, by fields that keep blocks of them."""
-    if (blocks := covering(room, standing)) is not None:
-        minor = room.minor(standing)
-        least = {"rule": "cover", "minor": minor, "blocks": blocks}
-        yield {"rule": "squeeze", "most": {"rule": "minor", "minor": minor}, "least": least, "about": room.about}
+    if standing is not None and (backed := backing(room, standing)) is not None:
+        yield {"rule": "regular", "minor": room.minor(standing), "about": room.about, **backed}
 
 
 def velocity_dof(room: Room) -> Iterator[Told]:
     """The independent velocities."""
     if not room.scenery.evidence.moving:
         yield {"rule": "count"}
-    elif (standing := room.standing) is not None and standing.accounted:
-        yield {"rule": "regular", "minor": room.minor(standing), "about": room.about}
+        return
+    standing = room.standing
+    if standing is not None and (backed := backing(room, standing)) is not None:
+        yield {"rule": "regular", "minor": room.minor(standing), "about": room.about, **backed}
 
 
 def instantaneous(room: Room) -> Iterator[Told]:
@@ -135,10 +89,13 @@ def compared(room: Room) -> Iterator[Told]:
 
 
 def redundant(room: Room) -> Iterator[Told]:
-    """All relations follow from the others."""
-    standing = room.standing
-    if standing is not None and standing.accounted:
-        yield {"rule": "cofactors", "minor": room.minor(standing)}
+    """What is dropped follows from the rest."""
+    dropped = set(room.report.redundant or [])
+    owners = {one.name: one.owner for one in room.problem.relations}
+    names = sorted(room.equations, key=lambda name: owners[name] in dropped)
+    standing = room.accounted(names)
+    if standing is not None and (backed := backing(room, standing)) is not None:
+        yield {"rule": "cofactors", "minor": room.minor(standing), **backed}
 
 
 def generalized_coordinates(room: Room) -> Iterator[Told]:
@@ -155,13 +112,6 @@ def generalized_coordinates(room: Room) -> Iterator[Told]:
             yield {**found, "rule": "minor"}
 
 
-def independent_count(room: Room) -> Iterator[Told]:
-    """The finite relations that are independent."""
-    standing = room.finite_standing
-    if standing is not None and standing.accounted:
-        yield {"rule": "independent", "minor": room.minor(standing)}
-
-
 def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """How many rows of a constraint are independent of those before."""
     if entry.form == "inequality":
@@ -173,4 +123,52 @@ def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told
     owners = [one.owner for one in room.problem.relations]
     place = {one.name: owners.index(one.owner) for one in room.problem.relations}
     last = owners.index(entry.name)
-    yield {"rule": "independent", "minor": room.minor(standing, sum(place[row] <= last for row in standing.rows))}
+    size = sum(place[row] <= last for row in standing.rows)
+    dependent = [name for name in standing.dependent if place[name] <= last]
+    upto = replace(standing, rows=standing.rows[:size], columns=standing.columns[:size], dependent=dependent)
+    upto.accounted = standing.accounted or not dependent
+    if (backed := backing(room, upto)) is not None:
+        yield {"rule": "independent", "minor": room.minor(upto), **backed}
+
+
+def circuit(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
+    """The constraint follows from those of its circuit, and from no fewer."""
+    members, evidence = entry.circuit, room.scenery.evidence
+    if members is None or room.point is None:
+        return
+    own = list(evidence.owned(entry.name))
+    rows = {name: list(evidence.owned(name)) for name in members}
+    whole = room.accounted([*(row for name in members for row in rows[name]), *own])
+    backed = backing(room, whole)
+    minimal = {}
+    for name in members:
+        others = [row for other in members if other != name for row in rows[other]]
+        for one in own:
+            standing = room.standing_of([*others, one])
+            if standing is not None and not standing.dependent:
+                minimal[name] = {"minor": room.minor(standing)}
+                break
+    if backed is not None and len(minimal) == len(members):
+        yield {"rule": "cofactors", "at": room.point.name, "minimal": minimal, **backed}
+
+
+def feasible(room: Room) -> Iterator[Told]:
+    """A point at which everything holds."""
+    standing = room.standing
+    if not room.report.feasible or standing is None:
+        return
+    for point in (room.point, *room.search.open_points()):
+        if point is not None:
+            yield {"rule": "point", "at": room.add_point(point)}
+
+
+def integrable_part(room: Room) -> Iterator[Told]:
+    """Finite rows, and integrals for the texts of the basis."""
+    told, finite = room.report.integrable_part, room.finite_standing
+    if told is None or finite is None:
+        return
+    yield {"rule": "integrals", "minor": room.minor(finite), "steps": []}
+    steps = [step for text in told.basis or [] if (step := integral_of_text(room, text))]
+    standing = room.standing_of([*finite.rows, *steps])
+    if steps and standing is not None:
+        yield {"rule": "integrals", "minor": room.minor(standing), "steps": steps}

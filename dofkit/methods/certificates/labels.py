@@ -10,10 +10,10 @@ from dofkit.checker.errors import CheckError
 from dofkit.checker.trees import Tree, add, negative, number, power, times
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, words_of
 from dofkit.methods.certificates.integrals import combined_integral
+from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import FAR, Room, Told
 from dofkit.methods.certificates.texts import text_of
 from dofkit.report import ConstraintEntry
-
 
 
 def holonomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -110,7 +110,7 @@ def integral_step(room: Room, entry: ConstraintEntry, name: str) -> str | None:
 def system_integral(room: Room, entry: ConstraintEntry, name: str) -> str | None:
     """Steps for an integral of a form in the presence of the other relations."""
     function = integral_text(entry)
-    return None if function is None else combined_integral(room, function, name)
+    return None if function is None else combined_integral(room, function)
 
 
 def integral_text(entry: ConstraintEntry) -> str | None:
@@ -194,20 +194,32 @@ def timeless(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
 
 
 def _turning(room: Room, name: str, field: str) -> Iterator[Told]:
-    kind = room.scenery.evidence.relation(name).kind
-    form = room.form(name) if kind == "velocity" else None
-    points = [room.point] if kind != "inequality" else []
-    points += [room.search.touching(name, seed) for seed in (50, 60)] if kind != "velocity" else []
-    for point in points:
-        if point is None:
-            continue
-        if form is None:
-            if kind != "velocity" and room.differs(derivative(room.scenery.left(name), "t"), point):
-                yield {"at": room.add_point(point)}
-        elif room.differs(form.get("t", number(0)), point):
-            yield {"at": point.name}
-        else:
-            for a, b in combinations(form, 2) if field == "scleronomic" else ():
-                back = negative(times(form[b], derivative(form[a], "t")))
-                if room.differs(add(times(form[a], derivative(form[b], "t")), back), point):
-                    yield {"at": point.name, "pair": [a, b]}
+    if room.scenery.evidence.relation(name).kind == "velocity":
+        yield from _turning_form(room, name, field)
+        return
+    turned = derivative(room.scenery.left(name), "t")
+    if turned == number(0):
+        return
+    for point in _points_of(room, name):
+        if point is not None and room.differs(turned, point):
+            yield {"at": room.add_point(point)}
+
+
+def _points_of(room: Room, name: str) -> Iterator[FoundPoint | None]:
+    """The main point, where it is one of the relation, and others."""
+    if room.scenery.evidence.relation(name).kind != "inequality":
+        yield room.point
+    yield from (room.search.touching(name, seed) for seed in (50, 60))
+
+
+def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
+    form, point = room.form(name), room.point
+    if form is None or point is None:
+        return
+    if room.differs(form.get("t", number(0)), point):
+        yield {"at": point.name}
+        return
+    for a, b in combinations(form, 2) if field == "scleronomic" else ():
+        back = negative(times(form[b], derivative(form[a], "t")))
+        if room.differs(add(times(form[a], derivative(form[b], "t")), back), point):
+            yield {"at": point.name, "pair": [a, b]}

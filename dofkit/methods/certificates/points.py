@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -94,13 +94,26 @@ class PointSearch:
             point = self.somewhere(finite, self.problem.coordinates, attempt)
             if point is None:
                 return None
-            try:
-                if Estimates(point.floats).value(self.scenery.left(name)) > NEAR:
-                    point.name = f"P{attempt} {name}"
-                    return point
-            except NoEstimateError:
-                continue
+            if self._is_positive(point, name):
+                point.name = f"P{attempt} {name}"
+                return point
         return None
+
+    def open_points(self, seed: int = 200) -> Iterator[FoundPoint]:
+        """Points at which the finite relations and all inequalities hold."""
+        names = [one.name for one in self.problem.relations if one.kind == "inequality"]
+        for attempt in range(seed, seed + 12):
+            point = self.somewhere(self.scenery.evidence.finite, self.problem.coordinates, attempt)
+            if point is not None and all(self._is_positive(point, name) for name in names):
+                point.name = f"P{attempt}"
+                yield point
+                return
+
+    def _is_positive(self, point: FoundPoint, name: str) -> bool:
+        try:
+            return Estimates(point.floats).value(self.scenery.left(name)) > NEAR
+        except NoEstimateError:
+            return False
 
     def touching(self, name: str, seed: int) -> FoundPoint | None:
         """A point at which a relation is 0, an inequality too, whatever the others say."""
@@ -132,7 +145,7 @@ class PointSearch:
         self, start: Mapping[str, Fraction], names: Sequence[str], unknowns: set[str]
     ) -> dict[str, float] | None:
         """Gauss and Newton's method from a start."""
-        floats = floats_of(start)
+        floats = self._with_generic(floats_of(start), names)
         for _ in range(ITERATIONS):
             estimates = Estimates(floats)
             pairs = [estimates.of(self.scenery.left(name)) for name in names]
@@ -146,6 +159,17 @@ class PointSearch:
             if size < 1e-14:
                 break
         return floats if self._residual(floats, names) < NEAR else None
+
+    def _with_generic(self, floats: dict[str, float], names: Sequence[str]) -> dict[str, float]:
+        """Generic lengths as they are at the start."""
+        generic = set(self.problem.generic)
+        estimates = Estimates(dict(floats))
+        for name in names if generic else ():
+            value, slope = estimates.of(self.scenery.left(name))
+            own = [symbol for symbol in slope if symbol in generic]
+            if len(own) == 1:
+                floats[own[0]] -= value / slope[own[0]]
+        return floats
 
     def pivots(self, floats: Mapping[str, float], names: Sequence[str], unknowns: set[str]) -> list[Pivot]:
         """Independent rows, with columns that are easily solved for."""
@@ -166,9 +190,7 @@ class PointSearch:
         pivots = self.pivots(found, names, unknowns)
         rows, columns = [names[p.row] for p in pivots], [p.column for p in pivots]
         for most in _ROUNDINGS:
-            exact = {
-                name: Fraction(round(value * most), most) for name, value in found.items() if name not in columns
-            }
+            exact = {name: Fraction(round(value * most), most) for name, value in found.items() if name not in columns}
             exact |= {name: value for name, value in self.scenery.parameters.items() if name in exact}
             if any(s != "real" and exact.get(n, 1) <= 0 for n, s in self.problem.parameters.items()):
                 continue

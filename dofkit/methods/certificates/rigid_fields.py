@@ -43,19 +43,38 @@ def motions(document: Mapping[str, Any], dimension: int) -> list[dict[str, str]]
     return found
 
 
+def backing(room: Room, standing: Standing | None) -> Told | None:
+    """What a claim says besides its minor so that all relations follow: nothing, or covers; None where they do not."""
+    if standing is None:
+        return None
+    if standing.accounted:
+        return {}
+    if (blocks := covering(room, standing)) is None:
+        return None
+    covers, given = room.scenery.parts["covers"], {"minor": room.minor(standing), "blocks": blocks}
+    for one in covers:
+        if all(one[key] == value for key, value in given.items()):
+            return {"covers": [one["id"]]}
+    covers.append({"id": f"cover{len(covers)}", **given})
+    return {"covers": [covers[-1]["id"]]}
+
+
 def covering(room: Room, standing: Standing) -> list[Told] | None:
-    """Blocks for the rule `cover`, where rigid motions are all the freedom that each has."""
+    """Blocks of relations whose rank is told by how many there are, or by rigid motions."""
     scenery, blocks = room.scenery, []
     candidates = motions(room.document, room.problem.dimension)
-    for names in parts_of(scenery, list(scenery.evidence.finite)):
+    known = {*standing.rows, *standing.dependent}
+    finite = [name for name in scenery.evidence.finite if name in known]
+    for names in parts_of(scenery, finite):
+        rank = sum(row in names for row in standing.rows)
+        if rank == len(names):
+            blocks.append({"rows": names, "fields": [], "columns": []})
+            continue
         held = {symbol for name in names for symbol in symbols_in(scenery.evidence.relation(name).left)}
         own = [q for q in room.problem.coordinates if q in held]
-        rank = sum(row in names for row in standing.rows)
         fields = [{q: text for q, text in one.items() if q in held} for one in candidates]
         columns = _chosen(scenery, fields, standing)
-        ids = []
-        for place, _ in columns:
-            ids.append(field_id(scenery, {"components": fields[place]}))
+        ids = [field_id(scenery, {"components": fields[place]}) for place, _ in columns]
         if len(own) - rank != len(ids) or not _kept(scenery, ids, names):
             return None
         blocks.append({"rows": names, "fields": ids, "columns": [column for _, column in columns]})

@@ -50,11 +50,6 @@ class Room:
         return self.scenery.problem
 
     @property
-    def label(self) -> str:
-        """What ids of this reading begin with."""
-        return "C" if self.scenery.cayley else ""
-
-    @property
     def small(self) -> bool:
         """Whether numbers are worked with at all."""
         return len(self.problem.relations) <= MOST_ROWS and len(self.problem.coordinates) <= MOST_ROWS
@@ -85,7 +80,7 @@ class Room:
             return None
         found = self._reference or self._searched()
         if found is not None:
-            found.name = f"{self.label}{found.name}"
+            found.name = f"{self.scenery.label}{found.name}"
             self.scenery.parts["points"].append(found.entry())
         return found
 
@@ -101,10 +96,10 @@ class Room:
 
     def _rate(self, name: str) -> str:
         try:
-            self.scenery.add_step({"id": f"rate of {name}", "by": "rate", "of": name})
+            self.scenery.add_step({"id": f"{self.scenery.label}rate of {name}", "by": "rate", "of": name})
         except CheckError:
             return ""
-        return f"rate of {name}"
+        return f"{self.scenery.label}rate of {name}"
 
     @cached_property
     def equations(self) -> list[str]:
@@ -141,7 +136,7 @@ class Room:
     @cached_property
     def standing(self) -> Standing | None:
         """The main point with rows among all equations; the others accounted for by steps where that is possible."""
-        return self._accounted(self.equations)
+        return self.accounted(self.equations)
 
     def solving(self, columns: Sequence[str]) -> Standing | None:
         """The finite rows with just these columns; None where these do not do."""
@@ -159,9 +154,10 @@ class Room:
     def finite_standing(self) -> Standing | None:
         """The same for the finite relations."""
         names = [name for name in self.equations if self.scenery.evidence.relation(name).kind == "finite"]
-        return self.standing if names == self.equations else self._accounted(names)
+        return self.standing if names == self.equations else self.accounted(names)
 
-    def _accounted(self, names: Sequence[str]) -> Standing | None:
+    def accounted(self, names: Sequence[str]) -> Standing | None:
+        """Independent rows in an order of their own, the others by steps where that is possible."""
         found = self.standing_of(names)
         if found is not None and found.dependent:
             found.accounted = all([accounted(self.scenery, name, found.rows, found.point) for name in found.dependent])

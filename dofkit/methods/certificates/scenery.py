@@ -31,6 +31,11 @@ class Scenery:
         self.evidence = CheckedEvidence(problem, dict(parts), self.effort)
         self._prepared: dict[str, Tree] = {}
 
+    @property
+    def label(self) -> str:
+        """What ids of this reading begin with."""
+        return "C" if self.cayley else ""
+
     @cached_property
     def functions(self) -> dict[str, dict[str, Any]]:
         """A polynomial for every unknown function."""

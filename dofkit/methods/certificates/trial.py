@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from dofkit.checker.evidence import FAULTS, told
-from dofkit.checker import verification
+from dofkit.checker.verification import Verifier
 from dofkit.methods.certificates.scenery import Scenery
 
 Outcome = Literal["shown", "contradicted", "open"]
@@ -16,8 +16,7 @@ class Trial:
     """The checker at work on a certificate that grows."""
 
     def __init__(self, document: Mapping[str, Any], certificate: dict[str, Any]) -> None:
-        self.verifier: Any = getattr(verification, "Verifier", None) or verification._Verifier
-        self.verifier = self.verifier(document, certificate)
+        self.verifier = Verifier(document, certificate)
         self.reasons: dict[str, str] = {}
 
     def admit(self, scenery: Scenery) -> None:
@@ -27,7 +26,7 @@ class Trial:
     def outcome(self, claim: dict[str, Any]) -> Outcome:
         """Whether a claim is shown; ``contradicted`` where the evidence gives another value."""
         try:
-            (getattr(self.verifier, "check", None) or self.verifier._check)(claim)
+            self.verifier.check(claim)
         except FAULTS as error:
             self.reasons[claim["path"]] = told(error)
             return "contradicted" if told(error).startswith("the evidence gives") else "open"
