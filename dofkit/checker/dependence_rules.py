@@ -8,7 +8,7 @@ from dofkit.checker.balls import excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, is_here, names_told, regular
 from dofkit.checker.errors import CheckError
-from dofkit.checker.everywhere_rules import own_symbols
+from dofkit.checker.everywhere_rules import has_own_symbol
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import admissible, independent, involutive, of_word
 from dofkit.checker.label_rules import own
@@ -58,6 +58,8 @@ def _fails(evidence: CheckedEvidence, given: Told, others: tuple[str, ...], rela
     point = evidence.point(given["at"])
     if any(evidence.relation(name).kind != "finite" for name in (*others, *relations)):
         raise CheckError("a point separates finite relations")
+    if any(evidence.is_open(evidence.relation(name).left) for name in (*others, *relations)):
+        raise CheckError("with parameters a minor is needed, not a point")
     evidence.on_set(point, others)
     if not any(excludes_zero(point.value(evidence.relation(name).left)) for name in relations):
         raise CheckError("the constraint may hold at the point")
@@ -186,13 +188,7 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     left = evidence.relation(name).left
     if all(evidence.ring.rational(derivative(left, q)) is not None for q in evidence.problem.coordinates):
         return True
-    for symbol in sorted(symbols_in(left) & set(evidence.problem.generic)):
-        try:
-            own_symbols(evidence, {name: symbol})
-        except CheckError:
-            continue
-        return True
-    return False
+    return has_own_symbol(evidence, name)
 
 
 def growth(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) -> None:

@@ -13,7 +13,7 @@ from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import field_named, independent, involutive, span, tangent
 from dofkit.checker.points import CheckedPoint, in_turn
 from dofkit.checker.steps import Consequence
-from dofkit.checker.trees import ZERO, Tree, add, negative, symbol, times
+from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, symbol, times
 
 Told = dict[str, Any]
 
@@ -48,10 +48,20 @@ def is_about(evidence: CheckedEvidence, claim: Told, point: CheckedPoint) -> Non
                 add(point.prepared(symbol(name)), negative(point.prepared(reference[name])))
             ):
                 raise CheckError(f"`{name}` is not that of the scene's configuration")
+        for name in evidence.finite:
+            if evidence.is_open(evidence.relation(name).left):
+                evidence.identity(
+                    at_reference(evidence, evidence.relation(name).left), f"`{name}` at the configuration"
+                )
     elif about != "component":
         raise CheckError("a claim is about `reference`, `component` or `everywhere`")
     elif reference and not _is_off(evidence, point):
         raise CheckError("the scene has a configuration: the claim has to be about it")
+
+
+def at_reference(evidence: CheckedEvidence, tree: Tree) -> Tree:
+    """A tree at the scene's configuration, parameters and functions left open."""
+    return substituted(tree, {**evidence.problem.reference, "t": ZERO, "tdot": ONE})
 
 
 def is_here(evidence: CheckedEvidence, point: CheckedPoint) -> None:
@@ -114,21 +124,24 @@ def _family(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
     if evidence.moving:
         raise CheckError("a family is for finite relations")
     point, parameters = evidence.point(given["at"]), given["parameters"]
-    if not set(parameters).isdisjoint({*evidence.variables, *evidence.velocities, *point.exact}):
+    problem = evidence.problem
+    taken = {*evidence.variables, *evidence.velocities, *problem.parameters, *problem.generic, *point.exact}
+    if not taken.isdisjoint(parameters):
         raise CheckError("a parameter of a family has a name that is taken")
-    family = {q: point.prepared(evidence.text(text, parameters)) for q, text in given["q"].items()}
-    family |= {q: point.prepared(symbol(q)) for q in evidence.problem.coordinates if q not in family}
+    own = {name: tree for name, tree in point.exact.items() if name in evidence.variables}
+    family = {q: substituted(evidence.text(text, parameters), own) for q, text in given["q"].items()}
+    family |= {q: point.prepared(symbol(q)) for q in problem.coordinates if q not in family}
     if not set(family) <= set(evidence.problem.coordinates):
         raise CheckError("a family has what is no coordinate")
     values = in_turn({u: evidence.text(given["values"][u]) for u in parameters})
     evidence.on_set(point, evidence.finite)
+    at_once = {"t": point.exact["t"]} if "t" in point.exact else {}
+    for name in evidence.finite:
+        left = substituted(evidence.relation(name).left, at_once)
+        evidence.identity(substituted(left, family), f"`{name}` on the family")
+    family = {q: point.prepared(tree) for q, tree in family.items()}
     for q, tree in family.items():
         evidence.identity(add(substituted(tree, values), negative(point.prepared(symbol(q)))), f"the family's `{q}`")
-    others = {name: tree for name, tree in point.exact.items() if name not in evidence.problem.coordinates}
-    outside = CheckedPoint("", others, point.functions, evidence.effort)
-    for name in evidence.finite:
-        left = outside.prepared(evidence.relation(name).left)
-        evidence.identity(substituted(left, family), f"`{name}` on the family")
     balls = {u: evaluated(tree, {}, evidence.effort) for u, tree in values.items()} | point.balls
     columns = given["columns"]
     if len(columns) != len(parameters) or not {*columns} <= {*family} or len({*columns}) != len({*parameters}):
@@ -220,10 +233,10 @@ def instantaneous(evidence: CheckedEvidence, claim: Told) -> None:
     if not all(evidence.is_linear(name) for name in names):
         raise CheckError("a relation is not linear in the velocities")
     size = evidence.problem.coordinates
-    slopes = {name: [point.prepared(evidence.slope(name, q)) for q in size] for name in names}
-    for row in slopes.values():
-        for tree in row:
-            evaluated(tree, point.balls, evidence.effort)
+    for name in names:
+        for q in size:
+            point.value(evidence.slope(name, q))
+    slopes = {name: [at_reference(evidence, evidence.slope(name, q)) for q in size] for name in names}
     if "minor" not in claim:
         values = [evidence.ring.rational(tree) for row in slopes.values() for tree in row]
         if any(value is None for value in values):
@@ -237,8 +250,11 @@ def instantaneous(evidence: CheckedEvidence, claim: Told) -> None:
         raise CheckError("the minor is not of the relations at the configuration")
     for name in set(names) - set(minor.rows):
         factors = {row: evidence.text(text) for row, text in claim["dependent"][name].items()}
-        if not set(factors) <= set(minor.rows) or any(symbols_in(tree) for tree in factors.values()):
-            raise CheckError("a row depends on rows of the minor, by numbers")
+        held = frozenset().union(*(symbols_in(tree) for tree in factors.values()))
+        if not set(factors) <= set(minor.rows) or not held <= {*evidence.problem.parameters}:
+            raise CheckError("a row depends on rows of the minor, by numbers and parameters")
+        for tree in factors.values():
+            point.value(tree)
         for i, tree in enumerate(slopes[name]):
             total: list[Tree] = [times(factor, slopes[row][i]) for row, factor in factors.items()]
             evidence.identity(add(tree, negative(add(*total))), f"`{name}` as a sum of rows")

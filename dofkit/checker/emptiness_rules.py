@@ -12,6 +12,7 @@ from dofkit.checker.balls import ball_of, evaluated, excludes_zero
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, names_told
 from dofkit.checker.errors import CheckError
+from dofkit.checker.everywhere_rules import has_own_symbol
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.points import CheckedPoint
 from dofkit.checker.problem import CheckedRelation
@@ -32,7 +33,8 @@ def consistent(evidence: CheckedEvidence, claim: Told) -> None:
 
 
 def _met(evidence: CheckedEvidence, one: CheckedRelation, point: CheckedPoint) -> None:
-    if not point.value(one.left) > 0 and (one.strict or not evidence.holds(one.name, point)):
+    equal_will_do = not one.strict and not evidence.is_open(one.left)
+    if not point.value(one.left) > 0 and not (equal_will_do and evidence.holds(one.name, point)):
         raise CheckError(f"the inequality `{one.name}` is not shown to hold at its point")
 
 
@@ -56,7 +58,16 @@ def moves(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> None
     elif given["rule"] == "motion":
         _motion(evidence, given, wanted)
     elif given["rule"] == "point":
-        _rest(evidence, evidence.point(given["at"]), wanted)
+        point = evidence.point(given["at"])
+        _rest(evidence, point, wanted)
+        finite = [name for name in wanted if evidence.relation(name).kind == "finite"]
+        if any(
+            evidence.is_open(evidence.relation(name).left) and not has_own_symbol(evidence, name) for name in finite
+        ):
+            minor = evidence.minor(given["minor"])
+            evidence.covers(minor, finite)
+            if minor.point is not point:
+                raise CheckError("the minor is not at the point")
     else:
         raise CheckError(f"no rule `{str(given['rule'])[:40]}` for what can be met")
 
@@ -74,8 +85,8 @@ def _rest(evidence: CheckedEvidence, point: CheckedPoint, wanted: Sequence[str])
         if one.kind == "velocity" and evidence.is_linear(name):
             for v in sorted(evidence.velocities & symbols_in(one.left)):
                 point.value(derivative(one.left, v))
-        always = CheckedPoint("", values, point.functions, evidence.effort)
-        evidence.identity(always.prepared(one.left), f"`{name}` at rest")
+        left = substituted(one.left, still if evidence.is_open(one.left) else values)
+        evidence.identity(left, f"`{name}` at rest")
 
 
 def _motion(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> None:
@@ -85,16 +96,13 @@ def _motion(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> No
     moving = {*evidence.problem.coordinates, *evidence.velocities}
     if any(not symbols_in(tree).isdisjoint(moving) for tree in path.values()):
         raise CheckError("a motion gives the coordinates by time and parameters")
-    fixed = {name: tree for name, tree in point.exact.items() if name in evidence.problem.parameters}
-    fixed |= {name: tree for name, tree in point.exact.items() if name in evidence.problem.generic}
     rates = {q + "dot": derivative(tree, "t") for q, tree in path.items()}
     for tree in (*path.values(), *rates.values()):
         point.value(tree)
     for name in wanted:
         held = substituted(evidence.relation(name).left, {**path, **rates, "tdot": ONE})
         point.value(held)
-        chosen = CheckedPoint("", fixed, point.functions, evidence.effort)
-        evidence.identity(chosen.prepared(held), f"`{name}` along the motion")
+        evidence.identity(held, f"`{name}` along the motion")
 
 
 def refuted(evidence: CheckedEvidence, given: Told, allowed: Sequence[str]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.dimension_rules import Told, equal, regular
+from dofkit.checker.dimension_rules import Told, equal, is_here, regular
 from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.texts import has_value_everywhere, heads_in
@@ -44,6 +44,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told) -> None:
     own_symbols(evidence, generic)
     if blocks or generic:
         minor = regular(evidence, claim["minor"])
+        is_here(evidence, minor.point)
         if set(minor.rows) != set(names):
             raise CheckError("the minor is not of all relations")
     equal(claim, len(evidence.problem.coordinates) - len(names))
@@ -89,6 +90,17 @@ def own_symbols(evidence: CheckedEvidence, generic: dict[str, Any]) -> None:
             raise CheckError(f"`{name}` may be stationary in `{symbol}`")
 
 
+def has_own_symbol(evidence: CheckedEvidence, name: str) -> bool:
+    """Whether a relation has a generic symbol of its own, in which it is nowhere stationary."""
+    for symbol in sorted(symbols_in(evidence.relation(name).left) & set(evidence.problem.generic)):
+        try:
+            own_symbols(evidence, {name: symbol})
+        except CheckError:
+            continue
+        return True
+    return False
+
+
 def generic_rank(evidence: CheckedEvidence, claim: Told) -> None:
     """Relations of constant rank r with generic symbols of their own: for almost all values dimension n - r everywhere.
 
@@ -103,6 +115,7 @@ def generic_rank(evidence: CheckedEvidence, claim: Told) -> None:
     own_symbols(evidence, generic)
     _analytic(evidence, list(evidence.finite))
     minor = regular(evidence, claim["minor"])
+    is_here(evidence, minor.point)
     blocks = [evidence.named("covers", name)["blocks"] for name in claim["covers"]]
     if {row for one in blocks for block in one for row in block["rows"]} != set(evidence.finite) or len(blocks) != 1:
         raise CheckError("one cover of all finite relations is needed")

@@ -3,8 +3,8 @@
 A certificate is a JSON object: ``certificate`` (1), ``scene`` (``name``, ``sha256`` of the canonical JSON of the
 scene's document, optionally the ``document``), ``cayley`` (bodies that are read with Cayley parameters where a claim
 says ``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``fields``, ``covers``, ``claims``,
-``uncovered``. A TEXT is an expression in the grammar of scenes (numbers exact); an ID names a relation of the scene (``c4``, ``c4.1``) or a
-step. Steps, points, minors and fields are looked at only where a claim uses them.
+``uncovered``. A TEXT is an expression in the grammar of scenes (numbers exact); an ID names a relation of the scene
+(``c4``, ``c4.1``) or a step. Steps, points, minors and fields are looked at only where a claim uses them.
 
 STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of the scene and of steps before it).
 "Needs" is asked at the point of the claim that uses the step, or of the reason ``nonzero``, where that is given.
@@ -47,9 +47,9 @@ be made from a minor: ``{"id", "cramer": {"rows": [ID], "columns": [coordinate],
 A WORD is a list of ids of fields: [A, B, C] is [[A, B], C].
 
 COVERS ``{"id", "minor", "blocks": [{"rows": [ID], "fields": [id], "columns": [coordinate]}]}``: blocks of finite
-relations of the scene, with fields that keep them (tangent identically, without t; columns: a minor of the fields at the
-minor's point). Sum over blocks of (coordinates that occur less fields, at most the rows) = rows of the minor. Then all
-rows of the blocks follow from those of the minor near its point. A claim of any rule names them in ``covers`` [id].
+relations of the scene, with fields that keep them (tangent identically, without t; columns: a minor of the fields at
+the minor's point). Sum over blocks of (coordinates that occur less fields, at most the rows) = rows of the minor. Then
+all rows of the blocks follow from those of the minor near its point. Any claim may name them in ``covers`` [id].
 
 BOUNDS of dof (``most`` and ``least`` of squeeze), and of velocity_dof:
 
@@ -64,8 +64,9 @@ frobenius   minor, fields [id], columns [coordinate       most n - rows of dof: 
 regular     minor                                         least n - rows: all relations are rows or follow from rows
                                                           by steps (implied, branch, sos, factor, square)
 family      at, parameters [u], values {u: TEXT},         least the number of u: q(u) meets all relations identically
-            q {coordinate: TEXT}, columns [coordinate]    and is the point at ``values``; minor of dq/du. No
-                                                          velocity relations
+            q {coordinate: TEXT}, columns [coordinate]    (also in parameters, generic lengths and functions) and is
+                                                          the point at ``values``; minor of dq/du. No velocity
+                                                          relations
 span        at, fields [id], rows [ID], words [WORD],     least the words (less 1 where a field moves t): fields
             columns [coordinate or t]                     tangent to rows identically, rows account for all
                                                           relations; the words' columns are independent
@@ -82,7 +83,10 @@ NAME is a constraint's name, with ``~1`` for ``/`` and ``~0`` for ``~``.
 path                                    rule           fields
 ======================================= ============== ==========================================================
 /consistent true                        point          at; all relations hold; at rest, for all t. ``inequalities``
-                                                       {NAME or ID: POINT}: each holds at a point by itself
+                                                       {NAME or ID: POINT}: each holds at a point by itself. Where
+                                                       parameters or functions occur in finite relations (but for
+                                                       a generic symbol of its own): minor as well, whose rows
+                                                       account for the finite relations
 /consistent true                        regular        minor, inequalities: a motion through the point
 /consistent true                        motion         q {coordinate: TEXT in t and parameters}, at (values of t and
                                                        parameters), inequalities
@@ -157,7 +161,8 @@ path                                    rule           fields
                                                        factor * form, factor TEXT. In the system: step ID of the
                                                        integral, and NAME's relation follows from its rate
 .../circuit                             cofactors      at (a point of all); minimal {NAME: {"at": POINT} where the
-                                                       others hold and the constraint does not, or {"minor"}: rows of
+                                                       others hold and the constraint does not (all finite, without
+                                                       parameters), or {"minor"}: rows of
                                                        the other members that account for them, and one of its own}
 .../independent                         independent    minor: rows of constraints up to this; those before follow from
                                                        rows before, and its own from all rows

@@ -74,6 +74,14 @@ class CheckedTexts:
             raise CheckError("a coefficient of a sum of squares is negative")
         return add(*(times(self.text(c), self.text(a), self.text(a)) for c, a in terms))
 
+    def is_open(self, tree: Tree) -> bool:
+        """Whether parameters, generic lengths or unknown functions occur, for which a point chooses values.
+
+        A claim is about almost all of them: what holds for the chosen ones has to hold for those near them.
+        """
+        chosen = {*self.problem.parameters, *self.problem.generic}
+        return not chosen.isdisjoint(symbols_in(tree)) or "apply" in heads_in(tree)
+
     def has_velocities(self, tree: Tree) -> bool:
         """Whether a velocity occurs."""
         return not self.velocities.isdisjoint(symbols_in(tree))

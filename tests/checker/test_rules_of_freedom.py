@@ -19,7 +19,7 @@ LOWEST = {"id": "m", "at": "P", "rows": ["c1"], "columns": ["y_A"]}
 SWING = {"points": [DOWN], "minors": [LOWEST]}
 REGULAR = {"path": "/dof", "value": 1, "rule": "regular", "minor": "m", "about": "component"}
 SWINGS = [
-    {"path": "/consistent", "value": True, "rule": "point", "at": "P"},
+    {"path": "/consistent", "value": True, "rule": "point", "at": "P", "minor": "m"},
     REGULAR,
     {"path": "/velocity_dof", "value": 1, "rule": "count"},
     {"path": "/constraints/c1/holonomic", "value": True, "rule": "finite"},
@@ -218,6 +218,53 @@ def test_rows_that_do_not_account_for_a_relation_are_no_regular_point():
     assert not accepted(CRANKS, [cranked({"rule": "regular", "minor": "m"})], **CRANKED)
     plain = {"path": "/dof", "value": 1, "rule": "regular", "minor": "m", "about": "reference"}
     assert not accepted(CRANKS, [plain], **CRANKED)
+
+
+def test_values_that_are_chosen_for_parameters_are_not_special():
+    scene = {"coordinates": ["x", "y"], "parameters": {"a": "real"}, "constraints": ["a*x = 0"]}
+    parts = {
+        "points": [{"id": "P", "values": {"x": "0", "y": "0", "a": "0"}}],
+        "minors": [{"id": "0", "at": "P", "rows": [], "columns": []}],
+    }
+    family = {**FAMILY, "parameters": ["u", "w"], "values": {"u": "0", "w": "0"}, "q": {"x": "u", "y": "w"}}
+    claim = {
+        **cranked({**family, "columns": ["x", "y"]}, 2),
+        "about": "component",
+        "most": {"rule": "minor", "minor": "0"},
+    }
+    assert not accepted(scene, [claim], **parts)
+    assert accepted({**scene, "constraints": []}, [claim], **parts)
+    own = {
+        **family,
+        "parameters": ["a", "w"],
+        "values": {"a": "0", "w": "0"},
+        "q": {"x": "0", "y": "w"},
+        "columns": ["y", "x"],
+    }
+    assert not accepted({**scene, "constraints": ["x = a"]}, [{**claim, "least": own}], **parts)
+    twice = {**scene, "constraints": ["x = a", "x = 0"]}
+    rest = {"path": "/consistent", "value": True, "rule": "point", "at": "P"}
+    assert not accepted(twice, [rest], **parts)
+    one = {**parts, "minors": [{"id": "m", "at": "P", "rows": ["c1"], "columns": ["x"]}]}
+    assert not accepted(twice, [{**rest, "minor": "m"}], **one)
+    assert accepted({**scene, "constraints": ["x = a"]}, [{**rest, "minor": "m"}], **one)
+    assert not accepted({**scene, "constraints": ["xdot = a"]}, [rest], **parts)
+    assert not accepted({**scene, "constraints": ["x^2 + a^2 <= 0"]}, [rest], **parts)
+    moving = {"path": "/consistent", "value": True, "rule": "motion", "q": {"x": "0", "y": "0"}, "at": "P"}
+    timed = {**parts, "points": [{"id": "P", "values": {"a": "0", "t": "0"}}]}
+    assert not accepted({**scene, "constraints": ["xdot = a"]}, [moving], **timed)
+    assert accepted({**scene, "constraints": ["xdot = a"]}, [{**moving, "q": {"x": "a*t", "y": "0"}}], **timed)
+
+
+def test_an_isolated_configuration_is_no_place_for_a_claim_about_everywhere():
+    curve = {"coordinates": ["x", "y"], "constraints": ["y^2 = x^2*(x - 1)"]}
+    parts = {
+        "points": [{"id": "P", "values": {"x": "2", "y": "2"}}],
+        "minors": [{"id": "m", "at": "P", "rows": ["c1"], "columns": ["y"]}],
+    }
+    claim = {"path": "/dof", "value": 1, "rule": "one relation", "about": "everywhere", "minor": "m"}
+    assert accepted(curve, [claim], **parts)
+    assert not accepted({**curve, "configuration": {"x": 0, "y": 0}}, [claim], **parts)
 
 
 HEISENBERG: dict[str, Any] = {"coordinates": ["x", "y", "z"], "constraints": ["dz = y dx"]}
