@@ -9,7 +9,6 @@ In the order in which one meets them:
 - `load`, `loads`: a scene from a file, a catalog name, a mapping or a text; `catalog_names`, `catalog_text`: the
   scenes that come with dofkit; `Scene`: what is read.
 - `classify`: everything that is asked of a scene, as a `Report`; `ask`: one question; `derived_flag`: ranks of forms.
-- `verify`: rechecks the certificate of a report by a second, small program.
 - `verify`: a second program rechecks the evidence of a report (`classify(scene, certificate=True)`).
 - `lagrange`: equations of motion; `configurations`: points along a motion.
 - `linkage`, `redundant_links`: graphs of links in general position, without a scene, as a `Linkage`.
@@ -30,7 +29,6 @@ if TYPE_CHECKING:
     from dofkit.homework.grading import grade
     from dofkit.methods.ask import ask
     from dofkit.methods.certificates.verifying import verify
-    from dofkit.methods.certificates.certified import verify
     from dofkit.methods.classify import classify, derived_flag
     from dofkit.mobility.graph.answers import Linkage, linkage, redundant_links
     from dofkit.motion.lagrange.equations import lagrange
@@ -43,7 +41,6 @@ __all__ = ["load", "loads"]
 __all__ += ["catalog_names", "catalog_text"]
 __all__ += ["Scene", "classify"]
 __all__ += ["Report", "ask", "derived_flag"]
-__all__ += ["verify"]
 __all__ += ["verify"]
 __all__ += ["lagrange"]
 __all__ += ["configurations"]
@@ -65,7 +62,6 @@ _HOMES = {
     "ask": "dofkit.methods.ask",
     "derived_flag": "dofkit.methods.classify",
     "verify": "dofkit.methods.certificates.verifying",
-    "verify": "dofkit.methods.certificates.certified",
     "lagrange": "dofkit.motion.lagrange.equations",
     "configurations": "dofkit.motion.sampled.configurations",
     "linkage": "dofkit.mobility.graph.answers",

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dofkit.base.arguments import require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
+from dofkit.base.errors import ArgumentError
+from dofkit.base.surface import handed_on
 from dofkit.classification.study import study
 from dofkit.exact.points.balls import precise_for
-from dofkit.methods.certificates.lowering import with_certificate
 from dofkit.methods.in_worker import in_worker
 from dofkit.methods.names import MethodName
 from dofkit.methods.stages import classified
@@ -43,8 +44,17 @@ def classify(
     """
     require_one_of(method, METHODS, "method")
     given = scene_or_system(scene)
+    if certificate and isinstance(given, System):
+        raise ArgumentError("a certificate is of a scene: a System has no text that could be read again")
     report = _classified(given, budget, method)
-    return with_certificate(given, report) if certificate and isinstance(given, Scene) else report
+    return _with_certificate(given, report) if certificate and isinstance(given, Scene) else report
+
+
+def _with_certificate(scene: Scene, report: Report) -> Report:
+    """What makes certificates is imported where one is asked for."""
+    homes = {"with_certificate": "dofkit.methods.certificates.lowering"}
+    report = handed_on(__name__, homes, "with_certificate")(scene, report)
+    return report
 
 
 def _classified(given: Scene | System, budget: float | None, method: MethodName) -> Report:

@@ -1,31 +1,57 @@
-"""The door of the checker for scenes of every kind: `verify`."""
+"""A certificate verified: the scene is taken in any of the ways a door does, and read again by the checker alone."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
+from dofkit.base.arguments import description_of
+from dofkit.base.errors import ArgumentError
 from dofkit.checker import Verification
-from dofkit.checker import verify as verify_document
+from dofkit.checker import verify as rechecked
+from dofkit.checker.document import exact_document
 from dofkit.methods.certificates.lowering import document_of_scene
-from dofkit.scene.reading import SceneLike, scene_or_system
+from dofkit.scene.reading import SceneLike, find
 from dofkit.scene.scene import Scene
 
+Given = Mapping[str, Any] | str | bytes | os.PathLike[str]
 
-def verify(scene: SceneLike | None, certificate: Mapping[str, Any] | str | bytes) -> Verification:
-    """Recheck a certificate of a scene, claim by claim, by a program that shares nothing with `classify`.
+
+def verify(scene: SceneLike | None, certificate: Given) -> Verification:
+    """Recheck every claim of a certificate by a second program, which shares nothing with the engines.
 
     ``scene``: a Scene, a path, a catalog name or a mapping; None: the scene in the certificate. ``certificate``: a
-    mapping or its JSON. Returns a Verification: how many ``claims`` there are and how many are ``verified``, what
-    ``failed`` and why, and what is ``uncovered``. Raises `dofkit.checker.CheckError` where it cannot be read, or is of
-    another scene.
+    mapping, a path, or JSON. Returns how many of how many claims were verified, which failed and why, and what the
+    certificate leaves uncovered. Raises `SceneError` where there is no such scene, `ArgumentError` for what is no
+    certificate, and ``CheckError``, a ValueError, where the scene or the certificate cannot be read, or the certificate
+    is of another scene.
 
     >>> import dofkit
-    >>> certificate = dofkit.classify("four-bar-linkage", certificate=True).certificate
-    >>> dofkit.verify("four-bar-linkage", certificate).failed
+    >>> report = dofkit.classify("four-bar-linkage", certificate=True)
+    >>> dofkit.verify("four-bar-linkage", report.certificate).failed
     []
     """
+    return rechecked(_written(scene), _text_of(certificate))
+
+
+def _written(scene: SceneLike | None) -> Mapping[str, Any] | str | None:
     if scene is None:
-        return verify_document(None, certificate)
-    given = scene_or_system(scene)
-    return verify_document(document_of_scene(given) if isinstance(given, Scene) else None, certificate)
+        return None
+    if isinstance(scene, Scene):
+        return exact_document(document_of_scene(scene))
+    if isinstance(scene, Mapping):
+        return exact_document(scene)
+    data = find(scene).data
+    return data if isinstance(data, str) else data.decode("utf-8")
+
+
+def _text_of(certificate: Given) -> Mapping[str, Any] | str | bytes:
+    if isinstance(certificate, Mapping | bytes):
+        return certificate
+    if isinstance(certificate, os.PathLike) or (isinstance(certificate, str) and not certificate.lstrip()[:1] == "{"):
+        return Path(certificate).read_bytes()
+    if not isinstance(certificate, str):
+        raise ArgumentError(f"a certificate is a mapping, a path or JSON, not {description_of(certificate)}")
+    return certificate
