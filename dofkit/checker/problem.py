@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, Literal
 
 from dofkit.checker import equations, joints, links, places
@@ -174,7 +175,7 @@ class _Reading:
         relations = tuple(self._relations(world))
         taken = {*self.coordinates, *self.names.values, *self.names.functions}
         if not taken.isdisjoint(world.generic) or len({one.name for one in relations}) < len(relations):
-            raise CheckError("a name is that of a generic symbol, or a constraint's name is given twice")
+            raise CheckError("a name is that of a generic symbol, or relations have one name")
         tolerance = value_text(self.scene.get("tolerance"))
         return Problem(
             name=str(self.scene.get("name", "scene")),
@@ -205,7 +206,7 @@ class _Reading:
 
     def _relations(self, world: Surroundings) -> Iterator[CheckedRelation]:
         rates = {f"{q}dot" for q in self.coordinates} | {"tdot"}
-        total = 0
+        total, used = 0, set[str]()
         for world.index, written in enumerate(self.scene.get("constraints", []), 1):
             entry = {"type": "equation", **({"text": written} if isinstance(written, str) else written)}
             read, fields, dimensions = TYPES[entry["type"]]
@@ -213,10 +214,12 @@ class _Reading:
             if str(self.dimension) not in dimensions:
                 raise CheckError(f"a constraint of type {entry['type']} is not defined in dimension {self.dimension}")
             owner = str(entry.get("name") or f"c{world.index}")
-            found = [one if isinstance(one, Sided) else Sided(one) for one in read(world, entry)]
+            first = islice(read(world, entry), MOST_RELATIONS - total + 1)
+            found = [one if isinstance(one, Sided) else Sided(one) for one in first]
             total += len(found)
-            if total > MOST_RELATIONS:
-                raise CheckError("there are too many relations")
+            if total > MOST_RELATIONS or owner in used:
+                raise CheckError(f"'{owner}' is the name of two constraints, or there are too many relations")
+            used.add(owner)
             for place, one in enumerate(found, 1):
                 moving = not symbols_in(one.tree).isdisjoint(rates)
                 kind: Kind = "inequality" if one.sign != "=" else "velocity" if moving else "finite"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -25,7 +26,7 @@ class Surroundings:
 
     ``names``: what texts may mention; ``signs``: of the parameters that stay symbols. ``generic`` grows by a symbol for
     each length or component that was left out; ``drawn`` by the bodies that the drawing places, ``welded`` by pairs.
-    ``index``: the place of the constraint that is read, from 1.
+    ``index``: the place of the constraint that is read, from 1; ``made``: how many symbols of a stem it made.
     """
 
     dimension: int
@@ -37,6 +38,7 @@ class Surroundings:
     drawn: set[str] = field(default_factory=set)
     welded: list[tuple[str, str]] = field(default_factory=list)
     index: int = 0
+    made: Counter[tuple[str, int]] = field(default_factory=Counter)
 
     def expression(self, value: object, allowed: frozenset[str] = frozenset()) -> Tree:
         """A number or text that mentions parameters, and what is ``allowed`` besides."""
@@ -54,8 +56,9 @@ class Surroundings:
 
     def fresh(self, stem: str) -> Tree:
         """A new generic symbol, named by the constraint it belongs to."""
-        count = sum(name.startswith(f"{stem}_c{self.index}") for name in self.generic[-4000:])
-        self.generic.append(f"{stem}_c{self.index}" + (f"_{count + 1}" if count else ""))
+        self.made[stem, self.index] += 1
+        count = self.made[stem, self.index]
+        self.generic.append(f"{stem}_c{self.index}" + (f"_{count}" if count > 1 else ""))
         return symbol(self.generic[-1])
 
     def place(self, values: object) -> Vector:

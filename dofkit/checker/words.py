@@ -102,8 +102,8 @@ class KnownNames:
 
     def parts(self, word: str) -> tuple[Meaning, ...]:
         """The factors of a word."""
-        if len(word) > LONGEST_NAME or len(self.remembered) > 20_000:
-            raise CheckError(f"`{word[:20]}...` is too long, or there are too many words")
+        if len(word) > LONGEST_NAME:
+            raise CheckError(f"a name of {len(word)} letters is too long")
         if word not in self.remembered:
             whole = self.meaning(word)
             self.remembered[word] = (whole,) if whole else self._split(word)

@@ -188,7 +188,7 @@ MISTAKEN: dict[str, str] = {
     "a greek twin": "coordinates: [θ, theta]",
     "a reserved name": "coordinates: [t]",
     "a generic name": "coordinates: [square_c1]\nparticles: [A, B]\nconstraints: [{type: link, between: [A, B]}]",
-    "a constraint's name given twice": "coordinates: [x]\nconstraints: [{name: c2, text: x}, x = 1]",
+    "two constraints of one name": "coordinates: [x]\nconstraints: [{name: c2, type: equation, text: x}, 0 <= x < 1]",
     "finite terms and differentials": "coordinates: [x]\nconstraints: [dx + x = 0]",
     "a second derivative": "coordinates: [x]\nconstraints: [xddot = 0]",
     "a zero direction": "bodies: [A]\nconstraints: [{type: prismatic, between: [ground, A], axis: [0, 0, 0]}]",
