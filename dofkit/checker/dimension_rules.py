@@ -191,12 +191,15 @@ def _cover(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
 
 def take_cover(evidence: CheckedEvidence, name: Any) -> None:
     """Near the point the rows of a cover follow from those of its minor."""
+    if name in evidence.taken:
+        return
     given = evidence.named("covers", name)
     minor = _constant_rank(evidence, given)
+    evidence.taken.add(name)
     for block in given["blocks"]:
         for row in block["rows"]:
             follows = Consequence(row, minor.rows, (), (), minor.point.name)
-            if row not in minor.rows and follows not in evidence.consequences:
+            if row not in minor.rows:
                 evidence.consequences.append(follows)
 
 

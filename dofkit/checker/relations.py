@@ -35,6 +35,8 @@ class CheckedRelations(CheckedTexts):
         self.faults: dict[str, str] = {}
         self.met: dict[tuple[int, str], bool] = {}
         self.slopes: dict[tuple[str, str], Tree] = {}
+        self.linear: dict[str, bool] = {}
+        self.taken: set[str] = set()
         self._take_steps()
 
     def _take_steps(self) -> None:
@@ -125,9 +127,11 @@ class CheckedRelations(CheckedTexts):
 
     def is_linear(self, name: str) -> bool:
         """Whether a relation is finite, or a linear form in the velocities (dt included)."""
-        left = self.relation(name).left
-        if self.relation(name).kind != "velocity":
-            return True
+        if name not in self.linear:
+            self.linear[name] = self.relation(name).kind != "velocity" or self._is_form(self.relation(name).left)
+        return self.linear[name]
+
+    def _is_form(self, left: Tree) -> bool:
         slopes = [(v, derivative(left, v)) for v in sorted(self.velocities & symbols_in(left))]
         if any(self.has_velocities(slope) for _, slope in slopes):
             return False

@@ -13,7 +13,7 @@ from dofkit.checker.effort import Effort
 from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.format import PARTS, certificate_of
-from dofkit.checker.problem import read_problem
+from dofkit.checker.problem import Problem, read_problem
 from dofkit.checker.relations import FAULTS, told
 
 Rule = Callable[[CheckedEvidence, dict[str, Any]], object]
@@ -100,11 +100,11 @@ def verify(scene: Mapping[str, Any] | str | None, certificate: Mapping[str, Any]
 class Verifier:
     """One certificate while it is verified."""
 
-    def __init__(self, document: Mapping[str, Any], given: dict[str, Any]) -> None:
+    def __init__(self, document: Mapping[str, Any], given: dict[str, Any], problem: Problem | None = None) -> None:
         self.document, self.given, self.effort = document, given, Effort()
         if given.get("scene", {}).get("sha256") != sha256_of(document):
             raise CheckError("the certificate is of another scene, or of this one before it was edited")
-        self.problem = read_problem(document)
+        self.problem = problem or read_problem(document)
         if self.problem.tolerance is not None:
             raise CheckError("what is measured up to a tolerance is not proved")
         self.evidences: dict[bool, CheckedEvidence] = {}
