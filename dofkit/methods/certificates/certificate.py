@@ -133,10 +133,8 @@ def _without_spare_parts(found: dict[str, Any]) -> dict[str, Any]:
     for part in ("covers", "minors", "fields", "points"):
         found[part] = [one for one in found[part] if one["id"] in used]
         used |= _texts_in(found[part])
-    wanted = True
     kept: set[str] = set()
-    while wanted:
-        wanted = [one for one in found["relations"] if one["id"] not in kept and _needed(one, used)]
+    while wanted := [one for one in found["relations"] if one["id"] not in kept and _needed(one, used)]:
         kept |= {one["id"] for one in wanted}
         used |= _texts_in(wanted)
     found["relations"] = [one for one in found["relations"] if one["id"] in kept]

@@ -59,7 +59,7 @@ def constant_cofactors(scenery: Scenery, name: str, rows: Sequence[str]) -> dict
     return {rows[i - 1]: value for i, value in zip(used[1:], found, strict=True) if value}
 
 
-def solution(matrix: Sequence[Sequence[object]], right: Sequence[object]) -> list[Fraction] | None:
+def solution(matrix: Sequence[Sequence[fmpq]], right: Sequence[fmpq]) -> list[Fraction] | None:
     """One solution of linear equations over the rationals; None where there is none."""
     if not matrix:
         return []

@@ -23,7 +23,7 @@ def everywhere(room: Room) -> Iterator[Told]:
         yield found
     own = own_symbols(room)
     if not standing.dependent:
-        for tried, rest in ((order, left), ([], list(evidence.finite))):
+        for tried, rest in ((order, left), given_first(room), ([], list(evidence.finite))):
             blocks, generic = _split(room, tried, rest, own)
             if all(name in own for name in generic):
                 pairs = [[name, own[name]] for name in generic]
@@ -60,6 +60,21 @@ def graph_order(room: Room) -> tuple[Order, list[str]]:
     return order, left
 
 
+def given_first(room: Room) -> tuple[Order, list[str]]:
+    """Relations that give a coordinate which those chosen before do not hold, short ones first; and the others."""
+    evidence = room.scenery.evidence
+    coordinates = room.problem.coordinates
+    held = {name: symbols_in(evidence.relation(name).left) & set(coordinates) for name in evidence.finite}
+    order: Order = []
+    taken: set[str] = set()
+    for name in sorted(held, key=lambda one: len(held[one])):
+        fit = [q for q in coordinates if q in held[name] and q not in taken and _gives(room, name, q)]
+        if fit:
+            order.append([name, fit[0]])
+            taken |= held[name]
+    return order, [name for name in evidence.finite if all(name != chosen for chosen, _ in order)]
+
+
 def _gives(room: Room, name: str, q: str) -> bool:
     evidence = room.scenery.evidence
     try:
@@ -72,7 +87,7 @@ def own_symbols(room: Room) -> dict[str, str]:
     """For each relation a generic symbol or parameter that occurs in no other."""
     relations = room.problem.relations
     held = {one.name: symbols_in(one.left) for one in relations}
-    found = {}
+    found: dict[str, str] = {}
     for one in relations:
         for symbol in (*room.problem.generic, *room.problem.parameters):
             if symbol in held[one.name] and not any(symbol in held[other] for other in held if other != one.name):

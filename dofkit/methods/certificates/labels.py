@@ -163,7 +163,9 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
         yield {"rule": "exact"}
         return
     names, point = room.scenery.evidence.owned(entry.name, ("velocity",)), room.point
-    for name in names if point is not None else ():
+    if point is None:
+        return
+    for name in names:
         form = room.form(name) or {}
         for i, j in combinations([v for v in room.scenery.evidence.variables if v in room.met(form)], 2):
             if room.differs(curl(form, i, j), point):

@@ -147,6 +147,7 @@ class PointSearch:
         """Gauss and Newton's method from a start."""
         floats = self._with_generic(floats_of(start), names)
         for _ in range(ITERATIONS):
+            self.scenery.effort.spend(40 * len(names) * (1 + len(names)))
             estimates = Estimates(floats)
             pairs = [estimates.of(self.scenery.left(name)) for name in names]
             if max((abs(value) for value, _ in pairs), default=0.0) < 1e-13:

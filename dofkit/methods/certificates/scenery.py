@@ -28,7 +28,8 @@ class Scenery:
     def __init__(self, problem: Problem, cayley: bool, parts: dict[str, list[dict[str, Any]]]) -> None:
         self.problem, self.cayley, self.parts = problem, cayley, parts
         self.effort = Effort(WORK)
-        self.evidence = CheckedEvidence(problem, dict(parts), self.effort)
+        self._view = dict(parts)
+        self.evidence = CheckedEvidence(problem, self._view, self.effort)
         self._prepared: dict[str, Tree] = {}
 
     @property
@@ -86,13 +87,12 @@ class Scenery:
     def add_step(self, step: dict[str, Any]) -> None:
         """A further step, if it stands up; `CheckError` where it does not."""
         before = dict(self.evidence.known), list(self.evidence.consequences)
-        view = self.evidence.parts
-        view["relations"] = [step]
+        self._view["relations"] = [step]
         self.evidence.faults.pop(step["id"], None)
         try:
             self.evidence._take_steps()
         finally:
-            view["relations"] = self.parts["relations"]
+            self._view["relations"] = self.parts["relations"]
         if step["id"] in self.evidence.faults:
             self.evidence.known, self.evidence.consequences = before
             raise CheckError(self.evidence.faults[step["id"]])
