@@ -137,7 +137,8 @@ class Verifier:
                 failed.append({"path": path, "rule": rule, "why": told(error)})
             seen.add(path)
         count = len(self.given["claims"])
-        return Verification(self.problem.name, count, count - len(failed), failed, list(self.given["uncovered"]))
+        name = str(self.given["scene"].get("name", self.problem.name))[:200]
+        return Verification(name, count, count - len(failed), failed, list(self.given["uncovered"]))
 
     def check(self, claim: dict[str, Any]) -> None:
         """`CheckError` unless the claim is shown; what was verified before may be used."""

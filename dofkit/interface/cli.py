@@ -65,13 +65,15 @@ def classify(
     as_json: options.AsJson = False,
     budget: options.Budget = None,
     method: options.Method = "auto",
+    certificate: options.CertificatePath = None,
 ) -> None:
     """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
     from dofkit.interface.supervised import reports
 
     if budget is not None and math.isnan(budget):
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
-    _print(reports(files, budget, cast("MethodName", method), as_json))
+    place = None if certificate is None else str(certificate)
+    _print(reports(files, budget, cast("MethodName", method), as_json, place))
 
 
 @app.command()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
 from typing import Any
 
 from dofkit.base.documents import Document
@@ -13,6 +14,7 @@ from dofkit.base.workers import Json
 from dofkit.classification.undecided import undecided
 from dofkit.interface import show
 from dofkit.interface.supervised import STDIN, Cut, Given
+from dofkit.methods.classify import with_certificate
 from dofkit.methods.stages import stages
 from dofkit.motion import lagrange
 from dofkit.report import Report
@@ -61,7 +63,22 @@ def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
     reports = stages(scene, given.budget, given.method)
     first = next(reports)
     yield {"report": first.model_dump(mode="json"), "title": scene.title}
-    yield _streams(_report_text(next(reports, first), scene.title, given))
+    report = next(reports, first)
+    if given.certificate is not None:
+        report = _written_certificate(scene, report, given.certificate)
+    yield _streams(_report_text(report, scene.title, given))
+
+
+def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
+    """The report with its certificate, which is written to a path; folders on the way are made."""
+    report = with_certificate(scene, report)
+    place = Path(path)
+    try:
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(json.dumps(report.certificate, ensure_ascii=False) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise DofkitError(f"the certificate cannot be written to '{path}': {error.strerror or error}") from None
+    return report
 
 
 def _equations(scene: Scene, given: Given) -> Iterator[Json]:

@@ -23,6 +23,8 @@ from dofkit.methods.names import MethodName
 STDIN = "stdin"
 #: Seconds for what is printed where a scene's own worker was killed.
 TELLING_SECONDS = 10.0
+#: With its certificate a report may take so many times as long.
+CERTIFICATE_SHARE = 3
 #: The exit status of a certificate that could not be looked at.
 UNREAD = 2
 #: What the worker does is in this module, which it imports itself.
@@ -35,7 +37,7 @@ class Given:
 
     ``data``: its bytes where they were read already; ``budget``: seconds for the scene, ``method``: how to answer;
     ``linearize``: small motions too; ``as_json`` and then ``ascii_only``, or as text for a terminal of a width and a
-    set of colours (None: for ours).
+    set of colours (None: for ours). ``certificate``: where its certificate is written, None for none.
     """
 
     file: str
@@ -46,6 +48,7 @@ class Given:
     ascii_only: bool = False
     terminal: tuple[int, str | None] | None = None
     data: bytes | None = None
+    certificate: str | None = None
 
     @property
     def name(self) -> str:
@@ -82,12 +85,28 @@ class Printed(NamedTuple):
     failed: bool
 
 
-def reports(files: Sequence[str], budget: float | None, method: MethodName, as_json: bool) -> Generator[Printed]:
-    """What is printed of the report on each file, in their order."""
+def reports(
+    files: Sequence[str], budget: float | None, method: MethodName, as_json: bool, certificate: str | None = None
+) -> Generator[Printed]:
+    """What is printed of the report on each file, in their order.
+
+    ``certificate``: where the certificate of a file is written; a folder for those of several files.
+    """
     seconds = DEFAULT_SECONDS if budget is None else budget
     own = None if can_fork() or as_json else _terminal()
     given = Given("", seconds, method, as_json, ascii_only=_ascii_only(), terminal=own)
-    return _answers(files, given, _report, (ONE_FILE,))
+    return _answers(files, given, _report, (ONE_FILE,), _places(files, certificate))
+
+
+def _places(files: Sequence[str], certificate: str | None) -> list[str | None]:
+    """Where the certificate of each file is written: in a folder by its name, numbered where another has it."""
+    if certificate is None:
+        return [None] * len(files)
+    if len(files) == 1 and not os.path.isdir(certificate):
+        return [certificate]
+    names = [Given(file, 0.0, "auto", False).name for file in files]
+    told = [name if names.index(name) == k else f"{name}-{names[:k].count(name) + 1}" for k, name in enumerate(names)]
+    return [os.path.join(certificate, f"{name}.json") for name in told]
 
 
 def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[Printed]:
@@ -112,19 +131,24 @@ def verification(given: CertificateGiven) -> tuple[str, str, int]:
 
 
 def _answers(
-    files: Sequence[str], given: Given, ask: Callable[[Worker, Given], Printed], modules: Sequence[str]
+    files: Sequence[str],
+    given: Given,
+    ask: Callable[[Worker, Given], Printed],
+    modules: Sequence[str],
+    places: Sequence[str | None] = (),
 ) -> Generator[Printed]:
     worker = Worker(modules=modules, fork=can_fork())
     try:
-        for file in files:
-            yield ask(worker, replace(given, file=file, data=_data(file)))
+        for file, place in zip(files, places or [None] * len(files), strict=True):
+            yield ask(worker, replace(given, file=file, data=_data(file), certificate=place))
     finally:
         worker.kill()
 
 
 def _report(worker: Worker, given: Given) -> Printed:
     reading = limit(max(given.budget, DEFAULT_SECONDS))
-    outcome = worker.run(Job("dofkit.interface.one_file:report_lines", given, limit(given.budget), reading))
+    seconds = limit(given.budget) * (1 if given.certificate is None else CERTIFICATE_SHARE)
+    outcome = worker.run(Job("dofkit.interface.one_file:report_lines", given, seconds, reading))
     if not outcome.finished:
         cut = Cut(given, outcome.value, outcome.reason)
         outcome = worker.run(Job("dofkit.interface.one_file:cut_lines", cut, TELLING_SECONDS))

@@ -47,14 +47,17 @@ def classify(
     if certificate and isinstance(given, System):
         raise ArgumentError("a certificate is of a scene: a System has no text that could be read again")
     report = _classified(given, budget, method)
-    return _with_certificate(given, report) if certificate and isinstance(given, Scene) else report
+    return with_certificate(given, report) if certificate and isinstance(given, Scene) else report
 
 
-def _with_certificate(scene: Scene, report: Report) -> Report:
-    """What makes certificates is imported where one is asked for."""
+def with_certificate(scene: Scene, report: Report) -> Report:
+    """The report with its certificate; what a second program finds otherwise is undecided.
+
+    What makes certificates is imported where one is asked for.
+    """
     homes = {"with_certificate": "dofkit.methods.certificates.lowering"}
-    report = handed_on(__name__, homes, "with_certificate")(scene, report)
-    return report
+    certified: Report = handed_on(__name__, homes, "with_certificate")(scene, report)
+    return certified
 
 
 def _classified(given: Scene | System, budget: float | None, method: MethodName) -> Report:

@@ -1,0 +1,122 @@
+"""Certificates on the command line: written by `classify`, rechecked by `verify`, with a status for each outcome."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import dofkit
+from dofkit.interface import cli
+
+
+def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    """Run in this process: exit status, standard output, standard error."""
+    status = 0
+    try:
+        cli.app(list(arguments))
+    except SystemExit as stop:
+        status = stop.code if isinstance(stop.code, int) else 0
+    told = capsys.readouterr()
+    return status, told.out, told.err
+
+
+@pytest.fixture
+def made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> dict[str, Any]:
+    """A pendulum's certificate, and where it is."""
+    scene = tmp_path / "pendulum.yaml"
+    scene.write_text("dimension: 2\ncoordinates: [x, y]\nconstraints:\n- x^2 + y^2 = 1\n")
+    place = tmp_path / "why" / "pendulum.json"
+    status, _, err = called(capsys, "classify", str(scene), "--certificate", str(place))
+    assert (status, err) == (0, "")
+    return {"scene": scene, "place": place, "certificate": json.loads(place.read_text())}
+
+
+def test_a_certificate_is_verified_with_its_scene_and_alone(
+    made: dict[str, Any], capsys: pytest.CaptureFixture[str]
+) -> None:
+    for given in ([str(made["scene"]), str(made["place"])], [str(made["place"])]):
+        status, out, err = called(capsys, "verify", "--strict", *given)
+        assert (status, err) == (0, "")
+        assert out.startswith("pendulum: ")
+        assert "claims verified" in out
+    status, out, _ = called(capsys, "verify", "--json", str(made["place"]))
+    told = json.loads(out)
+    assert (status, told["failed"], told["uncovered"]) == (0, [], [])
+    assert told["claims"] == told["verified"] == len(made["certificate"]["claims"])
+
+
+def test_a_false_claim_ends_with_1(made: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:
+    claim = next(c for c in made["certificate"]["claims"] if c["path"] == "/dof")
+    claim["value"] = 2
+    made["place"].write_text(json.dumps(made["certificate"]))
+    status, out, _ = called(capsys, "verify", str(made["scene"]), str(made["place"]))
+    assert status == 1
+    assert "failed     /dof by" in out
+
+
+def test_what_is_uncovered_ends_with_1_where_it_is_strict(
+    made: dict[str, Any], capsys: pytest.CaptureFixture[str]
+) -> None:
+    claims = made["certificate"]["claims"]
+    made["certificate"]["claims"] = [c for c in claims if c["path"] != "/singular"]
+    made["certificate"]["uncovered"].append("/singular")
+    made["place"].write_text(json.dumps(made["certificate"]))
+    assert called(capsys, "verify", str(made["place"]))[0] == 0
+    status, out, _ = called(capsys, "verify", "--strict", str(made["place"]))
+    assert status == 1
+    assert "uncovered  /singular" in out
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"certificate": 2}', "null", '{"certificate": 1, "scene": 5}'])
+def test_what_is_no_certificate_ends_with_2(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    place = tmp_path / "bad.json"
+    place.write_text(text)
+    status, out, err = called(capsys, "verify", str(place))
+    assert (status, out) == (2, "")
+    assert "error" in err
+    status, out, _ = called(capsys, "verify", "--json", str(place))
+    assert status == 2
+    assert json.loads(out)["error"]["message"]
+
+
+def test_another_scene_ends_with_2(made: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:
+    status, _, err = called(capsys, "verify", "four-bar-linkage", str(made["place"]))
+    assert status == 2
+    assert "another scene" in err
+
+
+def test_several_certificates_go_to_a_folder_and_none_hides_another(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "same.yaml").write_text("coordinates: [x, y]\nconstraints:\n- x = y\n")
+    given = [str(tmp_path / folder / "same.yaml") for folder in ("a", "b")]
+    status, _, _ = called(capsys, "classify", *given, "--certificate", str(tmp_path / "out"))
+    assert status == 0
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["same-2.json", "same.json"]
+
+
+def test_a_place_that_cannot_be_written_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "file").write_text("")
+    status, _, err = called(capsys, "classify", "four-bar-linkage", "--certificate", str(tmp_path / "file" / "x.json"))
+    assert status == 2
+    assert "cannot be written" in err
+
+
+def test_the_door_takes_a_scene_in_every_way(tmp_path: Path) -> None:
+    report = dofkit.classify("four-bar-linkage", certificate=True)
+    assert report.certificate is not None
+    place = tmp_path / "c.json"
+    place.write_text(json.dumps(report.certificate))
+    scene = dofkit.load("four-bar-linkage")
+    written = scene.model_dump(mode="json", exclude_unset=True)
+    for given in ("four-bar-linkage", scene, written, None):
+        for certificate in (report.certificate, place, str(place), place.read_text(), place.read_bytes()):
+            found = dofkit.verify(given, certificate)
+            assert (found.failed, found.verified) == ([], found.claims)
+    with pytest.raises(dofkit.DofkitError, match="is a mapping, a path or JSON"):
+        dofkit.verify(scene, 5)  # type: ignore[arg-type]
