@@ -104,7 +104,7 @@ def _guarded(node: Tree, below: list[Any]) -> Any:
 
 def determinant(rows: Sequence[Sequence[Any]], effort: Effort) -> Any:
     """The ball of a determinant."""
-    effort.spend(len(rows) ** 3 + 1)
+    effort.spend(len(rows) ** 3 // 10 + 1)
     with ctx.workprec(PRECISION):
         return arb_mat([list(row) for row in rows]).det() if rows else arb(1)
 
@@ -123,7 +123,7 @@ def krawczyk(
     and it lies in K.
     """
     size = len(unknowns)
-    effort.spend(3 * size**3 + 1)
+    effort.spend(size**3 // 3 + 1)
     with ctx.workprec(PRECISION):
         spread = arb(0, radius)
         middle = {name: ball.mid() for name, ball in zip(unknowns, centre, strict=True)}

@@ -58,6 +58,8 @@ class CheckedEvidence(CheckedRelations):
             raise CheckError("a point gives values to what the scene does not have, or none to a column")
         if len(columns) != len(rows) or len(set(columns)) != len(columns) or len(set(rows)) != len(rows):
             raise CheckError("a box has as many rows as columns, each once")
+        if len(columns) > LARGEST_MINOR:
+            raise CheckError("a box has too many columns")
         values = in_turn({name: self.text(text) for name, text in given["values"].items()})
         functions = {
             name: (tuple(f["arguments"]), self.text(f["text"], f["arguments"]))

@@ -14,9 +14,10 @@ from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.points import CheckedPoint
+from dofkit.checker.texts import size_of
 from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, times
 
-LARGEST_CRAMER, LONGEST_WORD, MOST_FIELDS = 5, 12, 40
+LARGEST_CRAMER, LONGEST_WORD, MOST_FIELDS, LARGEST_FIELD = 5, 12, 40, 20_000
 VelocityField = dict[str, Tree]
 
 
@@ -75,9 +76,18 @@ def of_word(evidence: CheckedEvidence, word: Any) -> VelocityField:
         raise CheckError("a word is a list of fields, not too long")
     found = field_named(evidence, word[0])
     for name in word[1:]:
-        evidence.effort.spend(100)
-        found = bracket(found, field_named(evidence, name))
+        field = field_named(evidence, name)
+        _pay(evidence, found, field)
+        found = bracket(found, field)
     return found
+
+
+def _pay(evidence: CheckedEvidence, first: VelocityField, second: VelocityField) -> None:
+    """A bracket costs the size of its fields; large ones are refused."""
+    sizes = [sum(size_of(tree) for tree in field.values()) for field in (first, second)]
+    evidence.effort.spend(sizes[0] * len(second) + sizes[1] * len(first) + 1)
+    if max(sizes) > LARGEST_FIELD:
+        raise CheckError("a bracket is too large")
 
 
 def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
@@ -150,6 +160,6 @@ def involutive(evidence: CheckedEvidence, given: dict[str, Any], allowed: Iterab
     tangent(evidence, fields, minor.rows)
     for i, first in enumerate(fields):
         for second in fields[:i]:
-            evidence.effort.spend(100)
+            _pay(evidence, first, second)
             tangent(evidence, [bracket(first, second)], minor.rows)
     return minor

@@ -78,13 +78,16 @@ class CheckedRelations(CheckedTexts):
             raise CheckError(self.faults.get(str(name).partition(".")[0], f"no relation `{str(name)[:60]}`"))
         return self.known[name]
 
+    @cached_property
+    def index(self) -> dict[str, dict[str, dict[str, Any]]]:
+        """The entries of every part by their ids."""
+        return {part: {str(one.get("id")): one for one in entries} for part, entries in self.parts.items()}
+
     def named(self, part: str, name: Any) -> dict[str, Any]:
-        """A point, minor or field by its id."""
-        if isinstance(name, str):
-            for one in self.parts[part]:
-                if one.get("id") == name:
-                    return one
-        raise CheckError(f"no such entry of `{part}`: {str(name)[:60]!r}")
+        """A point, minor, field or cover by its id."""
+        if not isinstance(name, str) or name not in self.index[part]:
+            raise CheckError(f"no such entry of `{part}`: {str(name)[:60]!r}")
+        return self.index[part][name]
 
     def closure(self, start: Iterable[str], point: CheckedPoint | None) -> set[str]:
         """All that holds near a point (or, without one, everywhere) where ``start`` does, by the steps."""

@@ -133,6 +133,22 @@ def _parts_have(tree: Tree) -> bool:
     return all(has_value_everywhere(part) for part in tree.below)
 
 
+def nodes_of(tree: Tree) -> dict[int, Tree]:
+    """All nodes of a tree, each once."""
+    found, stack = {}, [tree]
+    while stack:
+        node = stack.pop()
+        if id(node) not in found:
+            found[id(node)] = node
+            stack += node.below
+    return found
+
+
 def heads_in(tree: Tree) -> set[str]:
     """The kinds of nodes that occur in a tree."""
-    return {tree.head}.union(*(heads_in(part) for part in tree.below))
+    return {node.head for node in nodes_of(tree).values()}
+
+
+def size_of(tree: Tree) -> int:
+    """The number of nodes, each counted once."""
+    return len(nodes_of(tree))
