@@ -53,15 +53,13 @@ HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError,
 
 def certificate_of(document: Mapping[str, Any], report: Report) -> dict[str, Any]:
     """The certificate of a report of the scene that a document writes."""
-    return certificate_and_contradictions(document, report)[0]
+    return made(document, report)[0]
 
 
-def certificate_and_contradictions(
-    document: Mapping[str, Any], report: Report
-) -> tuple[dict[str, Any], dict[str, str]]:
-    """The certificate, and the paths of claims that the evidence contradicts, with why."""
+def made(document: Mapping[str, Any], report: Report) -> tuple[dict[str, Any], list[tuple[str, str]]]:
+    """The certificate, of claims that the checker's rules have shown, and what the evidence contradicts, with why."""
     making = Certifying(document, report)
-    return making.written(), making.contradictions
+    return making.written(), list(making.contradictions.items())
 
 
 class Certifying:
@@ -88,16 +86,16 @@ class Certifying:
             self.rooms = []
         for path, value, make in sorted(_asked(self.report), key=lambda asked: asked[0] in LAST):
             claim = self._made(path, value, make)
-            if claim is None:
+            if claim is None and path not in self.contradictions:
                 self.found["uncovered"].append(path)
-            else:
+            elif claim is not None:
                 self.found["claims"].append(claim)
                 self._compare_about(path, claim)
         return _without_spare_parts(self.found)
 
     def _made(self, path: str, value: Any, make: Maker) -> Told | None:
-        """A claim that is shown, or one that the evidence contradicts; None where there is neither."""
-        contradicted = None
+        """A claim that is shown; None where none is. What the evidence contradicts is written down elsewhere."""
+        contradicted = ""
         for room in self.rooms:
             for evidence in _tried(make, room):
                 claim = {"path": path, "value": value, **evidence}
@@ -106,11 +104,11 @@ class Certifying:
                 outcome = self.trial.outcome(claim) if self.trial else "open"
                 if outcome == "shown":
                     return claim
-                if outcome == "contradicted" and contradicted is None:
-                    contradicted = claim
-        if contradicted is not None and self.trial:
-            self.contradictions[path] = self.trial.reasons[path]
-        return contradicted
+                if outcome == "contradicted" and self.trial:
+                    contradicted = contradicted or self.trial.reasons[path]
+        if contradicted:
+            self.contradictions[path] = contradicted
+        return None
 
     def _compare_about(self, path: str, claim: Told) -> None:
         """A number shown near a point only, that is told of everywhere, is uncovered in that."""

@@ -16,6 +16,46 @@ class NoEstimateError(Exception):
     """A tree has no value in floats here."""
 
 
+class Values:
+    """Values alone at one point."""
+
+    def __init__(self, values: Mapping[str, float]) -> None:
+        self.values = values
+        self._done: dict[int, tuple[Tree, float]] = {}
+
+    def of(self, tree: Tree) -> float:
+        """The value; `NoEstimateError` where there is none."""
+        known = self._done.get(id(tree))
+        if known is None:
+            try:
+                known = self._done[id(tree)] = tree, self._read(tree)
+            except (ValueError, OverflowError, ZeroDivisionError, KeyError):
+                raise NoEstimateError(tree.head) from None
+        return known[1]
+
+    def _read(self, tree: Tree) -> float:
+        head = tree.head
+        if isinstance(tree.value, Fraction):
+            return float(tree.value)
+        if head == "symbol":
+            return self.values[str(tree.value)]
+        if head == "pi":
+            return math.pi
+        below = [self.of(part) for part in tree.below]
+        if head == "sum":
+            return sum(below)
+        if head == "product":
+            return math.prod(below)
+        if head == "atan2":
+            return math.atan2(below[0], below[1])
+        if head != "power":
+            return _elementary(head, below[0])[0]
+        found = below[0] ** below[1]
+        if isinstance(found, complex):
+            raise NoEstimateError("power")
+        return float(found)
+
+
 class Estimates:
     """Values and gradients at one point, by every symbol."""
 

@@ -10,7 +10,7 @@ from dofkit.checker.errors import CheckError
 from dofkit.checker.fields import LARGEST_CRAMER, VelocityField, bracket, field_named
 from dofkit.checker.trees import Tree
 from dofkit.methods.certificates.elimination import echelon
-from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
+from dofkit.methods.certificates.estimates import Estimates, NoEstimateError, Values
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.rigid_fields import field_id, parts_of
 from dofkit.methods.certificates.room import Room, Standing, Told
@@ -71,7 +71,7 @@ def words_of(room: Room, standing: Standing, most: int) -> Words | None:
 
 
 def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Words:
-    estimates = Estimates(standing.point.floats)
+    estimates = Values(standing.point.floats)
     chosen = room.scenery.chosen
     bases: dict[str, VelocityField] = {
         one: {q: chosen(tree) for q, tree in field_named(room.scenery.evidence, one).items()} for one in fields
@@ -84,7 +84,7 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
     for _ in range(LONGEST):
         fresh = []
         for word, value in level:
-            vector = {q: estimates.value(tree) for q, tree in value.items()}
+            vector = {q: estimates.of(tree) for q, tree in value.items()}
             pivots = echelon([*vectors, vector]).pivots
             if len(pivots) > len(vectors):
                 words.append(word)

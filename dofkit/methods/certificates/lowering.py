@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from dofkit.base.verdicts import VERDICTS
-from dofkit.methods.certificates.certificate import certificate_and_contradictions
+from dofkit.methods.certificates.certificate import made
 from dofkit.report import ConstraintEntry, FieldVerdict, Report
 from dofkit.scene.scene import Scene
 
@@ -26,11 +26,9 @@ def document_of_scene(scene: Scene) -> dict[str, Any]:
 
 def with_certificate(scene: Scene, report: Report) -> Report:
     """The report with a certificate; a claim whose evidence gives another value is lowered, with a warning."""
-    certificate, contradictions = certificate_and_contradictions(document_of_scene(scene), report)
-    if not contradictions:
-        return report.model_copy(update={"certificate": certificate})
-    claims = [claim for claim in certificate["claims"] if claim["path"] not in contradictions]
-    return lowered(report, contradictions).model_copy(update={"certificate": {**certificate, "claims": claims}})
+    certificate, contradictions = made(document_of_scene(scene), report)
+    told = lowered(report, dict(contradictions)) if contradictions else report
+    return told.model_copy(update={"certificate": certificate})
 
 
 def lowered(report: Report, contradictions: Mapping[str, str]) -> Report:

@@ -22,6 +22,18 @@ MOST_ROWS = 160
 _CHOICES = tuple(map(Fraction, ("2", "3", "3/2", "5/2", "4/3", "7/4", "5/3", "9/4", "7/3", "11/4")))
 
 
+class GrowingEvidence(CheckedEvidence):
+    """Evidence to whose parts further entries are added."""
+
+    def named(self, part: str, name: Any) -> dict[str, Any]:
+        """An entry by its id, looked for again where it is new."""
+        try:
+            return super().named(part, name)
+        except CheckError:
+            self.__dict__.pop("index", None)
+            return super().named(part, name)
+
+
 class Scenery:
     """A problem with its evidence so far, and values for parameters, unknown functions and time."""
 
@@ -29,7 +41,7 @@ class Scenery:
         self.problem, self.cayley, self.parts = problem, cayley, parts
         self.effort = Effort(WORK)
         self._view = dict(parts)
-        self.evidence = CheckedEvidence(problem, self._view, self.effort)
+        self.evidence = GrowingEvidence(problem, self._view, self.effort)
         self._prepared: dict[str, Tree] = {}
 
     @property
