@@ -7,7 +7,7 @@ from typing import Any
 from dofkit.checker.balls import excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, is_here, names_told, regular
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.everywhere_rules import has_own_symbol
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import admissible, independent, involutive, of_word
@@ -32,8 +32,7 @@ def circuit(evidence: CheckedEvidence, claim: Told) -> None:
     names, order, point = names_told(claim), _owners(evidence), evidence.point(claim["at"])
     relations = own(evidence, claim)
     before = order[: order.index(claim["owner"])]
-    if not set(names) <= set(before):
-        raise CheckError("a circuit holds constraints that were written before")
+    refuse(not set(names) <= set(before), "a circuit holds constraints that were written before")
     is_here(evidence, point)
     evidence.on_set(point, [*_of(evidence, names), *relations])
     left = set(relations) - evidence.closure(_of(evidence, names), point)
@@ -101,8 +100,7 @@ def _same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: dict[s
     """`CheckError` unless the dof that was verified is that near the point."""
     is_here(evidence, point)
     place = verified.get("/dof at")
-    if place not in (None, "reference", point.name):
-        raise CheckError("dof was verified at another point")
+    refuse(place not in (None, "reference", point.name), "dof was verified at another point")
 
 
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) -> None:
@@ -122,8 +120,7 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: di
 def integrable_part(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) -> None:
     """The rank of what is finite is n - dof; the basis are relations that give it with the finite ones as written."""
     value, rank = claim["value"], len(evidence.problem.coordinates) - verified["/dof"]
-    if set(value) != {"rank", "basis"}:
-        raise CheckError("an integrable part has a rank and a basis")
+    refuse(set(value) != {"rank", "basis"}, "an integrable part has a rank and a basis")
     equal({"value": value["rank"]}, rank)
     if value["basis"] is None:
         return
@@ -150,21 +147,18 @@ def redundant(evidence: CheckedEvidence, claim: Told) -> None:
     minor, dropped = regular(evidence, claim["minor"]), names_told(claim)
     is_here(evidence, minor.point)
     order = [owner for owner in _owners(evidence) if _of(evidence, [owner])]
-    if not set(dropped) <= set(order):
-        raise CheckError("what is redundant are constraints")
+    refuse(not set(dropped) <= set(order), "what is redundant are constraints")
     kept = _of(evidence, [owner for owner in order if owner not in dropped])
     left = set(_of(evidence, dropped)) - evidence.closure(kept, minor.point)
     if left:
         raise CheckError(f"`{min(left)}` is not shown to follow from what is kept")
     every = _of(evidence, order)
     spared = len(every) - len(minor.rows)
-    if not set(minor.rows) <= set(every) or spared < 0:
-        raise CheckError("the minor is of the relations of the scene")
+    refuse(not set(minor.rows) <= set(every) or spared < 0, "the minor is of the relations of the scene")
     _depend_plainly(evidence, minor, set(every) - set(minor.rows))
     sizes = sorted(len(_of(evidence, [owner])) for owner in order)
     most = sum(1 for i in range(len(sizes)) if sum(sizes[: i + 1]) <= spared)
-    if len(dropped) != most:
-        raise CheckError(f"{len(dropped)} constraints are named, and {most} might be dropped")
+    refuse(len(dropped) != most, f"{len(dropped)} constraints are named, and {most} might be dropped")
 
 
 def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[str]) -> None:
@@ -180,8 +174,7 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
         single = len(others) == 1 and any(
             one.defined and all(excludes_zero(minor.point.value(tree)) for tree in one.defined) for one in ways
         )
-        if not plain and not single:
-            raise CheckError(f"`{name}` does not depend on the rows by numbers")
+        refuse(not plain and not single, f"`{name}` does not depend on the rows by numbers")
 
 
 def _is_general(evidence: CheckedEvidence, name: str) -> bool:
@@ -200,15 +193,13 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) -> 
     if not evidence.moving or len(spans) != len(value) or "/dof" not in verified:
         raise CheckError("a growth vector is of forms, with words for each entry, and dof is verified")
     _same_place(evidence, minor.point, verified)
-    if not all(evidence.is_linear(name) for name in evidence.moving):
-        raise CheckError("a relation is not linear in the velocities")
+    refuse(not all(evidence.is_linear(name) for name in evidence.moving), "a relation is not linear in the velocities")
     everything = (*evidence.finite, *evidence.moving)
     point, fields = admissible(evidence, {**claim, "at": claim["at"]}, everything)
     timed = evidence.timed
     rank = len(evidence.problem.coordinates) + timed - len(minor.rows)
     whole, most = verified["/dof"] + timed, 0
-    if point is not minor.point or len(fields) > rank:
-        raise CheckError("the fields and the minor are of one point")
+    refuse(point is not minor.point or len(fields) > rank, "the fields and the minor are of one point")
     for step, (told, given) in enumerate(zip(value, spans, strict=True), 1):
         words = given["words"]
         if any(len(word) > step or not set(word) <= set(claim["fields"]) for word in words):
@@ -217,8 +208,7 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) -> 
         most = min(whole, most + _witt(rank, step))
         if told != len(words) or told != most or type(told) is not int:
             raise CheckError(f"entry {step} is at least {len(words)} and at most {most}")
-    if value[-1] != whole and (len(value) < 2 or value[-1] != value[-2]):
-        raise CheckError("the last entry is not the whole")
+    refuse(value[-1] != whole and (len(value) < 2 or value[-1] != value[-2]), "the last entry is not the whole")
 
 
 def _witt(fields: int, length: int) -> int:
@@ -238,6 +228,8 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) ->
     if path == "/redundancies" and verified["/redundant_equations"] == 0:
         return equal(claim, [])
     if path == "/velocity_dof" and not evidence.moving:
+        about = verified.get("/dof about")
+        refuse(claim.get("about", about) != about, "the claim is about other points than that of dof")
         return equal(claim, verified["/dof"])
     if path == "/singular":
         return equal(claim, verified["/instantaneous_dof"] != verified["/velocity_dof"])

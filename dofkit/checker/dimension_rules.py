@@ -8,7 +8,7 @@ from flint import fmpq, fmpq_mat
 
 from dofkit.checker.balls import determinant, evaluated, excludes_zero
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import field_named, independent, involutive, span, tangent
 from dofkit.checker.points import CheckedPoint, in_turn
@@ -39,15 +39,17 @@ def is_about(evidence: CheckedEvidence, claim: Told, point: CheckedPoint) -> Non
     """
     about, reference = claim.get("about"), evidence.problem.reference
     if about == "reference":
-        if not reference:
-            raise CheckError("the scene has no configuration")
+        refuse(not reference, "the scene has no configuration")
         if point.has("t"):
             evidence.identity(point.prepared(symbol("t")), "the time of the configuration")
         for name in evidence.problem.coordinates:
-            if not point.has(name) or not evidence.ring.vanishes(
-                add(point.prepared(symbol(name)), negative(point.prepared(reference[name])))
-            ):
-                raise CheckError(f"`{name}` is not that of the scene's configuration")
+            refuse(
+                not point.has(name)
+                or not evidence.ring.vanishes(
+                    add(point.prepared(symbol(name)), negative(point.prepared(reference[name])))
+                ),
+                f"`{name}` is not that of the scene's configuration",
+            )
         for name in evidence.finite:
             if evidence.is_open(evidence.relation(name).left):
                 evidence.identity(
@@ -121,18 +123,15 @@ def _least(evidence: CheckedEvidence, given: Told, path: str) -> tuple[CheckedPo
 
 def _family(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
     """A family q(u) of configurations through the point, with as many directions there as parameters."""
-    if evidence.moving:
-        raise CheckError("a family is for finite relations")
+    refuse(evidence.moving, "a family is for finite relations")
     point, parameters = evidence.point(given["at"]), given["parameters"]
     problem = evidence.problem
     taken = {*evidence.variables, *evidence.velocities, *problem.parameters, *problem.generic, *point.exact}
-    if not taken.isdisjoint(parameters):
-        raise CheckError("a parameter of a family has a name that is taken")
+    refuse(not taken.isdisjoint(parameters), "a parameter of a family has a name that is taken")
     own = {name: tree for name, tree in point.exact.items() if name in evidence.variables}
     family = {q: substituted(evidence.text(text, parameters), own) for q, text in given["q"].items()}
     family |= {q: point.prepared(symbol(q)) for q in problem.coordinates if q not in family}
-    if not set(family) <= set(evidence.problem.coordinates):
-        raise CheckError("a family has what is no coordinate")
+    refuse(not set(family) <= set(evidence.problem.coordinates), "a family has what is no coordinate")
     values = in_turn({u: evidence.text(given["values"][u]) for u in parameters})
     evidence.on_set(point, evidence.finite)
     at_once = {"t": point.exact["t"]} if "t" in point.exact else {}
@@ -176,8 +175,7 @@ def _constant_rank(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
         if fields:
             independent(evidence, fields, block["columns"], minor.point)
         total += min(len(own) - len(fields), len(block["rows"]))
-    if total != len(minor.rows):
-        raise CheckError(f"the blocks have rank {total} at most, the minor {len(minor.rows)}")
+    refuse(total != len(minor.rows), f"the blocks have rank {total} at most, the minor {len(minor.rows)}")
     return minor
 
 
@@ -208,8 +206,7 @@ def freedom(evidence: CheckedEvidence, claim: Told) -> str:
     path, rule = claim["path"], claim["rule"]
     if rule == "squeeze":
         (point, most), (other, least) = _most(evidence, claim["most"], path), _least(evidence, claim["least"], path)
-        if point is not other or most != least:
-            raise CheckError(f"{least} at least and {most} at most, or of two points")
+        refuse(point is not other or most != least, f"{least} at least and {most} at most, or of two points")
     else:
         minor = regular(evidence, claim["minor"])
         point, most = minor.point, len(evidence.problem.coordinates) - len(minor.rows)
@@ -222,8 +219,7 @@ def freedom(evidence: CheckedEvidence, claim: Told) -> str:
 
 def nothing(evidence: CheckedEvidence, claim: Told) -> None:
     """No equation: every coordinate is free."""
-    if evidence.finite or evidence.moving:
-        raise CheckError("there are equations")
+    refuse(evidence.finite or evidence.moving, "there are equations")
     equal(claim, len(evidence.problem.coordinates))
 
 
@@ -233,8 +229,7 @@ def instantaneous(evidence: CheckedEvidence, claim: Told) -> None:
     point = evidence.point(claim["at"])
     is_about(evidence, {"about": "reference"}, point)
     evidence.on_set(point, evidence.finite)
-    if not all(evidence.is_linear(name) for name in names):
-        raise CheckError("a relation is not linear in the velocities")
+    refuse(not all(evidence.is_linear(name) for name in names), "a relation is not linear in the velocities")
     size = evidence.problem.coordinates
     for name in names:
         for q in size:

@@ -11,7 +11,7 @@ from flint import arb
 from dofkit.checker.balls import ball_of, evaluated, excludes_zero
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, names_told
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.everywhere_rules import has_own_symbol
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.points import CheckedPoint
@@ -44,8 +44,7 @@ def feasible(evidence: CheckedEvidence, claim: Told) -> None:
     point = evidence.point(claim["at"]) if claim["rule"] == "point" else evidence.minor(claim["minor"]).point
     for one in evidence.problem.relations:
         if one.kind == "inequality":
-            if evidence.has_velocities(one.left):
-                raise CheckError("an inequality between velocities needs more than a point")
+            refuse(evidence.has_velocities(one.left), "an inequality between velocities needs more than a point")
             _met(evidence, one, point)
     equal(claim, True)
 
@@ -66,8 +65,7 @@ def moves(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> None
         ):
             minor = evidence.minor(given["minor"])
             evidence.covers(minor, finite)
-            if minor.point is not point:
-                raise CheckError("the minor is not at the point")
+            refuse(minor.point is not point, "the minor is not at the point")
     else:
         raise CheckError(f"no rule `{str(given['rule'])[:40]}` for what can be met")
 
@@ -108,8 +106,7 @@ def _motion(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> No
 def refuted(evidence: CheckedEvidence, given: Told, allowed: Sequence[str]) -> None:
     """No motion meets the equations ``allowed`` (or one inequality by itself)."""
     rules = {"nullstellensatz": _combination, "polygon": _polygon, "boxes": _boxes}
-    if given["rule"] not in rules:
-        raise CheckError(f"no rule `{str(given['rule'])[:40]}` for what cannot be met")
+    refuse(given["rule"] not in rules, f"no rule `{str(given['rule'])[:40]}` for what cannot be met")
     rules[given["rule"]](evidence, given, evidence.closure(allowed, None))
 
 
@@ -127,8 +124,7 @@ def conflict(evidence: CheckedEvidence, claim: Told) -> None:
     refuted(evidence, claim["refutation"], [one for found in owned.values() for one in found])
     for name in names:
         others = [one for other in names if other != name for one in owned[other]]
-        if any(evidence.relation(one).kind == "inequality" for one in others):
-            raise CheckError("an inequality conflicts by itself")
+        refuse(any(evidence.relation(one).kind == "inequality" for one in others), "an inequality conflicts by itself")
         if others:
             given = claim["minimal"][name]
             moves(evidence, {"rule": "point", "at": given} if isinstance(given, str) else given, others)
@@ -143,11 +139,9 @@ def _known(evidence: CheckedEvidence, names: Any, held: set[str]) -> None:
 def _weighted(evidence: CheckedEvidence, given: dict[str, str], held: set[str]) -> Tree:
     """A sum of equations times expressions that have a value everywhere."""
     _known(evidence, given, held)
-    if any(evidence.relation(name).kind == "inequality" for name in given):
-        raise CheckError("an inequality is no equation")
+    refuse(any(evidence.relation(name).kind == "inequality" for name in given), "an inequality is no equation")
     factors = {name: evidence.text(text) for name, text in given.items()}
-    if not all(has_value_everywhere(tree) for tree in factors.values()):
-        raise CheckError("a cofactor has no value everywhere")
+    refuse(not all(has_value_everywhere(tree) for tree in factors.values()), "a cofactor has no value everywhere")
     return add(*(times(factor, evidence.relation(name).left) for name, factor in factors.items()))
 
 
@@ -164,12 +158,9 @@ def _combination(evidence: CheckedEvidence, given: Told, held: set[str]) -> None
     constant, squares = evidence.text(given["number"]), evidence.squares(given.get("sos", []))
     sided = [(name, evidence.squares(terms)) for name, terms in given.get("inequality", {}).items()]
     _known(evidence, [name for name, _ in sided], held)
-    if sided and (given.get("c") or len(sided) > 1):
-        raise CheckError("an inequality is refuted by itself")
-    if any(evidence.relation(name).kind != "inequality" for name, _ in sided):
-        raise CheckError("no inequality")
-    if not _positive(evidence, constant):
-        raise CheckError("the number that is left over is not positive")
+    refuse(sided and (given.get("c") or len(sided) > 1), "an inequality is refuted by itself")
+    refuse(any(evidence.relation(name).kind != "inequality" for name, _ in sided), "no inequality")
+    refuse(not _positive(evidence, constant), "the number that is left over is not positive")
     if any(not has_value_everywhere(tree) for tree in (squares, *(square for _, square in sided))):
         raise CheckError("a square has no value everywhere")
     total = add(constant, squares, _weighted(evidence, given.get("c", {}), held))
@@ -194,12 +185,10 @@ def _segment(evidence: CheckedEvidence, given: Any, held: set[str]) -> tuple[lis
     _known(evidence, [name], held)
     parts, length = [evidence.text(part) for part in vector], evidence.text(text)
     squares = add(*(times(part, part) for part in parts), negative(times(length, length)))
-    if evidence.relation(name).kind != "finite":
-        raise CheckError("a side is a finite relation")
+    refuse(evidence.relation(name).kind != "finite", "a side is a finite relation")
     factor = evidence.text(scale[0]) if scale else ONE
     evidence.number_sign(scale[0] if scale else "1")
-    if not all(has_value_everywhere(part) for part in parts):
-        raise CheckError("a side has no value everywhere")
+    refuse(not all(has_value_everywhere(part) for part in parts), "a side has no value everywhere")
     evidence.identity(add(evidence.relation(name).left, negative(times(factor, squares))), f"the length of `{name}`")
     return parts, abs(evaluated(length, {}, evidence.effort))
 
@@ -215,8 +204,7 @@ def _boxes(evidence: CheckedEvidence, given: Told, held: set[str]) -> None:
         if size is None or size <= 0:
             raise CheckError("the half of a box is a positive rational number")
         squares = evidence.squares(bound.get("sos", []))
-        if not has_value_everywhere(squares):
-            raise CheckError("a square has no value everywhere")
+        refuse(not has_value_everywhere(squares), "a square has no value everywhere")
         over = add(number(size * size), negative(times(symbol(name), symbol(name))))
         total = add(_weighted(evidence, bound["c"], held), squares)
         evidence.identity(add(over, negative(total)), f"the bound of `{name}`")
@@ -245,8 +233,7 @@ def _boxes(evidence: CheckedEvidence, given: Told, held: set[str]) -> None:
 def _cut(evidence: CheckedEvidence, given: Any, held: set[str], known: set[str], angles: list[str]) -> Tree:
     """A sum of equations that mentions the variables only, with the period of every angle."""
     total = _weighted(evidence, given, held)
-    if not symbols_in(total) <= known:
-        raise CheckError("an equation holds what has no bounds")
+    refuse(not symbols_in(total) <= known, "an equation holds what has no bounds")
     turn = times(number(2), Tree("pi"))
     for angle in angles:
         for name in given:
@@ -266,5 +253,4 @@ def _excluded(evidence: CheckedEvidence, tree: Tree, box: dict[str, tuple[Fracti
     for name in sorted(symbols_in(tree)):
         slope = evaluated(derivative(tree, name), balls, evidence.effort)
         value = value + slope * (balls[name] - middles[name])
-    if not excludes_zero(value):
-        raise CheckError("a box is not excluded")
+    refuse(not excludes_zero(value), "a box is not excluded")

@@ -6,15 +6,15 @@ from typing import Any
 
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, is_here, regular
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.texts import has_value_everywhere, heads_in
 
 
 def nothing(evidence: CheckedEvidence, claim: Told) -> None:
     """No equation: every coordinate is free."""
-    if evidence.finite or evidence.moving:
-        raise CheckError("there are equations")
+    refuse(evidence.finite or evidence.moving, "there are equations")
+    refuse(claim.get("about", "everywhere") != "everywhere", "where nothing is asked a claim is about everywhere")
     equal(claim, len(evidence.problem.coordinates))
 
 
@@ -26,35 +26,30 @@ def everywhere(evidence: CheckedEvidence, claim: Told) -> None:
     ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
     these the set is a manifold (Sard 1942). Blocks, and the generic relations together, share no free coordinate.
     """
-    if evidence.moving or claim.get("about") != "everywhere":
-        raise CheckError("the rule is about everywhere, of finite relations")
+    refuse(evidence.moving or claim.get("about") != "everywhere", "the rule is about everywhere, of finite relations")
     order = [(name, q) for name, q in claim.get("order", [])]
     blocks = list(claim.get("blocks", evidence.finite if claim["rule"] == "one relation" else []))
     generic = dict(claim.get("generic", []))
     names = [*(name for name, _ in order), *blocks, *generic]
-    if sorted(names) != sorted(evidence.finite):
-        raise CheckError("each finite relation stands in one place")
+    refuse(sorted(names) != sorted(evidence.finite), "each finite relation stands in one place")
     free = _free(evidence, order)
     groups = [_coordinates(evidence, name, free) for name in blocks]
     groups.append(frozenset().union(*(_coordinates(evidence, name, free) for name in generic)))
-    if sum(map(len, groups)) != len(frozenset().union(*groups)):
-        raise CheckError("two blocks share a coordinate")
+    refuse(sum(map(len, groups)) != len(frozenset().union(*groups)), "two blocks share a coordinate")
     if blocks:
         _analytic(evidence, names)
     own_symbols(evidence, generic)
     if blocks or generic:
         minor = regular(evidence, claim["minor"])
         is_here(evidence, minor.point)
-        if set(minor.rows) != set(names):
-            raise CheckError("the minor is not of all relations")
+        refuse(set(minor.rows) != set(names), "the minor is not of all relations")
     equal(claim, len(evidence.problem.coordinates) - len(names))
 
 
 def _analytic(evidence: CheckedEvidence, names: list[str]) -> None:
     for name in names:
         left = evidence.relation(name).left
-        if not has_value_everywhere(left) or "apply" in heads_in(left):
-            raise CheckError(f"`{name}` is not analytic everywhere")
+        refuse(not has_value_everywhere(left) or "apply" in heads_in(left), f"`{name}` is not analytic everywhere")
 
 
 def _free(evidence: CheckedEvidence, order: list[tuple[str, str]]) -> dict[str, frozenset[str]]:
@@ -66,8 +61,7 @@ def _free(evidence: CheckedEvidence, order: list[tuple[str, str]]) -> dict[str, 
         left = evidence.relation(name).left
         if not evidence.ring.rational(derivative(left, q)) or not has_value_everywhere(left):
             raise CheckError(f"`{name}` does not give `{q}` everywhere")
-        if not symbols_in(left).isdisjoint(later[i + 1 :]):
-            raise CheckError(f"`{name}` holds what is given later")
+        refuse(not symbols_in(left).isdisjoint(later[i + 1 :]), f"`{name}` holds what is given later")
         found[q] = _coordinates(evidence, name, found) - {q}
     return found
 
@@ -86,8 +80,7 @@ def own_symbols(evidence: CheckedEvidence, generic: dict[str, Any]) -> None:
         others = (one.left for one in evidence.problem.relations if one.name != name)
         if any(symbol in symbols_in(other) for other in others) or not has_value_everywhere(left):
             raise CheckError(f"`{symbol}` is not the own symbol of `{name}`")
-        if not evidence.is_nonzero_product(derivative(left, symbol)):
-            raise CheckError(f"`{name}` may be stationary in `{symbol}`")
+        refuse(not evidence.is_nonzero_product(derivative(left, symbol)), f"`{name}` may be stationary in `{symbol}`")
 
 
 def has_own_symbol(evidence: CheckedEvidence, name: str) -> bool:
@@ -106,8 +99,7 @@ def generic_rank(evidence: CheckedEvidence, claim: Told) -> None:
 
     The values of points where the rank is smaller have measure 0 among those that are taken (Sard, Federer 3.4.3).
     """
-    if evidence.moving or claim.get("about") != "everywhere":
-        raise CheckError("the rule is about everywhere, of finite relations")
+    refuse(evidence.moving or claim.get("about") != "everywhere", "the rule is about everywhere, of finite relations")
     order, generic = [(name, q) for name, q in claim.get("order", [])], dict(claim["generic"])
     if sorted([*(name for name, _ in order), *generic]) != sorted(evidence.finite):
         raise CheckError("each finite relation stands in one place")

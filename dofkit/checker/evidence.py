@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from dofkit.checker.balls import determinant, evaluated, excludes_zero, krawczyk
 from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.points import CheckedPoint, in_turn
 from dofkit.checker.relations import FAULTS, CheckedRelations, told
 from dofkit.checker.steps import DerivedRelation, total_derivative
@@ -58,8 +58,7 @@ class CheckedEvidence(CheckedRelations):
             raise CheckError("a point gives values to what the scene does not have, or none to a column")
         if len(columns) != len(rows) or len(set(columns)) != len(columns) or len(set(rows)) != len(rows):
             raise CheckError("a box has as many rows as columns, each once")
-        if len(columns) > LARGEST_MINOR:
-            raise CheckError("a box has too many columns")
+        refuse(len(columns) > LARGEST_MINOR, "a box has too many columns")
         values = in_turn({name: self.text(text) for name, text in given["values"].items()})
         functions = {
             name: (tuple(f["arguments"]), self.text(f["text"], f["arguments"]))
@@ -137,8 +136,7 @@ class CheckedEvidence(CheckedRelations):
         point, rows, columns = self.point(given["at"]), tuple(given["rows"]), tuple(given["columns"])
         if len(rows) != len(columns) or len(rows) > LARGEST_MINOR or len({*rows}) + len({*columns}) != 2 * len(rows):
             raise CheckError("a minor has as many rows as columns, each once")
-        if not set(columns) <= set(self.problem.coordinates):
-            raise CheckError("a column of a minor is no coordinate")
+        refuse(not set(columns) <= set(self.problem.coordinates), "a column of a minor is no coordinate")
         start = (*self.finite, *self.moving) if allowed is None else tuple(allowed)
         followed = set(rows) if set(rows) <= set(start) else self.closure(start, point)
         for row in rows:
@@ -146,8 +144,7 @@ class CheckedEvidence(CheckedRelations):
                 raise CheckError(f"the row `{row}` is not shown to follow from the relations near `{point.name}`")
         self.on_set(point, [row for row in rows if not self.relation(row).leaf])
         matrix = [[point.value(self.slope(row, column)) for column in columns] for row in rows]
-        if not excludes_zero(determinant(matrix, self.effort)):
-            raise CheckError("the minor may be 0")
+        refuse(not excludes_zero(determinant(matrix, self.effort)), "the minor may be 0")
         return CheckedMinor(point, rows, columns)
 
     def covers(self, minor: CheckedMinor, wanted: Iterable[str]) -> None:
@@ -156,5 +153,4 @@ class CheckedEvidence(CheckedRelations):
         self.on_set(minor.point, names)
         held = self.closure(minor.rows, minor.point)
         for name in names:
-            if name not in held:
-                raise CheckError(f"`{name}` is not shown to follow from the rows")
+            refuse(name not in held, f"`{name}` is not shown to follow from the rows")

@@ -11,7 +11,7 @@ from typing import Any
 
 from dofkit.checker.balls import determinant, excludes_zero
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.points import CheckedPoint
 from dofkit.checker.texts import size_of
@@ -26,8 +26,7 @@ def field_named(evidence: CheckedEvidence, name: Any) -> VelocityField:
     given = evidence.named("fields", name)
     if "cramer" in given:
         return _by_cramer(evidence, given["cramer"])
-    if not set(given["components"]) <= set(evidence.variables):
-        raise CheckError("a field has a component that is no coordinate")
+    refuse(not set(given["components"]) <= set(evidence.variables), "a field has a component that is no coordinate")
     return {name: evidence.text(text) for name, text in given["components"].items()}
 
 
@@ -86,8 +85,7 @@ def _pay(evidence: CheckedEvidence, first: VelocityField, second: VelocityField)
     """A bracket costs the size of its fields; large ones are refused."""
     sizes = [sum(size_of(tree) for tree in field.values()) for field in (first, second)]
     evidence.effort.spend(sizes[0] * len(second) + sizes[1] * len(first) + 1)
-    if max(sizes) > LARGEST_FIELD:
-        raise CheckError("a bracket is too large")
+    refuse(max(sizes) > LARGEST_FIELD, "a bracket is too large")
 
 
 def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
@@ -112,8 +110,7 @@ def independent(evidence: CheckedEvidence, fields: Sequence[VelocityField], colu
     if len(fields) != len(columns) or len(set(columns)) != len(columns) or not set(columns) <= set(evidence.variables):
         raise CheckError("as many columns as fields are needed, each once")
     matrix = [[point.value(field.get(column, ZERO)) for column in columns] for field in fields]
-    if not excludes_zero(determinant(matrix, evidence.effort)):
-        raise CheckError("the fields may be dependent at the point")
+    refuse(not excludes_zero(determinant(matrix, evidence.effort)), "the fields may be dependent at the point")
 
 
 def admissible(
@@ -121,8 +118,7 @@ def admissible(
 ) -> tuple[CheckedPoint, list[VelocityField]]:
     """Fields whose curves through a point are motions: tangent to rows that account for ``wanted``, smooth there."""
     point, names = evidence.point(given["at"]), given["fields"]
-    if not 0 < len(names) <= MOST_FIELDS:
-        raise CheckError("there are no fields, or too many")
+    refuse(not 0 < len(names) <= MOST_FIELDS, "there are no fields, or too many")
     fields = [field_named(evidence, name) for name in names]
     tangent(evidence, fields, given["rows"])
     evidence.on_set(point, [name for name in wanted if evidence.relation(name).kind == "finite"])

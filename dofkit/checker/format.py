@@ -178,7 +178,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 
 VERSION = 1
 LARGEST_TEXT, MOST_CLAIMS, MOST_ENTRIES = 20_000_000, 20_000, 20_000
@@ -189,8 +189,7 @@ KEYS = ("certificate", "scene", "cayley", *PARTS, "claims", "uncovered")
 def certificate_of(given: str | bytes | Mapping[str, Any]) -> dict[str, Any]:
     """A certificate from its text or mapping: of the right form, and not too large."""
     if isinstance(given, (str, bytes)):
-        if len(given) > LARGEST_TEXT:
-            raise CheckError("the certificate is too long")
+        refuse(len(given) > LARGEST_TEXT, "the certificate is too long")
         try:
             given = json.loads(given)
         except (ValueError, RecursionError) as error:
@@ -207,8 +206,7 @@ def certificate_of(given: str | bytes | Mapping[str, Any]) -> dict[str, Any]:
             raise CheckError(f"`{part}` is a list of at most {most} objects")
     for part in PARTS:
         names = [str(one.get("id")) for one in given.get(part, [])]
-        if len(set(names)) != len(names):
-            raise CheckError(f"an id of `{part}` is given twice")
+        refuse(len(set(names)) != len(names), f"an id of `{part}` is given twice")
     _check_texts(given)
     return {"cayley": [], "uncovered": [], **{part: [] for part in (*PARTS, "claims")}, **given}
 
@@ -218,5 +216,4 @@ def _check_texts(given: Mapping[str, Any]) -> None:
         entries = given.get(part, [])
         if not isinstance(entries, list) or not all(isinstance(one, str) for one in entries):
             raise CheckError(f"`{part}` is a list of texts")
-    if len(given.get("uncovered", [])) > MOST_CLAIMS:
-        raise CheckError("too much is uncovered")
+    refuse(len(given.get("uncovered", [])) > MOST_CLAIMS, "too much is uncovered")

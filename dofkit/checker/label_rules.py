@@ -8,7 +8,7 @@ from typing import Any
 from dofkit.checker.balls import excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, is_here
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import admissible, involutive, of_word
 from dofkit.checker.points import CheckedPoint
@@ -39,10 +39,8 @@ def finite(evidence: CheckedEvidence, claim: Told) -> None:
 
 def inequality(evidence: CheckedEvidence, claim: Told) -> None:
     """An inequality is not holonomic; where there is nothing else, it has no independent equation."""
-    if not evidence.owned(claim["owner"], ("inequality",)):
-        raise CheckError("no inequality")
-    if claim["field"] == "independent" and evidence.owned(claim["owner"]):
-        raise CheckError("there are equations as well")
+    refuse(not evidence.owned(claim["owner"], ("inequality",)), "no inequality")
+    refuse(claim["field"] == "independent" and evidence.owned(claim["owner"]), "there are equations as well")
     equal(claim, 0 if claim["field"] == "independent" else False)
 
 
@@ -57,8 +55,7 @@ def integrable(evidence: CheckedEvidence, claim: Told) -> None:
     allowed, point = _allowed(evidence, claim), evidence.point(claim["at"])
     evidence.on_set(point, [name for name in allowed if evidence.relation(name).kind == "finite"])
     integrals = list(claim["integrals"])
-    if not all(evidence.relation(name).leaf for name in integrals):
-        raise CheckError("an integral is a step `integral`")
+    refuse(not all(evidence.relation(name).leaf for name in integrals), "an integral is a step `integral`")
     if not evidence.closure(allowed, point).issuperset(integrals):
         raise CheckError("an integral is not shown to keep its value near the point")
     if claim["field"] != "holonomic_alone":
@@ -99,29 +96,27 @@ def bracket(evidence: CheckedEvidence, claim: Told) -> None:
         for name, tree in of_word(evidence, word).items():
             direction.setdefault(name, []).append(times(factor, tree))
     vector = {name: add(*terms) for name, terms in direction.items()}
-    if not evidence.is_linear(claim["pairs"]) and not evidence.ring.vanishes(
-        add(point.prepared(vector.get("t", number(0))), number(-1))
-    ):
-        raise CheckError("the direction does not have time go by 1")
+    refuse(
+        not evidence.is_linear(claim["pairs"])
+        and not evidence.ring.vanishes(add(point.prepared(vector.get("t", number(0))), number(-1))),
+        "the direction does not have time go by 1",
+    )
     pairing = evidence.relation(claim["pairs"]).left
     values = {name + "dot": vector.get(name, number(0)) for name in evidence.variables}
-    if not excludes_zero(point.value_with(pairing, values)):
-        raise CheckError("the form may be 0 in that direction")
+    refuse(not excludes_zero(point.value_with(pairing, values)), "the form may be 0 in that direction")
     equal(claim, False)
 
 
 def form_of(evidence: CheckedEvidence, name: str) -> dict[str, Tree]:
     """The coefficients of a relation that is linear in velocities."""
     one = evidence.relation(name)
-    if one.kind != "velocity" or not evidence.is_linear(name):
-        raise CheckError(f"`{name}` is no form")
+    refuse(one.kind != "velocity" or not evidence.is_linear(name), f"`{name}` is no form")
     return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in symbols_in(one.left)}
 
 
 def _only_form(evidence: CheckedEvidence, claim: Told) -> dict[str, Tree]:
     names = own(evidence, claim, ("velocity",))
-    if len(names) != 1:
-        raise CheckError("the constraint has several forms")
+    refuse(len(names) != 1, "the constraint has several forms")
     return form_of(evidence, names[0])
 
 
@@ -138,8 +133,7 @@ def _variables(evidence: CheckedEvidence, form: dict[str, Tree]) -> list[str]:
 def wedge(evidence: CheckedEvidence, claim: Told) -> None:
     """One form by itself integrates where omega ^ d(omega) = 0 (Frobenius)."""
     form = _only_form(evidence, claim)
-    if claim["field"] != "holonomic_alone":
-        raise CheckError("the rule `wedge` is for a form by itself")
+    refuse(claim["field"] != "holonomic_alone", "the rule `wedge` is for a form by itself")
 
     def triple(i: str, j: str, k: str) -> Tree:
         zero = number(0)
@@ -151,8 +145,7 @@ def wedge(evidence: CheckedEvidence, claim: Told) -> None:
             evidence.identity(triple(*names), "omega ^ d(omega)")
         return
     point = evidence.point(claim["at"])
-    if not excludes_zero(point.value(triple(*claim["triple"]))):
-        raise CheckError("omega ^ d(omega) may be 0 at the point")
+    refuse(not excludes_zero(point.value(triple(*claim["triple"]))), "omega ^ d(omega) may be 0 at the point")
     equal(claim, False)
 
 
@@ -162,8 +155,7 @@ def closed(evidence: CheckedEvidence, claim: Told) -> None:
     for form in forms:
         for i, j in combinations(_variables(evidence, form), 2):
             evidence.identity(_curl(form, i, j), f"the curl in {i}, {j}")
-    if not forms:
-        raise CheckError("there is no form")
+    refuse(not forms, "there is no form")
     equal(claim, True)
 
 
@@ -171,8 +163,7 @@ def not_closed(evidence: CheckedEvidence, claim: Told) -> None:
     """A curl that is not 0 at a point, of the constraint's form or of that of its forms which is named."""
     form, (i, j) = _only_form(evidence, claim) if "relation" not in claim else {}, claim["pair"]
     if "relation" in claim:
-        if claim["relation"] not in own(evidence, claim):
-            raise CheckError("no relation of the constraint")
+        refuse(claim["relation"] not in own(evidence, claim), "no relation of the constraint")
         form = form_of(evidence, claim["relation"])
     if not {i, j} <= set(evidence.variables) or not excludes_zero(evidence.point(claim["at"]).value(_curl(form, i, j))):
         raise CheckError("the curl may be 0 at the point")
@@ -235,11 +226,9 @@ def turns(evidence: CheckedEvidence, claim: Told) -> None:
             a, b = (form.get(v, number(0)) for v in claim["pair"])
             turned = add(times(a, derivative(b, "t")), negative(times(b, derivative(a, "t"))))
     else:
-        if claim["field"] != "scleronomic":
-            raise CheckError("only a form is catastatic or not")
+        refuse(claim["field"] != "scleronomic", "only a form is catastatic or not")
         turned = _moved_by_time(evidence, claim, names, point)
-    if not excludes_zero(point.value(turned)):
-        raise CheckError("time may not enter at the point")
+    refuse(not excludes_zero(point.value(turned)), "time may not enter at the point")
     equal(claim, False)
 
 

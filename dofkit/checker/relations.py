@@ -11,7 +11,7 @@ from flint import arb
 from dofkit.checker.balls import evaluated, excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.points import CheckedPoint
 from dofkit.checker.problem import Problem
 from dofkit.checker.steps import Consequence, DerivedRelation, made_by
@@ -29,8 +29,7 @@ class CheckedRelations(CheckedTexts):
         super().__init__(problem, effort)
         self.parts = parts
         self.known = {one.name: DerivedRelation(one.name, one.kind, one.left) for one in problem.relations}
-        if len(self.known) < len(problem.relations):
-            raise CheckError("two relations of the scene have one name")
+        refuse(len(self.known) < len(problem.relations), "two relations of the scene have one name")
         self.consequences: list[Consequence] = []
         self.faults: dict[str, str] = {}
         self.met: dict[tuple[int, str], bool] = {}

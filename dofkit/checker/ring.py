@@ -15,7 +15,7 @@ from typing import Any
 from flint import fmpq
 
 from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.quotients import Quotient, QuotientRing
 from dofkit.checker.trees import Tree
 
@@ -120,8 +120,7 @@ class CheckedRing(QuotientRing):
         if isinstance(value, Fraction):
             if value.denominator == 1:
                 return self.to_power(self.read(base), int(value))
-            if value.denominator > LARGEST_MULTIPLE:
-                raise CheckError("a root of too high an order")
+            refuse(value.denominator > LARGEST_MULTIPLE, "a root of too high an order")
             return self.to_power(self.root(self.read(base), value.denominator), value.numerator)
         return self.generator(("power", self.key(self.read(base)), self.key(self.read(exponent))))
 
@@ -145,8 +144,7 @@ class CheckedRing(QuotientRing):
                 self.levels[key] = lcm(level, finest)
                 raise _FinerError
             multiple = int((size * level).p)
-            if abs(multiple) > LARGEST_MULTIPLE * level:
-                raise CheckError("too large a multiple in an argument")
+            refuse(abs(multiple) > LARGEST_MULTIPLE * level, "too large a multiple in an argument")
             found.append((atom, key, level, multiple))
         return found
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.trees import Tree, add, negative, number, power, symbol, times
 
 
@@ -77,8 +77,7 @@ def made_by(step: dict[str, Any], room: StepRoom) -> Made:
     """What a step makes."""
     makers = {"branch": _branch, "sos": _squares, "factor": _factor, "square": _square}
     makers |= {"implied": _implied, "rate": _rate, "integral": _integral}
-    if step.get("by") not in makers:
-        raise CheckError(f"no such step: {str(step.get('by'))[:40]!r}")
+    refuse(step.get("by") not in makers, f"no such step: {str(step.get('by'))[:40]!r}")
     if "of" in step:
         of = room.relation(step["of"])
         if of.kind == "inequality" or (of.leaf and step["by"] != "rate"):
@@ -100,8 +99,7 @@ def _branch(step: dict[str, Any], room: StepRoom) -> Made:
         raise CheckError("the chosen factor is none of the factors")
     room.identity(add(of.left, negative(times(_times_number(step, room), *factors))), "the product of the factors")
     others = tuple(factor for i, factor in enumerate(factors) if i != chosen)
-    if any(room.has_velocities(factor) for factor in others):
-        raise CheckError("another factor holds velocities")
+    refuse(any(room.has_velocities(factor) for factor in others), "another factor holds velocities")
     new = replace(of, name=step["id"], left=factors[chosen], kind=_kind(room, factors[chosen]))
     return [new], [Consequence(new.name, (of.name,), others), Consequence(of.name, (new.name,), (), others)]
 
@@ -114,8 +112,7 @@ def _squares(step: dict[str, Any], room: StepRoom) -> Made:
     """A sum of squares with coefficients of one sign is 0 where every square is."""
     of, terms = room.relation(step["of"]), step["terms"]
     parts = [room.text(text) for _, text in terms]
-    if len({room.number_sign(c) for c, _ in terms}) != 1:
-        raise CheckError("the coefficients of a sum of squares have two signs")
+    refuse(len({room.number_sign(c) for c, _ in terms}) != 1, "the coefficients of a sum of squares have two signs")
     total = add(*(times(room.text(c), power(a, number(2))) for (c, _), a in zip(terms, parts, strict=True)))
     room.identity(add(of.left, negative(total)), "the sum of squares")
     new = [DerivedRelation(f"{step['id']}.{i}", _kind(room, a), a) for i, a in enumerate(parts, 1)]
@@ -127,8 +124,7 @@ def _factor(step: dict[str, Any], room: StepRoom) -> Made:
     """A product is 0 where the rest is; only there, where the factor is not 0."""
     of = room.relation(step["of"])
     factor, rest = room.text(step["factor"]), room.text(step["rest"])
-    if room.has_velocities(factor) and factor != symbol("tdot"):
-        raise CheckError("a factor that is taken out holds no velocities")
+    refuse(room.has_velocities(factor) and factor != symbol("tdot"), "a factor that is taken out holds no velocities")
     room.identity(add(of.left, negative(times(factor, rest))), "the product with the factor")
     new = DerivedRelation(step["id"], _kind(room, rest), rest)
     free = factor == symbol("tdot") or room.reason(step.get("nonzero"), factor)
@@ -151,8 +147,7 @@ def _combination(step: dict[str, Any], room: StepRoom) -> tuple[Tree, tuple[str,
     sources = [room.relation(name) for name in step["c"]]
     cofactors = [room.text(text) for text in step["c"].values()]
     for source in sources:
-        if source.kind == "inequality" or source.leaf:
-            raise CheckError(f"`{source.name}` is no equation to start from")
+        refuse(source.kind == "inequality" or source.leaf, f"`{source.name}` is no equation to start from")
     total = add(*(times(c, one.left) for c, one in zip(cofactors, sources, strict=True)))
     return total, tuple(one.name for one in sources), tuple(cofactors)
 
@@ -163,8 +158,7 @@ def _implied(step: dict[str, Any], room: StepRoom) -> Made:
     of = room.relation(step["of"]) if known else DerivedRelation(step["id"], "", room.text(step["text"]))
     total, sources, cofactors = _combination(step, room)
     h = room.text(step.get("h", "1"))
-    if room.has_velocities(h):
-        raise CheckError("the factor of what is implied holds velocities")
+    refuse(room.has_velocities(h), "the factor of what is implied holds velocities")
     room.identity(add(times(h, of.left), negative(total)), "the cofactors")
     needs = () if room.reason(step.get("nonzero"), h) else (h,)
     new = replace(of, name=step["id"], kind=_kind(room, of.left))
@@ -175,8 +169,7 @@ def _implied(step: dict[str, Any], room: StepRoom) -> Made:
 def _rate(step: dict[str, Any], room: StepRoom) -> Made:
     """What is constantly 0 has the derivative 0."""
     of = room.relation(step["of"])
-    if of.kind != "finite":
-        raise CheckError("only a finite relation has a rate")
+    refuse(of.kind != "finite", "only a finite relation has a rate")
     new = DerivedRelation(step["id"], "velocity", total_derivative(of.left, room.variables))
     return [new], [Consequence(new.name, (of.name,))]
 
@@ -185,8 +178,7 @@ def _integral(step: dict[str, Any], room: StepRoom) -> Made:
     """h df/dt = sum c_i r_i: along every motion near a point where h is not 0, f keeps its value."""
     function, h = room.text(step["function"]), room.text(step.get("h", "1"))
     total, sources, cofactors = _combination(step, room)
-    if room.has_velocities(function) or room.has_velocities(h):
-        raise CheckError("an integral holds no velocities")
+    refuse(room.has_velocities(function) or room.has_velocities(h), "an integral holds no velocities")
     change = total_derivative(function, room.variables)
     room.identity(add(times(h, change), negative(total)), "the integral")
     needs = () if room.reason(step.get("nonzero"), h) else (h,)

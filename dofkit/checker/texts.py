@@ -9,7 +9,7 @@ from typing import Any
 from dofkit.checker.balls import evaluated, excludes_zero
 from dofkit.checker.derivatives import substituted, symbols_in
 from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.grammar import parse
 from dofkit.checker.problem import Problem
 from dofkit.checker.ring import CheckedRing
@@ -54,14 +54,12 @@ class CheckedTexts:
 
     def identity(self, tree: Tree, what: str) -> None:
         """`CheckError` unless a tree is 0 in the ring."""
-        if not self.ring.vanishes(tree):
-            raise CheckError(f"{what}: the two sides are not the same")
+        refuse(not self.ring.vanishes(tree), f"{what}: the two sides are not the same")
 
     def number_sign(self, text: Any) -> int:
         """The sign of a text of numbers that is not 0."""
         ball = evaluated(self.text(text), {}, self.effort)
-        if not excludes_zero(ball):
-            raise CheckError(f"`{str(text)[:60]}` is not shown to be positive or negative")
+        refuse(not excludes_zero(ball), f"`{str(text)[:60]}` is not shown to be positive or negative")
         return 1 if ball > 0 else -1
 
     def not_negative(self, text: Any) -> bool:
@@ -70,8 +68,7 @@ class CheckedTexts:
 
     def squares(self, terms: Any) -> Tree:
         """A sum of squares with coefficients that are not negative."""
-        if any(not self.not_negative(c) for c, _ in terms):
-            raise CheckError("a coefficient of a sum of squares is negative")
+        refuse(any(not self.not_negative(c) for c, _ in terms), "a coefficient of a sum of squares is negative")
         return add(*(times(self.text(c), self.text(a), self.text(a)) for c, a in terms))
 
     def is_open(self, tree: Tree) -> bool:
@@ -91,16 +88,14 @@ class CheckedTexts:
         if why is None:
             return False
         if "sos" in why:
-            if self.number_sign(why["plus"]) < 0:
-                raise CheckError("what is added to the squares is not positive")
+            refuse(self.number_sign(why["plus"]) < 0, "what is added to the squares is not positive")
             total = add(self.squares(why["sos"]), self.text(why["plus"]))
             if not self.ring.vanishes(add(tree, negative(total))):
                 self.identity(add(tree, total), "the sum of squares that is nowhere 0")
         elif "parameters" in why:
             product = self.text(why["parameters"])
             self.identity(add(tree, negative(product)), "the product of parameters")
-            if not self.is_nonzero_product(product):
-                raise CheckError("not a product of parameters that are not 0")
+            refuse(not self.is_nonzero_product(product), "not a product of parameters that are not 0")
         elif "exp" in why:
             self.identity(add(tree, negative(call("exp", self.text(why["exp"])))), "the exponential")
         elif not excludes_zero(evaluated(tree, {}, self.effort)):

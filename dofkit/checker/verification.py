@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 from dofkit.checker import dependence_rules, dimension_rules, emptiness_rules, everywhere_rules, label_rules
 from dofkit.checker.document import document_of, sha256_of
 from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.format import PARTS, certificate_of
 from dofkit.checker.problem import Problem, read_problem
@@ -41,6 +40,8 @@ COUNTING: dict[tuple[str, str], Counting] = {
     ("/generalized_coordinates", "minor"): dependence_rules.generalized_coordinates,
     ("/growth_vector", "span"): dependence_rules.growth,
 }
+#: What may be false of poses near the configuration alone.
+LOCAL = ("/singular", "/holonomic", "/scleronomic")
 #: The rules of an entry: field and name of the rule.
 ENTRY: dict[tuple[str, str], Rule] = {
     **{
@@ -105,8 +106,7 @@ class Verifier:
         if given.get("scene", {}).get("sha256") != sha256_of(document):
             raise CheckError("the certificate is of another scene, or of this one before it was edited")
         self.problem = problem or read_problem(document)
-        if self.problem.tolerance is not None:
-            raise CheckError("what is measured up to a tolerance is not proved")
+        refuse(self.problem.tolerance is not None, "what is measured up to a tolerance is not proved")
         self.evidences: dict[bool, CheckedEvidence] = {}
         self.verified: dict[str, Any] = {}
 
@@ -114,8 +114,7 @@ class Verifier:
         """The evidence in the plain reading, or with Cayley parameters."""
         if cayley not in self.evidences:
             bodies = frozenset(self.given["cayley"])
-            if cayley and not bodies:
-                raise CheckError("no body is read with Cayley parameters")
+            refuse(cayley and not bodies, "no body is read with Cayley parameters")
             problem = read_problem(self.document, bodies) if cayley else self.problem
             parts = {part: self.given[part] for part in PARTS}
             self.evidences[cayley] = CheckedEvidence(problem, parts, self.effort)
@@ -128,10 +127,8 @@ class Verifier:
         for claim in self.given["claims"]:
             path, rule = str(claim.get("path"))[:200], str(claim.get("rule"))[:60]
             try:
-                if path in seen:
-                    raise CheckError("the path is claimed twice")
-                if path in self.given["uncovered"]:
-                    raise CheckError("the path is claimed and uncovered")
+                refuse(path in seen, "the path is claimed twice")
+                refuse(path in self.given["uncovered"], "the path is claimed and uncovered")
                 self.check(claim)
             except FAULTS as error:
                 failed.append({"path": path, "rule": rule, "why": told(error)})
@@ -144,14 +141,17 @@ class Verifier:
         """`CheckError` unless the claim is shown; what was verified before may be used."""
         path, rule = claim["path"], claim["rule"]
         evidence = self.evidence(claim.get("cayley") is True)
-        if claim.get("cayley") is True and claim.get("about") == "everywhere":
-            raise CheckError("a chart of poses near the configuration is not everywhere")
+        whole = claim.get("about") == "everywhere" or path == "/conflicting" or claim["value"] is False
+        refuse(
+            claim.get("cayley") is True and whole and path.count("/") == 1 and path not in LOCAL, "a chart is no whole"
+        )
         for name in claim.get("covers", []):
             dimension_rules.take_cover(evidence, name)
         parts = path.split("/")
         if (path, rule) in WHOLE:
             place = WHOLE[path, rule](evidence, claim)
             self.verified[f"{path} at"] = place if isinstance(place, str) else None
+            self.verified[f"{path} about"] = claim.get("about")
         elif (path, rule) in COUNTING:
             COUNTING[path, rule](evidence, claim, self.verified)
         elif len(parts) == 4 and parts[:2] == ["", "constraints"] and (parts[3], rule) in ENTRY:
@@ -160,8 +160,3 @@ class Verifier:
         else:
             raise CheckError(f"no rule `{str(rule)[:40]}` for `{path[:60]}`")
         self.verified[path] = claim["value"]
-
-
-def text_of(verification: Verification) -> str:
-    """The verification as one line of JSON."""
-    return json.dumps(verification.as_json(), ensure_ascii=False)

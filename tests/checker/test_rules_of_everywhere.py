@@ -226,3 +226,26 @@ def test_what_is_integrable():
     assert faults(alone, [free, told], **one) == {}
     for basis in (["x^2 + y^2 = 0"], ["x^2 + y^2 = x"], ["x^2 - y^2 = C"], [], ["x^2 + y^2 = C"] * 2):
         assert not accepted(alone, [free, {**told, "value": {"rank": 1, "basis": basis}}], **one)
+
+
+def test_a_chart_of_poses_says_nothing_of_all():
+    line = {"type": "equation", "text": "x_B = 0"}
+    scene = {"bodies": ["B"], "constraints": [line, {"type": "equation", "text": "x_B = 1"}]}
+    never = {
+        "path": "/consistent",
+        "value": False,
+        "rule": "nullstellensatz",
+        "number": "1",
+        "c": {"c1": "-1", "c2": "1"},
+    }
+    assert accepted(scene, [never])
+    assert not accepted(scene, [{**never, "cayley": True}], cayley=["B"])
+    graph = {"path": "/dof", "value": 5, "rule": "graph", "order": [["c1", "x_B"]], "about": "everywhere"}
+    one = {**scene, "constraints": [line]}
+    assert accepted(one, [graph])
+    assert not accepted(one, [{**graph, "cayley": True}], cayley=["B"])
+    assert not accepted(one, [{**graph, "about": "component"}])
+    free = {"path": "/velocity_dof", "value": 5, "rule": "count", "about": "everywhere"}
+    assert accepted(one, [graph, free])
+    assert not accepted(one, [graph, {**free, "about": "reference"}])
+    assert not accepted(one, [free])
