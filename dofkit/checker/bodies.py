@@ -70,7 +70,7 @@ class MaterialPoint(NamedTuple):
 
 
 @dataclass(frozen=True)
-class BodyFrame:
+class CheckedFrame:
     """A body or the ground: position p, its reference p0, and ``turn``, the rows of ``under`` times A.
 
     ``angles``: the names of its angles or Cayley parameters; ``initial`` the reference values of angles.

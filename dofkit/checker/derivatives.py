@@ -109,12 +109,12 @@ _SLOPES = {
 
 
 def linear_parts(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree] | None:
-    """The slopes and the rest of a tree that is linear in some symbols; None where it is not, as written."""
+    """The slopes (not 0) and the rest of a tree that is linear in some symbols; None where it is not, as written."""
     used = sorted(symbols_in(tree).intersection(names))
     slopes = {name: derivative(tree, name) for name in used}
     if any(not symbols_in(slope).isdisjoint(used) for slope in slopes.values()):
         return None
-    return slopes, substituted(tree, dict.fromkeys(used, ZERO))
+    return {q: slope for q, slope in slopes.items() if slope != ZERO}, substituted(tree, dict.fromkeys(used, ZERO))
 
 
 def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:

@@ -27,21 +27,30 @@ def in_velocities(tree: Tree, coordinates: frozenset[str]) -> Tree:
     What is linear in velocities becomes a form, its terms without one times ``tdot``. Other relations that are
     homogeneous in differentials are divided by a power of dt.
     """
-    differentials = {"dt": symbol(TIME_RATE)} | {f"d{q}": symbol(f"{q}dot") for q in coordinates}
-    rates = {f"{q}dot" for q in coordinates} | {TIME_RATE}
-    if not symbols_in(tree).isdisjoint(differentials):
+    found = {name for name in symbols_in(tree) if name[0] == "d" and (name == "dt" or name[1:] in coordinates)}
+    differentials = {name: symbol(f"{name[1:]}dot") for name in found}
+    if differentials:
         degree = homogeneous_degree(tree, differentials.keys())
         if degree is None:
             raise CheckError("differentials and finite terms are added together")
         tree = substituted(tree, differentials)
-        form = linear_parts(tree, rates) if degree == 1 else None
+        form = linear_parts(tree, rates_in(tree, coordinates)) if degree == 1 else None
         if form is not None and form[1] == ZERO:
             return tree
         tree = substituted(tree, {TIME_RATE: ONE})
-    parts = linear_parts(tree, rates)
-    if parts is None or not parts[0] or parts[1] == ZERO:
+    parts = linear_parts(tree, rates_in(tree, coordinates))
+    if parts is None or parts[1] == ZERO:
         return tree
+    if not parts[0]:
+        return parts[1]
     return add(*(times(slope, symbol(rate)) for rate, slope in parts[0].items()), times(parts[1], symbol(TIME_RATE)))
+
+
+def rates_in(tree: Tree, coordinates: frozenset[str]) -> set[str]:
+    """The names of the velocities in a tree, that of time too."""
+    return {
+        name for name in symbols_in(tree) if name.endswith("dot") and (name == TIME_RATE or name[:-3] in coordinates)
+    }
 
 
 def lettered(world: Surroundings, texts: Sequence[Any], letters: Sequence[str], more: frozenset[str]) -> list[Sided]:

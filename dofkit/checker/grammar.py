@@ -106,7 +106,9 @@ class _Reader:
         """Divide by the next factor; True for ``dx/dt``, which is one unit."""
         divisor = self.factor()
         if divisor == symbol("dt"):
-            rates = {f"d{q}": symbol(f"{q}dot") for q in self.names.coordinates} | {"dt": ONE}
+            known = self.names.coordinates
+            rates = {d: symbol(f"{d[1:]}dot") for d in symbols_in(factors[-1]) if d[0] == "d" and d[1:] in known}
+            rates |= {"dt": ONE}
             parts = linear_parts(factors[-1], rates)
             if parts is not None and parts[0] and parts[1] == ZERO:
                 factors[-1] = substituted(factors[-1], rates)

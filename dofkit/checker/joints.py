@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dofkit.checker.bodies import BodyFrame, Vector, apart, cross, difference, dot, identity, length, less
+from dofkit.checker.bodies import CheckedFrame, Vector, apart, cross, difference, dot, identity, length, less
 from dofkit.checker.errors import CheckError
 from dofkit.checker.places import along
 from dofkit.checker.surroundings import Entry, Surroundings
@@ -58,7 +58,7 @@ def joint(world: Surroundings, entry: Entry) -> Iterator[Tree]:
 
 
 def movement(
-    world: Surroundings, entry: Entry, about: tuple[BodyFrame, BodyFrame, Direction], moved: tuple[Tree, Tree]
+    world: Surroundings, entry: Entry, about: tuple[CheckedFrame, CheckedFrame, Direction], moved: tuple[Tree, Tree]
 ) -> Iterator[Tree]:
     """Along and about the axis: a plane that is kept, a thread, a drive. ``moved``: a displacement and its factor.
 
@@ -86,7 +86,7 @@ def law(world: Surroundings, entry: Entry) -> Tree:
     return world.expression(entry["drive"], frozenset("t"))
 
 
-def parallel(first: BodyFrame, second: BodyFrame) -> Iterator[Tree]:
+def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterator[Tree]:
     """No turn of one against the other: the angle; the Cayley parameters; or three entries of A1^T A2."""
     if len(first.position) == 2:
         yield difference(second.angle, first.angle)
@@ -97,7 +97,7 @@ def parallel(first: BodyFrame, second: BodyFrame) -> Iterator[Tree]:
         yield from (dot(first.carry(e[i]), second.carry(e[j])) for i, j in ((0, 1), (1, 2), (2, 0)))
 
 
-def crossed(world: Surroundings, entry: Entry, first: BodyFrame, second: BodyFrame) -> Iterator[Tree]:
+def crossed(world: Surroundings, entry: Entry, first: CheckedFrame, second: CheckedFrame) -> Iterator[Tree]:
     """The axes of a universal joint, each carried by its body, stay across each other."""
     if entry.get("axes") is not None:
         a, b = map(world.vector, entry["axes"])

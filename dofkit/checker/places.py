@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dofkit.checker.bodies import (
-    BodyFrame,
+    CheckedFrame,
     MaterialPoint,
     Vector,
     apart,
@@ -54,7 +54,7 @@ def slot(world: Surroundings, entry: Entry) -> Iterator[Tree]:
         yield along(frame, point, place, u)
 
 
-def along(frame: BodyFrame, point: MaterialPoint, place: Vector, direction: Vector) -> Tree:
+def along(frame: CheckedFrame, point: MaterialPoint, place: Vector, direction: Vector) -> Tree:
     """How far a point is from a place of a body, along a direction of that body, times both denominators."""
     offset = less(point.over, scaled(point.under, frame.position))
     arm = dot(direction, less(place, frame.start))

@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from dofkit.checker import equations, joints, links, places
 from dofkit.checker.bodies import (
-    BodyFrame,
+    CheckedFrame,
     MaterialPoint,
     cayley_turn,
     euler_turn,
@@ -79,7 +79,7 @@ class CheckedRelation:
 
 
 @dataclass(frozen=True)
-class Problem:
+class CheckedProblem:
     """What a scene says. ``parameters``: those that stay symbols; ``reference`` holds at t = 0, empty where none is."""
 
     name: str
@@ -98,19 +98,22 @@ class Problem:
         return tuple(f"{q}dot" for q in self.coordinates)
 
 
-def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> Problem:
+Problem = CheckedProblem
+
+
+def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> CheckedProblem:
     """The problem of a document; bodies in ``cayley`` are read with Cayley parameters in the place of angles."""
     scene = exact_document(document)
     known_fields(scene, "scene", KEYS)
     try:
-        return _Reading({key: value for key, value in scene.items() if value is not None}, cayley).problem()
+        return _DocumentReading({key: value for key, value in scene.items() if value is not None}, cayley).problem()
     except CheckError:
         raise
     except (LookupError, TypeError, AttributeError, ValueError, RecursionError) as error:
         raise CheckError(f"the scene cannot be read: {type(error).__name__} {str(error)[:80]}") from None
 
 
-class _Reading:
+class _DocumentReading:
     """One document while it is read."""
 
     def __init__(self, scene: Mapping[str, Any], cayley: frozenset[str]) -> None:
@@ -169,7 +172,7 @@ class _Reading:
         if len(set(spelled)) < len(spelled) or not plain or not taken.isdisjoint({*names, *spelled}):
             raise CheckError("a name is given twice, taken, or not made of letters and digits")
 
-    def problem(self) -> Problem:
+    def problem(self) -> CheckedProblem:
         """All that the scene says."""
         world = self._world()
         relations = tuple(self._relations(world))
@@ -177,7 +180,7 @@ class _Reading:
         if not taken.isdisjoint(world.generic) or len({one.name for one in relations}) < len(relations):
             raise CheckError("a name is that of a generic symbol, or relations have one name")
         tolerance = value_text(self.scene.get("tolerance"))
-        return Problem(
+        return CheckedProblem(
             name=str(self.scene.get("name", "scene")),
             dimension=self.dimension,
             coordinates=self.coordinates,
@@ -191,7 +194,7 @@ class _Reading:
 
     def _world(self) -> Surroundings:
         d, zero = self.dimension, (ZERO,) * self.dimension
-        world = Surroundings(d, self.names, self.signs, {"ground": BodyFrame("ground", zero, zero, identity(d))})
+        world = Surroundings(d, self.names, self.signs, {"ground": CheckedFrame("ground", zero, zero, identity(d))})
         for particle, (names, entry) in self.particles.items():
             start = world.vector(entry["at"]) if entry.get("at") is not None else None
             if start is None and all(q in self.configuration for q in names):
@@ -242,14 +245,14 @@ class _Reading:
         return {q: found[q] for q in self.coordinates} if complete else {}
 
 
-def _frame(body: str, chart: list[str], values: tuple[Tree, ...], cayley: bool) -> BodyFrame:
+def _frame(body: str, chart: list[str], values: tuple[Tree, ...], cayley: bool) -> CheckedFrame:
     """A body with its coordinates and their reference values."""
     d = {1: 1, 3: 2, 6: 3}[len(chart)]
     position, start, initial, angles = tuple(map(symbol, chart[:d])), values[:d], values[d:], tuple(chart[d:])
     turning = tuple(map(symbol, angles))
     if cayley:
         under = add(ONE, square(turning))
-        return BodyFrame(body, position, start, cayley_turn(turning), under, angles, (ZERO,) * 3, cayley)
+        return CheckedFrame(body, position, start, cayley_turn(turning), under, angles, (ZERO,) * 3, cayley)
     turn = identity(d)
     if d == 2:
         turn = plane_turn(add(turning[0], negative(initial[0])))
@@ -257,4 +260,4 @@ def _frame(body: str, chart: list[str], values: tuple[Tree, ...], cayley: bool) 
         turn = euler_turn(*turning)
         if any(value != ZERO for value in initial):
             turn = matrix_product(turn, transposed(euler_turn(*initial)))
-    return BodyFrame(body, position, start, turn, ONE, angles, initial)
+    return CheckedFrame(body, position, start, turn, ONE, angles, initial)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from dofkit.checker.balls import evaluated, excludes_zero
-from dofkit.checker.bodies import BodyFrame, MaterialPoint, Vector, difference, identity
+from dofkit.checker.bodies import CheckedFrame, MaterialPoint, Vector, difference, identity
 from dofkit.checker.derivatives import symbols_in
 from dofkit.checker.document import value_text
 from dofkit.checker.effort import Effort
@@ -32,7 +32,7 @@ class Surroundings:
     dimension: int
     names: KnownNames
     signs: Mapping[str, str]
-    frames: dict[str, BodyFrame]
+    frames: dict[str, CheckedFrame]
     particles: dict[str, MaterialPoint] = field(default_factory=dict)
     generic: list[str] = field(default_factory=list)
     drawn: set[str] = field(default_factory=set)
@@ -65,7 +65,7 @@ class Surroundings:
         """A given place, or a generic one."""
         return self.vector(values) if values is not None else tuple(self.fresh("place") for _ in range(self.dimension))
 
-    def frame(self, name: str) -> BodyFrame:
+    def frame(self, name: str) -> CheckedFrame:
         """A body, or the ground."""
         if name not in self.frames:
             raise CheckError(f"there is no body '{name}'")

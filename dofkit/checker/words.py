@@ -29,7 +29,7 @@ _SUFFIXED = re.compile(r"(.+?)_?dot(_.*)?")
 _DOTTED = re.compile(f"([^{DOT}]+){DOT}([_0-9][^{DOT}]*)?")
 
 
-class Meaning(NamedTuple):
+class WordMeaning(NamedTuple):
     """What a word stands for.
 
     ``kind``: ``value`` (of ``tree``), ``moving`` (a velocity or differential: ``tree``), ``function`` (elementary),
@@ -42,11 +42,11 @@ class Meaning(NamedTuple):
 
 
 BUILT_IN = {
-    **{name: Meaning("function", name=head) for name, head in ELEMENTARY.items()},
-    **{name: Meaning("operator", name=name) for name in ("diff", "partial")},
-    "pi": Meaning("value", PI),
-    "t": Meaning("value", symbol("t")),
-    "dt": Meaning("moving", symbol("dt")),
+    **{name: WordMeaning("function", name=head) for name, head in ELEMENTARY.items()},
+    **{name: WordMeaning("operator", name=name) for name in ("diff", "partial")},
+    "pi": WordMeaning("value", PI),
+    "t": WordMeaning("value", symbol("t")),
+    "dt": WordMeaning("moving", symbol("dt")),
 }
 
 
@@ -68,22 +68,22 @@ class KnownNames:
     functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @cached_property
-    def declared(self) -> dict[str, Meaning]:
+    def declared(self) -> dict[str, WordMeaning]:
         """The declared names, spelled out."""
-        entries = [(name, Meaning("declared", name=name)) for name in self.functions]
-        entries += [(name, Meaning("value", tree)) for name, tree in self.values.items()]
-        entries += [(name, Meaning("value", symbol(name), name)) for name in self.coordinates]
+        entries = [(name, WordMeaning("declared", name=name)) for name in self.functions]
+        entries += [(name, WordMeaning("value", tree)) for name, tree in self.values.items()]
+        entries += [(name, WordMeaning("value", symbol(name), name)) for name in self.coordinates]
         found = {spelled_out(name): meaning for name, meaning in entries}
         if len(found) < len(entries):
             raise CheckError("a name is declared twice")
         return found
 
     @cached_property
-    def remembered(self) -> dict[str, tuple[Meaning, ...]]:
+    def remembered(self) -> dict[str, tuple[WordMeaning, ...]]:
         """Words that were read before."""
         return {}
 
-    def meaning(self, word: str) -> Meaning | None:
+    def meaning(self, word: str) -> WordMeaning | None:
         """What a whole word means."""
         word = spelled_out(word)
         found = self.declared.get(word) or BUILT_IN.get(word)
@@ -91,16 +91,18 @@ class KnownNames:
             found = self.moved(match[1] + (match[2] or ""), "{}dot")
         if found is None and word[0] == "d":
             found = self.moved(word[1:], "d{}")
-        return Meaning("value", EULER) if found is None and word == "E" else found
+        return WordMeaning("value", EULER) if found is None and word == "E" else found
 
-    def moved(self, word: str, form: str) -> Meaning | None:
+    def moved(self, word: str, form: str) -> WordMeaning | None:
         """The velocity ``{}dot`` or differential ``d{}`` of a coordinate."""
         base = self.declared.get(word)
         return (
-            Meaning("moving", symbol(form.format(base.name))) if base and base.kind == "value" and base.name else None
+            WordMeaning("moving", symbol(form.format(base.name)))
+            if base and base.kind == "value" and base.name
+            else None
         )
 
-    def parts(self, word: str) -> tuple[Meaning, ...]:
+    def parts(self, word: str) -> tuple[WordMeaning, ...]:
         """The factors of a word."""
         if len(word) > LONGEST_NAME:
             raise CheckError(f"a name of {len(word)} letters is too long")
@@ -109,8 +111,8 @@ class KnownNames:
             self.remembered[word] = (whole,) if whole else self._split(word)
         return self.remembered[word]
 
-    def _split(self, word: str) -> tuple[Meaning, ...]:
-        ways: list[list[tuple[Meaning, ...]]] = [[()], *([] for _ in word)]
+    def _split(self, word: str) -> tuple[WordMeaning, ...]:
+        ways: list[list[tuple[WordMeaning, ...]]] = [[()], *([] for _ in word)]
         for start in range(len(word)):
             for end in range(start + 1, len(word) + 1) if ways[start] else ():
                 found = self._piece(word, start, end)
@@ -120,7 +122,7 @@ class KnownNames:
             raise CheckError(f"`{word}` " + ("is a product in several ways" if ways[-1] else "is not declared"))
         return ways[-1][0]
 
-    def _piece(self, word: str, start: int, end: int) -> Meaning | None:
+    def _piece(self, word: str, start: int, end: int) -> WordMeaning | None:
         """The meaning of a part of a word; an index and a dot belong to the letter before them."""
         if not word[start].isalpha() or (end < len(word) and not word[end].isalpha()):
             return None

@@ -55,17 +55,25 @@ constraints:
 - dy/dx = tan(phi)
 - 0 <= x < b
 - dx/dt - v
+- xdot + x - xdot = 0
 """)
     assert said(problem) == {
         **{"sphere": "finite", "c2": "velocity", "c3": "velocity", "c4": "velocity", "c5": "velocity"},
-        **{"c6": "velocity", "c7": "velocity", "c8.1": "inequality", "c8.2": "inequality", "c9": "velocity"},
+        **{
+            "c6": "velocity",
+            "c7": "velocity",
+            "c8.1": "inequality",
+            "c8.2": "inequality",
+            "c9": "velocity",
+            "c10": "finite",
+        },
     }
     assert [relation.strict for relation in problem.relations if relation.kind == "inequality"] == [False, True]
     assert problem.parameters == {"R": "positive", "v": "real"}
     texts = {
         **{"sphere": "x^2 + y^2 - 9/4", "c2": "xdot - R cos(phi) phidot", "c3": "x ydot + tdot", "c4": "xdot - v tdot"},
         **{"c5": "xdot^2 + ydot^2 - v^2", "c6": "xdot^2 + ydot^2 - v^2", "c7": "ydot/xdot - tan(phi)"},
-        **{"c8.1": "x", "c8.2": "3/2 - x", "c9": "xdot - v tdot"},
+        **{"c8.1": "x", "c8.2": "3/2 - x", "c9": "xdot - v tdot", "c10": "x"},
     }
     for name, text in texts.items():
         agrees(problem, name, text)
