@@ -12,9 +12,10 @@ from flint import fmpq, fmpq_mpoly_ctx, fmpz
 
 from dofkit.checker.effort import Effort
 from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import Tree
 
 LARGEST_POWER, LARGEST_FORM, MOST_GENERATORS = 128, 60_000, 1000
-_FIRST_SLOTS = 32
+_FIRST_SLOTS = 64
 
 
 class Quotient(NamedTuple):
@@ -31,6 +32,8 @@ class QuotientRing:
         self.effort = effort
         self.places: dict[Any, int] = {}
         self.rules: dict[int, tuple[int, Quotient]] = {}
+        self.inverses: dict[int, tuple[str, tuple[Quotient, ...]]] = {}
+        self.memory: dict[int, tuple[Tree, Quotient]] = {}
         self._grow(_FIRST_SLOTS)
 
     def _grow(self, slots: int) -> None:
@@ -38,6 +41,9 @@ class QuotientRing:
         self.slots = slots
         self.generators = self.context.gens()
         self.one = self.context.constant(1)
+        self.rules = {place: (order, self._fresh(u)) for place, (order, u) in self.rules.items()}
+        self.inverses = {p: (head, tuple(map(self._fresh, below))) for p, (head, below) in self.inverses.items()}
+        self.memory.clear()
 
     def _lift(self, polynomial: Any) -> Any:
         return polynomial if polynomial.context() is self.context else polynomial.project_to_context(self.context)
@@ -123,10 +129,10 @@ class QuotientRing:
 
     def _replaced(self, polynomial: Any) -> tuple[Any, Any]:
         """A polynomial with all rules used, as numerator and denominator."""
-        under = self.one
+        under, degrees = self.one, polynomial.degrees()
         for place in sorted(self.rules, reverse=True):
-            order, (above, below) = self.rules[place][0], self._fresh(self.rules[place][1])
-            if polynomial.degrees()[place] < order:
+            order, (above, below) = self.rules[place]
+            if degrees[place] < order:
                 continue
             parts: dict[int, dict[tuple[int, ...], Any]] = {}
             for exponents, coefficient in polynomial.to_dict().items():
@@ -138,6 +144,7 @@ class QuotientRing:
                 factor = self._product(self._powered(above, count), self._powered(below, most - count))
                 found += self._product(self.context.from_dict(terms), factor)
             polynomial, under = found, self._product(under, self._powered(below, most))
+            degrees = polynomial.degrees()
         return polynomial, under
 
     def _powered(self, polynomial: Any, exponent: int) -> Any:
@@ -166,7 +173,7 @@ class QuotientRing:
         rest = self.times(u, self.constant(Fraction(int(size.q), int(size.p))))
         key = ("root", order, self.key(rest))
         found = self.generator(key)
-        self.rules.setdefault(self.places[key], (order, rest))
+        self.rules.setdefault(self.places[key], (order, self._fresh(rest)))
         return self.times(found, self._number_root(size, order))
 
     def _number_root(self, value: Any, order: int) -> Quotient:

@@ -31,9 +31,7 @@ class CheckedRing(QuotientRing):
 
     def __init__(self, effort: Effort) -> None:
         super().__init__(effort)
-        self.inverses: dict[int, tuple[str, tuple[Quotient, ...]]] = {}
         self.levels: dict[Any, int] = {}
-        self.memory: dict[int, tuple[Tree, Quotient]] = {}
 
     def vanishes(self, tree: Tree) -> bool:
         """Whether the normal form is 0: then the tree is 0 wherever it has a value."""
@@ -95,7 +93,7 @@ class CheckedRing(QuotientRing):
             return self.root(u, 2)
         if head == "abs":
             found = self.generator(("abs", self.key(u)))
-            self.rules.setdefault(self.places[("abs", self.key(u))], (2, self.times(u, u)))
+            self.rules.setdefault(self.places[("abs", self.key(u))], (2, self._fresh(self.times(u, u))))
             return found
         if self._is_zero_at(head, below):
             return self.constant(0)
@@ -192,7 +190,7 @@ class CheckedRing(QuotientRing):
         cosine = self.generator(("cos", level, key))
         sine = self.generator(("sin", level, key))
         square = self.plus(self.constant(1), self.times(self.constant(-1), self.times(cosine, cosine)))
-        self.rules.setdefault(self.places[("sin", level, key)], (2, square))
+        self.rules.setdefault(self.places[("sin", level, key)], (2, self._fresh(square)))
         return self._fresh(cosine), sine
 
     def _twelfth(self) -> tuple[Quotient, Quotient]:
