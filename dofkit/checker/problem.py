@@ -42,7 +42,7 @@ KEYS = (
     *("constraints", "forces", "energies", "tolerance", "configuration", "expect"),
 )
 Kind = Literal["finite", "velocity", "inequality"]
-Read = Callable[[Surroundings, Entry], Iterator[Tree] | Iterator[Sided]]
+Read = Callable[[Surroundings, Entry], Iterator[Tree | Sided]]
 #: Every type: how it is read, the fields it has, and the dimensions in which it is defined.
 TYPES: dict[str, tuple[Read, str, str]] = {
     "equation": (equations.equation, "text", "123"),

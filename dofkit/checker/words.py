@@ -96,11 +96,8 @@ class KnownNames:
     def moved(self, word: str, form: str) -> WordMeaning | None:
         """The velocity ``{}dot`` or differential ``d{}`` of a coordinate."""
         base = self.declared.get(word)
-        return (
-            WordMeaning("moving", symbol(form.format(base.name)))
-            if base and base.kind == "value" and base.name
-            else None
-        )
+        moves = base is not None and base.kind == "value" and base.name
+        return WordMeaning("moving", symbol(form.format(moves))) if moves else None
 
     def parts(self, word: str) -> tuple[WordMeaning, ...]:
         """The factors of a word."""
