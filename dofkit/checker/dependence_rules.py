@@ -120,7 +120,7 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: di
 def integrable_part(evidence: CheckedEvidence, claim: Told, verified: dict[str, Any]) -> None:
     """The rank of what is finite is n - dof; the basis are relations that give it with the finite ones as written."""
     value, rank = claim["value"], len(evidence.problem.coordinates) - verified["/dof"]
-    refuse(set(value) != {"rank", "basis"}, "an integrable part has a rank and a basis")
+    refuse(set(value) != {"rank", "basis"} or not evidence.moving, "an integrable part of forms has a rank and a basis")
     equal({"value": value["rank"]}, rank)
     if value["basis"] is None:
         return

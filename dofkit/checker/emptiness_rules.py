@@ -40,12 +40,13 @@ def _met(evidence: CheckedEvidence, one: CheckedRelation, point: CheckedPoint) -
 
 def feasible(evidence: CheckedEvidence, claim: Told) -> None:
     """At one point a motion meets all equations, and all inequalities hold."""
+    sided = [one for one in evidence.problem.relations if one.kind == "inequality"]
+    refuse(not sided, "there are no inequalities")
     moves(evidence, claim, (*evidence.finite, *evidence.moving))
     point = evidence.point(claim["at"]) if claim["rule"] == "point" else evidence.minor(claim["minor"]).point
-    for one in evidence.problem.relations:
-        if one.kind == "inequality":
-            refuse(evidence.has_velocities(one.left), "an inequality between velocities needs more than a point")
-            _met(evidence, one, point)
+    for one in sided:
+        refuse(evidence.has_velocities(one.left), "an inequality between velocities needs more than a point")
+        _met(evidence, one, point)
     equal(claim, True)
 
 

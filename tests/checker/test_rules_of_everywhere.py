@@ -173,6 +173,7 @@ def test_what_is_feasible_together():
     assert accepted(scene, [each], points=points)
     assert not accepted(scene, [{**each, "inequalities": {}}], points=points)
     assert not accepted(scene, [{**good, "value": False}], points=points)
+    assert not accepted({**scene, "constraints": scene["constraints"][:1]}, [good], points=points)
 
 
 def test_motions_through_time():
