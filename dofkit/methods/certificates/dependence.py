@@ -17,6 +17,8 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
     """Whether a step was found by which a relation follows from others near the point."""
     own = scenery.evidence.relation(name)
     kinds = [row for row in rows if scenery.evidence.relation(row).kind == own.kind]
+    if own.kind == "velocity":
+        kinds += [rate for row in rows if row not in kinds and (rate := rate_of(scenery, row))]
     step = f"{scenery.label}{name} from others"
     if step in scenery.evidence.known:
         return True
@@ -29,6 +31,18 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
     except (CheckError, NoEstimateError):
         return False
     return False
+
+
+def rate_of(scenery: Scenery, name: str) -> str:
+    """The id of a step for the rate of a finite relation; "" where it does not stand up."""
+    step = f"{scenery.label}rate of {name}"
+    if step in scenery.evidence.known:
+        return step
+    try:
+        scenery.add_step({"id": step, "by": "rate", "of": name})
+    except CheckError:
+        return ""
+    return step
 
 
 def constant_cofactors(

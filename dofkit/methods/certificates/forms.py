@@ -63,11 +63,21 @@ def _holds(tree: Tree, name: str) -> bool:
 
 def words_of(room: Room, standing: Standing, most: int) -> Words | None:
     """Left-normed brackets, level by level, until ``most`` are independent at the point or nothing new comes."""
-    try:
-        fields = tangent_fields(room, standing)
-        return None if not fields else _grown(room, standing, fields, most)
-    except (CheckError, NoEstimateError, RecursionError):
-        return None
+    key = (*standing.rows, "", *standing.columns, str(most))
+    if key not in room.words:
+        try:
+            fields = tangent_fields(room, standing)
+            room.words[key] = _grown(room, standing, fields, most) if fields else None
+        except (CheckError, NoEstimateError, RecursionError):
+            room.words[key] = None
+    found: Words | None = room.words[key]
+    return found
+
+
+def reach(room: Room) -> int:
+    """How many directions all words of the scene's fields span at most, as far as it is told."""
+    whole = len(room.problem.coordinates) if room.report.dof is None else room.report.dof
+    return whole + room.scenery.evidence.timed
 
 
 def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Words:
@@ -102,7 +112,7 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
 def orbit(room: Room) -> Iterator[Told]:
     """dof of a scene with forms: from below what brackets reach, from above finite rows and what integrates."""
     standing, told = room.standing, room.report.dof
-    if standing is None or not standing.accounted or told is None or room.scenery.nonlinear:
+    if standing is None or not standing.accounted or told is None or room.nonlinear:
         return
     least = _least(room, standing, told)
     if least is None:
@@ -115,7 +125,7 @@ def _least(room: Room, standing: Standing, told: int) -> Told | None:
     size = len(room.problem.coordinates)
     if told == size - len(standing.rows):
         return {"rule": "regular", "minor": room.minor(standing)}
-    words = words_of(room, standing, told + 1)
+    words = words_of(room, standing, reach(room))
     if words is None:
         return None
     moves = any("t" in vector for vector in words.vectors)
@@ -160,9 +170,9 @@ def involutive_rows(room: Room, names: Sequence[str], columns: Sequence[str] | N
 def growth_vector(room: Room) -> Iterator[Told]:
     """Words for every entry."""
     standing, told = room.standing, room.report.growth_vector
-    if standing is None or not standing.accounted or not told or room.scenery.nonlinear:
+    if standing is None or not standing.accounted or not told or room.nonlinear:
         return
-    words = words_of(room, standing, told[-1])
+    words = words_of(room, standing, reach(room))
     if words is None:
         return
     levels = [*words.levels, *words.levels[-1:] * len(told)][: len(told)]

@@ -91,8 +91,7 @@ def compared(room: Room) -> Iterator[Told]:
 def redundant(room: Room) -> Iterator[Told]:
     """What is dropped follows from the rest."""
     dropped = set(room.report.redundant or [])
-    owners = {one.name: one.owner for one in room.problem.relations}
-    names = sorted(room.equations, key=lambda name: owners[name] in dropped)
+    names = sorted(room.equations, key=lambda name: room.owner(name) in dropped)
     standing = room.accounted(names)
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "cofactors", "minor": room.minor(standing), **backed}
@@ -117,11 +116,11 @@ def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    standing = room.standing
+    standing = room.written_standing
     if standing is None:
         return
-    owners = [one.owner for one in room.problem.relations]
-    place = {one.name: owners.index(one.owner) for one in room.problem.relations}
+    owners = list(dict.fromkeys(one.owner for one in room.problem.relations))
+    place = {name: owners.index(room.owner(name)) for name in room.equations}
     last = owners.index(entry.name)
     size = sum(place[row] <= last for row in standing.rows)
     dependent = [name for name in standing.dependent if place[name] <= last]

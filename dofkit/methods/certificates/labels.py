@@ -8,7 +8,7 @@ from itertools import combinations
 from dofkit.checker.derivatives import derivative, homogeneous_degree
 from dofkit.checker.errors import CheckError
 from dofkit.checker.trees import Tree, add, negative, number, power, times
-from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, words_of
+from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, reach, words_of
 from dofkit.methods.certificates.integrals import combined_integral
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import FAR, Room, Told
@@ -65,9 +65,9 @@ def _reached(room: Room, owner: str, alone: bool) -> Told | None:
     """A word of brackets that a form of the constraint does not allow."""
     evidence = room.scenery.evidence
     standing = room.standing_of(evidence.owned(owner)) if alone else room.standing
-    if standing is None or room.scenery.nonlinear or not (alone or standing.accounted):
+    if standing is None or room.nonlinear or not (alone or standing.accounted):
         return None
-    words = words_of(room, standing, len(room.problem.coordinates) + 1)
+    words = words_of(room, standing, len(room.problem.coordinates) + 1 if alone else reach(room))
     if words is None:
         return None
     for name in evidence.owned(owner, ("velocity",)):

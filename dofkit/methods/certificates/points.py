@@ -34,6 +34,7 @@ class FoundPoint:
     functions: dict[str, dict[str, Any]]
     rows: list[str] = field(default_factory=list)
     columns: list[str] = field(default_factory=list)
+    rank: int = 0
 
     def entry(self) -> dict[str, Any]:
         """The point as a certificate writes it."""
@@ -75,6 +76,7 @@ class PointSearch:
 
     def somewhere(self, names: Sequence[str], unknowns: Sequence[str], seed: int = 0) -> FoundPoint | None:
         """A point of the relations ``names``, the ``unknowns`` free to move; None where none was found."""
+        best: FoundPoint | None = None
         for attempt in range(seed, seed + ATTEMPTS):
             try:
                 start = self._start(attempt, unknowns)
@@ -82,10 +84,13 @@ class PointSearch:
                 point = self._settled(found, names, set(unknowns)) if found is not None else None
             except (NoEstimateError, CheckError):
                 continue
-            if point is not None:
-                point.name = "P" if seed == 0 else f"P{seed}"
-                return point
-        return None
+            if point is not None and (best is None or point.rank > best.rank):
+                best = point
+                if point.rank == len(names) or self.problem.generic:
+                    break
+        if best is not None:
+            best.name = "P" if seed == 0 else f"P{seed}"
+        return best
 
     def meeting(self, name: str, seed: int = 100) -> FoundPoint | None:
         """A point at which an inequality holds, and the finite relations."""
@@ -231,10 +236,10 @@ class PointSearch:
             values = {**exact, **short}
             if self._holds(values, rows):
                 texts = {name: number_text(value) for name, value in self._ordered(values).items()}
-                return FoundPoint("P", texts, dict(floats), self.scenery.functions)
+                return FoundPoint("P", texts, dict(floats), self.scenery.functions, rank=len(rows))
         texts = {name: number_text(value) for name, value in self._ordered(exact).items()}
         centre = self._refined(exact, floats, rows, columns)
-        return FoundPoint("P", texts | centre, dict(floats), self.scenery.functions, rows, columns)
+        return FoundPoint("P", texts | centre, dict(floats), self.scenery.functions, rows, columns, len(rows))
 
     def _ordered(self, values: Mapping[str, Fraction]) -> dict[str, Fraction]:
         first = [name for name in self.scenery.parameters if name in values]

@@ -12,10 +12,11 @@ from dofkit.checker.errors import CheckError
 from dofkit.checker.label_rules import form_of
 from dofkit.checker.problem import Problem
 from dofkit.checker.trees import Tree
-from dofkit.methods.certificates.dependence import accounted
+from dofkit.methods.certificates.dependence import accounted, rate_of
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
+from dofkit.methods.certificates.reductions import reduced
 from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
 from dofkit.report import Report
 
@@ -33,6 +34,7 @@ class Standing:
     columns: list[str]
     dependent: list[str]
     accounted: bool = True
+    order: list[str] = field(default_factory=list)
 
 
 @dataclass
@@ -42,7 +44,7 @@ class Room:
     report: Report
     document: Mapping[str, Any]
     scenery: Scenery
-    uncovered: list[str] = field(default_factory=list)
+    words: dict[tuple[str, ...], Any] = field(default_factory=dict)
 
     @property
     def problem(self) -> Problem:
@@ -60,13 +62,18 @@ class Room:
         return PointSearch(self.scenery, self.report.witness)
 
     @cached_property
+    def nonlinear(self) -> bool:
+        """Whether a velocity relation is not linear."""
+        return not all(self.scenery.linear(name) for name in self.equations)
+
+    @cached_property
     def at_reference(self) -> bool:
         """Whether the main point is the scene's own configuration."""
         return self._reference is not None
 
     @cached_property
     def _reference(self) -> FoundPoint | None:
-        return self.search.reference() if self.small and not self.scenery.nonlinear else None
+        return self.search.reference() if self.small and not self.nonlinear else None
 
     @cached_property
     def about(self) -> str:
@@ -87,24 +94,22 @@ class Room:
     def _searched(self) -> FoundPoint | None:
         problem = self.problem
         unknowns = [*problem.coordinates, *problem.generic]
-        names = list(self.scenery.evidence.finite)
-        if self.scenery.nonlinear:
-            names += self.scenery.evidence.moving
-            names += [step for step in map(self._rate, self.scenery.evidence.finite) if step]
+        names = reduced(self.scenery, self.scenery.evidence.finite)
+        if self.nonlinear:
+            names += [name for name in self.equations if name not in names]
+            names += [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
             unknowns += problem.rates
         return self.search.somewhere(names, unknowns)
 
-    def _rate(self, name: str) -> str:
-        try:
-            self.scenery.add_step({"id": f"{self.scenery.label}rate of {name}", "by": "rate", "of": name})
-        except CheckError:
-            return ""
-        return f"{self.scenery.label}rate of {name}"
-
     @cached_property
     def equations(self) -> list[str]:
-        """All finite and velocity relations in their order."""
-        return [one.name for one in self.problem.relations if one.kind != "inequality"]
+        """All finite and velocity relations in their order, or what they were reduced to."""
+        return reduced(self.scenery, [one.name for one in self.problem.relations if one.kind != "inequality"])
+
+    def owner(self, name: str) -> str:
+        """The constraint of a relation, or of what it was reduced from."""
+        owners = {one.name: one.owner for one in self.problem.relations}
+        return owners.get(name) or owners[self.scenery.reduced_from[name]]
 
     def standing_of(self, names: Sequence[str], columns: Sequence[str] | None = None) -> Standing | None:
         """Independent rows among ``names`` at the main point, in their order; in ``columns`` where these are given."""
@@ -119,7 +124,8 @@ class Room:
             return None
         found = echelon(matrix)
         rows = [names[p.row] for p in found.pivots]
-        return Standing(point, rows, [p.column for p in found.pivots], [names[i] for i in found.dependent])
+        dependent = [names[i] for i in found.dependent]
+        return Standing(point, rows, [p.column for p in found.pivots], dependent, order=list(names))
 
     def row(self, name: str, point: FoundPoint) -> dict[str, float]:
         """The entries of a row in floats: by coordinates, or by their velocities."""
@@ -135,8 +141,15 @@ class Room:
 
     @cached_property
     def standing(self) -> Standing | None:
-        """The main point with rows among all equations; the others accounted for by steps where that is possible."""
-        return self.accounted(self.equations)
+        """The main point with rows among all equations, the finite ones first; the others by steps where they can be."""
+        relation = self.scenery.evidence.relation
+        return self.accounted(sorted(self.equations, key=lambda name: relation(name).kind != "finite"))
+
+    @cached_property
+    def written_standing(self) -> Standing | None:
+        """The same with the rows in the order in which they were written."""
+        found = self.standing
+        return found if found is None or found.order == self.equations else self.accounted(self.equations)
 
     def solving(self, columns: Sequence[str]) -> Standing | None:
         """The finite rows with just these columns; None where these do not do."""

@@ -43,6 +43,7 @@ class Scenery:
         self._view = dict(parts)
         self.evidence = GrowingEvidence(problem, self._view, self.effort)
         self._prepared: dict[str, Tree] = {}
+        self.reduced_from: dict[str, str] = {}
 
     @property
     def label(self) -> str:
@@ -66,11 +67,6 @@ class Scenery:
     def timed(self) -> bool:
         """Whether time occurs in any relation, inequalities included."""
         return any(not {"t", "tdot"}.isdisjoint(symbols_in(one.left)) for one in self.problem.relations)
-
-    @cached_property
-    def nonlinear(self) -> bool:
-        """Whether a velocity relation is not linear."""
-        return not all(self.linear(name) for name in self.evidence.moving)
 
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that cannot be told."""
