@@ -8,8 +8,7 @@ from dofkit.checker.balls import excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, is_here, names_told, regular
 from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.everywhere_rules import has_own_symbol
-from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
+from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, has_own_symbol
 from dofkit.checker.fields import admissible, independent, involutive, of_word
 from dofkit.checker.label_rules import own
 from dofkit.checker.points import CheckedPoint

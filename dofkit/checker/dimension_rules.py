@@ -9,7 +9,7 @@ from flint import fmpq, fmpq_mat
 from dofkit.checker.balls import determinant, evaluated, excludes_zero
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
+from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, has_own_symbol
 from dofkit.checker.fields import field_named, independent, involutive, span, tangent
 from dofkit.checker.points import CheckedPoint, in_turn
 from dofkit.checker.steps import Consequence
@@ -123,7 +123,7 @@ def _least(evidence: CheckedEvidence, given: Told, path: str) -> tuple[CheckedPo
 
 def _family(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
     """A family q(u) of configurations through the point, with as many directions there as parameters."""
-    refuse(evidence.moving, "a family is for finite relations")
+    refuse(evidence.moving or evidence.timed, "a family is for finite relations without time")
     point, parameters = evidence.point(given["at"]), given["parameters"]
     problem = evidence.problem
     taken = {*evidence.variables, *evidence.velocities, *problem.parameters, *problem.generic, *point.exact}
@@ -163,6 +163,11 @@ def _constant_rank(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
     rows = [row for block in given["blocks"] for row in block["rows"]]
     if len(rows) != len(set(rows)) or not set(minor.rows) <= set(rows) <= set(evidence.finite):
         raise CheckError("the blocks do not hold each finite relation once, or the minor has other rows")
+    for row in rows:
+        left = evidence.relation(row).left
+        refuse("t" in symbols_in(left), f"`{row}` holds time: what is constant may be so at one moment only")
+        chosen = evidence.is_open(left) and not has_own_symbol(evidence, row)
+        refuse(chosen, f"`{row}` holds what the point chose: it may be met for that alone")
     evidence.on_set(minor.point, rows)
     total = 0
     for block in given["blocks"]:

@@ -12,8 +12,7 @@ from dofkit.checker.balls import ball_of, evaluated, excludes_zero
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, names_told
 from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.everywhere_rules import has_own_symbol
-from dofkit.checker.evidence import CheckedEvidence
+from dofkit.checker.evidence import CheckedEvidence, has_own_symbol
 from dofkit.checker.points import CheckedPoint
 from dofkit.checker.problem import CheckedRelation
 from dofkit.checker.texts import has_value_everywhere

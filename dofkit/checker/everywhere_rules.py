@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.dimension_rules import Told, equal, is_here, regular
 from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.evidence import CheckedEvidence
+from dofkit.checker.evidence import CheckedEvidence, own_symbols
 from dofkit.checker.texts import has_value_everywhere, heads_in
 
 
@@ -69,29 +67,6 @@ def _free(evidence: CheckedEvidence, order: list[tuple[str, str]]) -> dict[str, 
 def _coordinates(evidence: CheckedEvidence, name: str, given: dict[str, frozenset[str]]) -> frozenset[str]:
     held = symbols_in(evidence.relation(name).left) & set(evidence.problem.coordinates)
     return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))
-
-
-def own_symbols(evidence: CheckedEvidence, generic: dict[str, Any]) -> None:
-    """`CheckError` unless each relation has its own symbol, of no other, in which it is nowhere stationary."""
-    for name, symbol in generic.items():
-        if symbol not in evidence.problem.generic and symbol not in evidence.problem.parameters:
-            raise CheckError(f"`{str(symbol)[:40]}` is no parameter and no generic length")
-        left = evidence.relation(name).left
-        others = (one.left for one in evidence.problem.relations if one.name != name)
-        if any(symbol in symbols_in(other) for other in others) or not has_value_everywhere(left):
-            raise CheckError(f"`{symbol}` is not the own symbol of `{name}`")
-        refuse(not evidence.is_nonzero_product(derivative(left, symbol)), f"`{name}` may be stationary in `{symbol}`")
-
-
-def has_own_symbol(evidence: CheckedEvidence, name: str) -> bool:
-    """Whether a relation has a generic symbol of its own, in which it is nowhere stationary."""
-    for symbol in sorted(symbols_in(evidence.relation(name).left) & set(evidence.problem.generic)):
-        try:
-            own_symbols(evidence, {name: symbol})
-        except CheckError:
-            continue
-        return True
-    return False
 
 
 def generic_rank(evidence: CheckedEvidence, claim: Told) -> None:

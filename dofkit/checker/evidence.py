@@ -12,9 +12,10 @@ from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.points import CheckedPoint, in_turn
 from dofkit.checker.relations import FAULTS, CheckedRelations, told
 from dofkit.checker.steps import DerivedRelation, total_derivative
+from dofkit.checker.texts import has_value_everywhere
 from dofkit.checker.trees import symbol
 
-__all__ = ["FAULTS", "CheckedEvidence", "CheckedMinor", "told"]
+__all__ = ["FAULTS", "CheckedEvidence", "CheckedMinor", "has_own_symbol", "own_symbols", "told"]
 
 LARGEST_MINOR = 250
 
@@ -154,3 +155,26 @@ class CheckedEvidence(CheckedRelations):
         held = self.closure(minor.rows, minor.point)
         for name in names:
             refuse(name not in held, f"`{name}` is not shown to follow from the rows")
+
+
+def own_symbols(evidence: CheckedEvidence, generic: dict[str, Any]) -> None:
+    """`CheckError` unless each relation has its own symbol, of no other, in which it is nowhere stationary."""
+    for name, letter in generic.items():
+        if letter not in evidence.problem.generic and letter not in evidence.problem.parameters:
+            raise CheckError(f"`{str(letter)[:40]}` is no parameter and no generic length")
+        left = evidence.relation(name).left
+        others = (one.left for one in evidence.problem.relations if one.name != name)
+        if any(letter in symbols_in(other) for other in others) or not has_value_everywhere(left):
+            raise CheckError(f"`{letter}` is not the own symbol of `{name}`")
+        refuse(not evidence.is_nonzero_product(derivative(left, letter)), f"`{name}` may be stationary in `{letter}`")
+
+
+def has_own_symbol(evidence: CheckedEvidence, name: str) -> bool:
+    """Whether a relation has a generic symbol of its own, in which it is nowhere stationary."""
+    for letter in sorted(symbols_in(evidence.relation(name).left) & set(evidence.problem.generic)):
+        try:
+            own_symbols(evidence, {name: letter})
+        except CheckError:
+            continue
+        return True
+    return False

@@ -139,6 +139,8 @@ def span(evidence: CheckedEvidence, given: dict[str, Any], longest: int = LONGES
         raise CheckError("a word is too long, or of other fields")
     independent(evidence, [of_word(evidence, word) for word in words], given["columns"], point)
     moves_time = any(field.get("t", ZERO) != ZERO for field in fields)
+    goes_on = any(excludes_zero(point.value(field.get("t", ZERO))) for field in fields)
+    refuse((evidence.timed or moves_time) and not goes_on, "no field is shown to have time go by")
     return point, len(words) - moves_time
 
 

@@ -47,9 +47,10 @@ be made from a minor: ``{"id", "cramer": {"rows": [ID], "columns": [coordinate],
 A WORD is a list of ids of fields: [A, B, C] is [[A, B], C].
 
 COVERS ``{"id", "minor", "blocks": [{"rows": [ID], "fields": [id], "columns": [coordinate]}]}``: blocks of finite
-relations of the scene, with fields that keep them (tangent identically, without t; columns: a minor of the fields at
-the minor's point). Sum over blocks of (coordinates that occur less fields, at most the rows) = rows of the minor. Then
-all rows of the blocks follow from those of the minor near its point. Any claim may name them in ``covers`` [id].
+relations of the scene (without t, and without parameters and functions but for an own generic symbol), with fields
+that keep them (tangent identically; columns: a minor of the fields at the minor's point). Sum over blocks of
+(coordinates that occur less fields, at most the rows) = rows of the minor. Then all rows of the blocks follow from
+those of the minor near its point. Any claim may name them in ``covers`` [id].
 
 BOUNDS of dof (``most`` and ``least`` of squeeze), and of velocity_dof:
 
@@ -69,10 +70,10 @@ family      at, parameters [u], values {u: TEXT},         least the number of u:
                                                           relations
 span        at, fields [id], rows [ID], words [WORD],     least the words (less 1 where a field moves t): fields
             columns [coordinate or t]                     tangent to rows identically, rows account for all
-                                                          relations; the words' columns are independent
-cover       minor, blocks [{"rows": [ID], "fields":       least n - (sum of variables less fields): each block's
-            [id], "columns": [coordinate]}]               fields are tangent to it identically and independent at
-                                                          the point (columns); the sum is the minor's size
+                                                          relations; the words' columns are independent. Where
+                                                          t or tdot occurs a field's t is not 0 at the point
+cover       minor, blocks (as in COVERS, of all finite    least n - rows of the minor. No velocity relations
+            relations)
 =========== ============================================= ======================================================
 
 CLAIMS ``{"path", "value", "rule", ..., "about", "cayley"}``. ``about`` (dof, velocity_dof): ``reference`` (the point

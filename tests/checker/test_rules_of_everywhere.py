@@ -250,3 +250,34 @@ def test_a_chart_of_poses_says_nothing_of_all():
     assert accepted(one, [graph, free])
     assert not accepted(one, [graph, {**free, "about": "reference"}])
     assert not accepted(one, [free])
+
+
+@pytest.mark.parametrize("more", ["t", "a", "h(0)", "t*x", "a*x"])
+def test_a_cover_knows_nothing_of_time_and_parameters(more: str):
+    scene = {"coordinates": ["x", "y"], "parameters": {"a": "real"}, "functions": {"h": ["s"]}}
+    values = {"x": "0", "y": "0", "t": "0", "a": "0"}
+    parts = {
+        "points": [{"id": "P", "values": values, "functions": {"h": {"arguments": ["s"], "text": "s"}}}],
+        "minors": [{"id": "m", "at": "P", "rows": ["c1"], "columns": ["x"]}],
+        "covers": [{"id": "k", "minor": "m", "blocks": [{"rows": ["c1", "c2"], "fields": [], "columns": []}]}],
+    }
+    claim = {"path": "/dof", "value": 1, "rule": "regular", "minor": "m", "about": "component", "covers": ["k"]}
+    assert accepted({**scene, "constraints": ["x = 0", "x + x^2 = 0"]}, [claim], **parts)
+    assert not accepted({**scene, "constraints": ["x = 0", f"x + x^2 + {more} = 0"]}, [claim], **parts)
+
+
+def test_at_a_single_moment_there_is_no_freedom():
+    scene = {"coordinates": ["x"], "constraints": ["t = 0"]}
+    parts = {
+        "points": [{"id": "P", "values": {"x": "0", "t": "0"}}],
+        "minors": [{"id": "0", "at": "P", "rows": [], "columns": []}],
+        "fields": [{"id": "X", "components": {"x": "1"}}],
+    }
+    span = {"rule": "span", "at": "P", "fields": ["X"], "rows": ["c1"], "words": [["X"]], "columns": ["x"]}
+    family = {"rule": "family", "at": "P", "parameters": ["u"], "values": {"u": "0"}, "q": {"x": "u"}, "columns": ["x"]}
+    for least in (span, family, {"rule": "regular", "minor": "0"}):
+        most = {"rule": "minor", "minor": "0"}
+        claim = {"path": "/dof", "value": 1, "rule": "squeeze", "most": most, "least": least, "about": "component"}
+        assert not accepted(scene, [claim], **parts)
+        still = {**claim, "least": {**least, "rows": []}}
+        assert accepted({**scene, "constraints": []}, [still], **parts)
