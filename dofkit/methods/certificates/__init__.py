@@ -1,1 +1,1 @@
-"""Certificates: evidence for what a report says is proved, found afterwards in the checker's own reading of the scene."""
+"""Certificates: evidence for what a report says is proved, found afterwards in the checker's own reading."""

@@ -1,4 +1,4 @@
-"""The certificate of a report: for every claim that is said to be proved its evidence, or its path among the uncovered."""
+"""The certificate of a report: evidence for every claim that is said to be proved, or its path among the uncovered."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from dofkit.methods.certificates import emptiness, forms, freedom, labels
 from dofkit.methods.certificates.estimates import NoEstimateError
 from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.scenery import Scenery
-from dofkit.methods.certificates.trial import Trial
+from dofkit.methods.certificates.trial import ClaimTrial
 from dofkit.report import ConstraintEntry, Report
 
 Maker = Callable[[Room], Iterator[Told]]
@@ -72,14 +72,14 @@ class Certifying:
         self.found: dict[str, Any] = {"certificate": 1, "scene": scene, "cayley": [], **self.parts}
         self.found |= {"claims": [], "uncovered": []}
         self.rooms: list[Room] = []
-        self.trial: Trial | None = None
+        self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}
 
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
         try:
             self.rooms = _rooms(self.document, self.report, self.parts, self.found)
-            self.trial = Trial(self.document, self.found)
+            self.trial = ClaimTrial(self.document, self.found)
             for room in self.rooms:
                 self.trial.admit(room.scenery)
         except CheckError:

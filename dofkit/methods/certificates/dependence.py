@@ -53,13 +53,13 @@ def constant_cofactors(
     rates = {f"{q}dot": 0.0 for q in (*scenery.problem.coordinates, "t")} | {"tdot": 1.0}
     estimates = Estimates({**rates, **point.floats})
     wanted = set(coordinates)
-    entries = [
-        {s: value for s, value in estimates.gradient(scenery.left(one)).items() if s in wanted} for one in rows
-    ]
+    entries = [{s: value for s, value in estimates.gradient(scenery.left(one)).items() if s in wanted} for one in rows]
     target = estimates.gradient(scenery.left(name))
     pivots = echelon(entries).pivots
     chosen = [rows[p.row] for p in pivots]
-    transposed = [{one: entries[p.row].get(q.column, 0.0) for one, p in zip(chosen, pivots, strict=True)} for q in pivots]
+    transposed = [
+        {one: entries[p.row].get(q.column, 0.0) for one, p in zip(chosen, pivots, strict=True)} for q in pivots
+    ]
     found = solved(transposed, [target.get(q.column, 0.0) for q in pivots], chosen)
     if found is None:
         return None

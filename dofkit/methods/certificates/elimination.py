@@ -16,14 +16,14 @@ class Pivot(NamedTuple):
     column: str
 
 
-class Echelon(NamedTuple):
+class FloatEchelon(NamedTuple):
     """The pivots in the order of the rows, and the rows that depend on those before."""
 
     pivots: list[Pivot]
     dependent: list[int]
 
 
-def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = None) -> Echelon:
+def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = None) -> FloatEchelon:
     """Rows in their order, each kept where it is not in the span of those kept before.
 
     ``prefer`` gives a weight to a row's column: of those that are not tiny the one of largest size times weight is
@@ -50,7 +50,7 @@ def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = No
         lead = row[column]
         kept.append((column, {name: value / lead for name, value in row.items() if value}))
         pivots.append(Pivot(place, column))
-    return Echelon(pivots, dependent)
+    return FloatEchelon(pivots, dependent)
 
 
 def solved(rows: Sequence[Row], right: Sequence[float], columns: Sequence[str]) -> dict[str, float] | None:

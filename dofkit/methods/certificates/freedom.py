@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from dofkit.methods.certificates.forms import involutive_rows, integrable_names, orbit
+from dofkit.methods.certificates.emptiness import inconsistent
 from dofkit.methods.certificates.everywhere import everywhere
+from dofkit.methods.certificates.forms import integrable_names, involutive_rows, orbit
 from dofkit.methods.certificates.integrals import integral_of_text
 from dofkit.methods.certificates.rigid_fields import backing
 from dofkit.methods.certificates.room import Room, Told
@@ -17,6 +18,7 @@ from dofkit.report import ConstraintEntry
 def consistent(room: Room) -> Iterator[Told]:
     """A point with a motion through it."""
     if room.report.consistent is False:
+        yield from inconsistent(room)
         return
     standing, inequalities = room.standing, _inequalities(room)
     if standing is None or inequalities is None:

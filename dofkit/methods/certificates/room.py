@@ -111,9 +111,11 @@ class Room:
         owners = {one.name: one.owner for one in self.problem.relations}
         return owners.get(name) or owners[self.scenery.reduced_from[name]]
 
-    def standing_of(self, names: Sequence[str], columns: Sequence[str] | None = None) -> Standing | None:
-        """Independent rows among ``names`` at the main point, in their order; in ``columns`` where these are given."""
-        point = self.point
+    def standing_of(
+        self, names: Sequence[str], columns: Sequence[str] | None = None, point: FoundPoint | None = None
+    ) -> Standing | None:
+        """Independent rows among ``names`` at a point (the main one), in order; in ``columns`` where given."""
+        point = point or self.point
         if point is None:
             return None
         try:
@@ -141,7 +143,7 @@ class Room:
 
     @cached_property
     def standing(self) -> Standing | None:
-        """The main point with rows among all equations, the finite ones first; the others by steps where they can be."""
+        """The main point with rows among all equations, the finite ones first; the others by steps if possible."""
         relation = self.scenery.evidence.relation
         return self.accounted(sorted(self.equations, key=lambda name: relation(name).kind != "finite"))
 
@@ -173,7 +175,8 @@ class Room:
         """Independent rows in an order of their own, the others by steps where that is possible."""
         found = self.standing_of(names)
         if found is not None and found.dependent:
-            found.accounted = all([accounted(self.scenery, name, found.rows, found.point) for name in found.dependent])
+            shown = [accounted(self.scenery, name, found.rows, found.point) for name in found.dependent]
+            found.accounted = all(shown)
         return found
 
     def minor(self, standing: Standing, size: int | None = None) -> str:

@@ -12,7 +12,7 @@ from dofkit.methods.certificates.scenery import Scenery
 Outcome = Literal["shown", "contradicted", "open"]
 
 
-class Trial:
+class ClaimTrial:
     """The checker at work on a certificate that grows."""
 
     def __init__(self, document: Mapping[str, Any], certificate: dict[str, Any]) -> None:
