@@ -8,15 +8,17 @@ from fractions import Fraction
 import pytest
 
 from dofkit.base.errors import TextError
-from dofkit.checker.derivatives import symbols_in
+from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.errors import CheckError
 from dofkit.checker.grammar import parse, parse_relations
+from dofkit.checker.trees import FUNCTIONS as HEADS
 from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
 from dofkit.checker.words import EULER, PI, KnownNames
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import num, parameter
 from tests.checker.values import of_engine, of_tree
 
+FUNCTIONS_OF_ONE = [name for name in HEADS if name != "atan2"]
 COORDINATES = frozenset({"x", "y", "theta", "phi", "s", "x_A", "x1"})
 PARAMETERS = ("R", "L", "m", "g", "l", "v", "omega")
 FUNCTIONS = {"h": ("s",), "f": ("t",), "w": ("x", "t")}
@@ -359,3 +361,11 @@ def test_the_number_zero_is_read() -> None:
     assert parse("0", NAMES) == ZERO
     assert parse("3 - 3", NAMES) == ZERO
     assert parse("3", NAMES) == three
+
+
+@pytest.mark.parametrize("name", [*FUNCTIONS_OF_ONE, "x^3", "2^x", "x^x", "atan2(x, 2)", "h(x^2)", "w(x, x)"])
+def test_derivatives_are_slopes(name: str) -> None:
+    tree = parse(name if "x" in name.removeprefix("exp") else f"{name}(x)", NAMES)
+    step, at = 1e-6, 0.6
+    slope = (of_tree(tree, {"x": at + step}) - of_tree(tree, {"x": at - step})) / (2 * step)
+    assert of_tree(derivative(tree, "x"), {"x": at}) == pytest.approx(slope, rel=1e-6)
