@@ -104,7 +104,7 @@ class Certifying:
                 outcome = self.trial.outcome(claim) if self.trial else "open"
                 if outcome == "shown":
                     return claim
-                if outcome == "contradicted" and self.trial:
+                if outcome == "contradicted" and self.trial and not room.scenery.reduced_from:
                     contradicted = contradicted or self.trial.reasons[path]
         if contradicted:
             self.contradictions[path] = contradicted

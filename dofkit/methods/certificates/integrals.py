@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from dofkit.checker.derivatives import derivative, symbols_in
+from collections.abc import Sequence
+
+from dofkit.checker.derivatives import derivative
 from dofkit.checker.errors import CheckError
 from dofkit.checker.fields import LARGEST_CRAMER
-from dofkit.checker.steps import total_derivative
-from dofkit.checker.trees import ONE, Tree, add, negative, times
+from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, times
+from dofkit.methods.certificates.dependence import rate_of
+from dofkit.methods.certificates.elimination import echelon, solved
+from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.room import Room
 from dofkit.methods.certificates.texts import text_of
+
+Components = dict[str, Tree]
 
 
 def integral_of_text(room: Room, text: str) -> str | None:
@@ -24,70 +30,102 @@ def combined_integral(room: Room, function: str) -> str | None:
         return name
     if room.standing is None or not room.small:
         return None
-    change = room.scenery.evidence.text(function)
-    found = multipliers(room, change)
+    tree = room.scenery.evidence.text(function)
+    target = {v: derivative(tree, v) for v in room.scenery.evidence.variables}
+    found = cofactors(room, target, moving_rows(room))
     if found is None:
         return None
     h, factors = found
     try:
-        told = {row: text_of(tree) for row, tree in factors.items()}
+        told = {row: text_of(factor) for row, factor in factors.items()}
         room.scenery.add_step({"id": name, "by": "integral", "function": function, "h": text_of(h), "c": told})
     except CheckError:
         return None
     return name
 
 
-def multipliers(room: Room, function: Tree) -> tuple[Tree, dict[str, Tree]] | None:
-    """h and c_i with h df = sum c_i row_i, by Cramer's rule for the rows that touch the function."""
-    standing, evidence = room.standing, room.scenery.evidence
-    if standing is None:
+def moving_rows(room: Room) -> list[str]:
+    """The velocity relations, and the rates of the finite ones."""
+    found = []
+    for name in room.equations:
+        finite = room.scenery.evidence.relation(name).kind == "finite"
+        row = rate_of(room.scenery, name) if finite else name
+        found += [row] if row else []
+    return found
+
+
+def follows_from_integrals(room: Room, name: str, steps: Sequence[str]) -> bool:
+    """Whether a step was found by which a form follows from integrals and finite relations."""
+    step = f"{room.scenery.label}{name} from integrals"
+    if step in room.scenery.evidence.known:
+        return True
+    sources = [rate for one in (*steps, *room.scenery.evidence.finite) if (rate := rate_of(room.scenery, one))]
+    found = cofactors(room, components(room, name), sources)
+    if found is None:
+        return False
+    h, factors = found
+    try:
+        told = {row: text_of(factor) for row, factor in factors.items()}
+        room.scenery.add_step({"id": step, "by": "implied", "of": name, "h": text_of(h), "c": told})
+    except CheckError:
+        return False
+    return True
+
+
+def components(room: Room, name: str) -> Components:
+    """The components of a linear relation of velocities."""
+    left = room.scenery.evidence.relation(name).left
+    return {v: derivative(left, f"{v}dot") for v in room.scenery.evidence.variables}
+
+
+def cofactors(room: Room, target: Components, sources: Sequence[str]) -> tuple[Tree, dict[str, Tree]] | None:
+    """h and c_i with h target = sum c_i source_i identically; None where a few sources do not do."""
+    if room.point is None:
         return None
-    pairs = dict(zip(standing.rows, standing.columns, strict=True))
-    moved = {q for q in room.problem.coordinates if q in symbols_in(function)}
-    rows: list[str] = []
-    grown = True
-    while grown:
-        fresh = [row for row in pairs if row not in rows and moved & _moved(room, row)]
-        grown = bool(fresh)
-        rows += fresh
-        moved |= {q for row in fresh for q in _moved(room, row)}
-    for chosen in _fewer(rows):
-        if len(chosen) <= LARGEST_CRAMER:
-            columns = [pairs[row] for row in chosen]
-            matrix = [[evidence.slope(row, column) for row in chosen] for column in columns]
-            right = [derivative(function, column) for column in columns]
-            h = determinant(matrix)
-            factors = {
-                row: determinant([[*line[:i], b, *line[i + 1 :]] for line, b in zip(matrix, right, strict=True)])
-                for i, row in enumerate(chosen)
-            }
-            if _stands(room, function, h, factors):
-                return h, factors
-    return None
-
-
-def _fewer(rows: list[str]) -> list[list[str]]:
-    """One row, two, then all."""
-    found = [[row] for row in rows]
-    found += [[a, b] for i, a in enumerate(rows) for b in rows[:i]]
-    return [*found[:20], rows]
-
-
-def _stands(room: Room, function: Tree, h: Tree, factors: dict[str, Tree]) -> bool:
-    evidence = room.scenery.evidence
-    change = total_derivative(function, evidence.variables)
-    rates = {
-        row: one.left if one.kind == "velocity" else total_derivative(one.left, evidence.variables)
-        for row, one in ((row, evidence.relation(row)) for row in factors)
+    rows = {one: components(room, one) for one in sources}
+    try:
+        chosen, columns = _chosen(room, target, rows)
+    except NoEstimateError:
+        return None
+    if len(chosen) > LARGEST_CRAMER:
+        return None
+    matrix = [[rows[row][column] for row in chosen] for column in columns]
+    right = [target[column] for column in columns]
+    h = determinant(matrix)
+    found = {
+        row: determinant([[*line[:i], b, *line[i + 1 :]] for line, b in zip(matrix, right, strict=True)])
+        for i, row in enumerate(chosen)
     }
-    total = add(*(times(factor, rates[row]) for row, factor in factors.items()))
-    return evidence.ring.vanishes(add(times(h, change), negative(total)))
+    ring = room.scenery.evidence.ring
+    for v in room.scenery.evidence.variables:
+        total = add(*(times(factor, rows[row][v]) for row, factor in found.items()))
+        if not ring.vanishes(add(times(h, target[v]), negative(total))):
+            return None
+    return h, found
 
 
-def _moved(room: Room, row: str) -> set[str]:
-    one = room.scenery.evidence.relation(row)
-    held = symbols_in(one.left)
-    return {q for q in room.problem.coordinates if (q if one.kind == "finite" else f"{q}dot") in held}
+def _chosen(room: Room, target: Components, rows: dict[str, Components]) -> tuple[list[str], list[str]]:
+    """The sources that matter, at the point or beside it, and columns in which they are independent."""
+    used: set[str] = set()
+    floats = room.point.floats if room.point is not None else {}
+    for shift in (0.0, 0.0625):
+        moved = {name: value + shift * (1 + i % 5) for i, (name, value) in enumerate(floats.items())}
+        estimates = Estimates(moved)
+        numbers = {row: _floats(room, estimates, one) for row, one in rows.items()}
+        pivots = echelon(list(numbers.values())).pivots
+        kept = [list(rows)[p.row] for p in pivots]
+        goal = _floats(room, estimates, target)
+        square = [{row: numbers[row].get(p.column, 0.0) for row in kept} for p in pivots]
+        found = solved(square, [goal.get(p.column, 0.0) for p in pivots], kept) or {}
+        used |= {row for row, value in found.items() if abs(value) > 1e-9}
+    chosen = [row for row in rows if row in used]
+    estimates = Estimates(floats)
+    pivots = echelon([_floats(room, estimates, rows[row]) for row in chosen]).pivots
+    return [chosen[p.row] for p in pivots], [p.column for p in pivots]
+
+
+def _floats(room: Room, estimates: Estimates, row: Components) -> dict[str, float]:
+    return {v: estimates.value(room.scenery.chosen(tree)) for v, tree in row.items() if tree != ZERO}
 
 
 def determinant(rows: list[list[Tree]]) -> Tree:

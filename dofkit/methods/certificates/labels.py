@@ -9,7 +9,7 @@ from dofkit.checker.derivatives import derivative, homogeneous_degree
 from dofkit.checker.errors import CheckError
 from dofkit.checker.trees import Tree, add, negative, number, power, times
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, reach, words_of
-from dofkit.methods.certificates.integrals import combined_integral
+from dofkit.methods.certificates.integrals import combined_integral, follows_from_integrals
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import FAR, Room, Told
 from dofkit.methods.certificates.texts import text_of
@@ -107,12 +107,6 @@ def integral_step(room: Room, entry: ConstraintEntry, name: str) -> str | None:
     return ids[0]
 
 
-def system_integral(room: Room, entry: ConstraintEntry, name: str) -> str | None:
-    """Steps for an integral of a form in the presence of the other relations."""
-    function = integral_text(entry)
-    return None if function is None else combined_integral(room, function)
-
-
 def integral_text(entry: ConstraintEntry) -> str | None:
     """The function that is said to be constant."""
     return entry.integral.rpartition("=")[0].strip() if entry.integral else None
@@ -147,8 +141,14 @@ def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     found = {"rule": "integral", "at": room.point.name, "function": function}
     if factor := factor_text(room, entry, names[0]):
         yield {**found, "factor": factor}
-    if step := system_integral(room, entry, names[0]):
+    if (step := combined_integral(room, function)) is None:
+        return
+    if follows_from_integrals(room, names[0], [step]):
         yield {**found, "step": step}
+    texts = [one for other in room.report.constraints if (one := integral_text(other))]
+    steps = [step, *(one for text in texts if (one := combined_integral(room, text)) and one != step)]
+    if follows_from_integrals(room, names[0], steps):
+        yield {**found, "step": step, "integrals": steps}
 
 
 def integrating_factor(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
