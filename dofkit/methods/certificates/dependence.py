@@ -8,7 +8,7 @@ from fractions import Fraction
 from dofkit.checker.errors import CheckError
 from dofkit.methods.certificates.elimination import echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
-from dofkit.methods.certificates.points import FoundPoint
+from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.scenery import Scenery
 from dofkit.methods.certificates.texts import number_text
 

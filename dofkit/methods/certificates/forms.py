@@ -11,7 +11,7 @@ from dofkit.checker.fields import LARGEST_CRAMER, VelocityField, bracket, field_
 from dofkit.checker.trees import Tree
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError, Values
-from dofkit.methods.certificates.points import FoundPoint
+from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.rigid_fields import field_id, parts_of
 from dofkit.methods.certificates.room import Room, Standing, Told
 

@@ -9,8 +9,8 @@ from dofkit.checker.derivatives import derivative, homogeneous_degree
 from dofkit.checker.errors import CheckError
 from dofkit.checker.trees import Tree, add, negative, number, power, times
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, reach, words_of
+from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.integrals import combined_integral, follows_from_integrals
-from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import FAR, Room, Told
 from dofkit.methods.certificates.texts import text_of
 from dofkit.report import ConstraintEntry

@@ -15,7 +15,8 @@ from dofkit.checker.trees import Tree
 from dofkit.methods.certificates.dependence import accounted, rate_of
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
-from dofkit.methods.certificates.points import FoundPoint, PointSearch
+from dofkit.methods.certificates.found_points import FoundPoint
+from dofkit.methods.certificates.points import PointSearch
 from dofkit.methods.certificates.reductions import reduced
 from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
 from dofkit.report import Report
@@ -38,7 +39,7 @@ class Standing:
 
 
 @dataclass
-class Room:
+class RoomParts:
     """The report, the reading of the scene, and the parts found so far."""
 
     report: Report
@@ -50,6 +51,47 @@ class Room:
     def problem(self) -> Problem:
         """The reading."""
         return self.scenery.problem
+
+    def add_point(self, point: FoundPoint) -> str:
+        """The id of a further point, written into the certificate."""
+        entries = self.scenery.parts["points"]
+        if all(one["id"] != point.name for one in entries):
+            entries.append(point.entry())
+        return point.name
+
+    def minor(self, standing: Standing, size: int | None = None) -> str:
+        """The id of a minor: of all rows, or of the first ``size``."""
+        rows, columns = standing.rows[:size], standing.columns[:size]
+        given = {"at": standing.point.name, "rows": rows, "columns": columns}
+        minors = self.scenery.parts["minors"]
+        for one in minors:
+            if all(one[key] == value for key, value in given.items()):
+                return str(one["id"])
+        name = f"M{len(minors)}"
+        minors.append({"id": name, **given})
+        return name
+
+    def form(self, name: str) -> dict[str, Tree] | None:
+        """The components of a linear form."""
+        try:
+            return form_of(self.scenery.evidence, name)
+        except CheckError:
+            return None
+
+    def met(self, form: Mapping[str, Tree]) -> frozenset[str]:
+        """The variables of a form: those it moves and those it mentions."""
+        return frozenset(form).union(*(symbols_in(tree) for tree in form.values()))
+
+    def differs(self, tree: Tree, point: FoundPoint) -> bool:
+        """Whether a tree is not 0 at a point, by far."""
+        try:
+            return abs(Estimates(point.floats).value(self.scenery.chosen(tree))) > FAR
+        except NoEstimateError:
+            return False
+
+
+class Room(RoomParts):
+    """One reading of a scene with its main point, and rows that are independent there."""
 
     @property
     def small(self) -> bool:
@@ -178,40 +220,3 @@ class Room:
             shown = [accounted(self.scenery, name, found.rows, found.point) for name in found.dependent]
             found.accounted = all(shown)
         return found
-
-    def minor(self, standing: Standing, size: int | None = None) -> str:
-        """The id of a minor: of all rows, or of the first ``size``."""
-        rows, columns = standing.rows[:size], standing.columns[:size]
-        given = {"at": standing.point.name, "rows": rows, "columns": columns}
-        minors = self.scenery.parts["minors"]
-        for one in minors:
-            if all(one[key] == value for key, value in given.items()):
-                return str(one["id"])
-        name = f"M{len(minors)}"
-        minors.append({"id": name, **given})
-        return name
-
-    def add_point(self, point: FoundPoint) -> str:
-        """The id of a further point, written into the certificate."""
-        entries = self.scenery.parts["points"]
-        if point is not self.point and all(one["id"] != point.name for one in entries):
-            entries.append(point.entry())
-        return point.name
-
-    def form(self, name: str) -> dict[str, Tree] | None:
-        """The components of a linear form."""
-        try:
-            return form_of(self.scenery.evidence, name)
-        except CheckError:
-            return None
-
-    def met(self, form: Mapping[str, Tree]) -> frozenset[str]:
-        """The variables of a form: those it moves and those it mentions."""
-        return frozenset(form).union(*(symbols_in(tree) for tree in form.values()))
-
-    def differs(self, tree: Tree, point: FoundPoint) -> bool:
-        """Whether a tree is not 0 at a point, by far."""
-        try:
-            return abs(Estimates(point.floats).value(self.scenery.chosen(tree))) > FAR
-        except NoEstimateError:
-            return False
