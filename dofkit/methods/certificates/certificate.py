@@ -79,7 +79,7 @@ class Certifying:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
         try:
             self.rooms = _rooms(self.document, self.report, self.parts, self.found)
-            self.trial = ClaimTrial(self.document, self.found)
+            self.trial = ClaimTrial(self.document, self.found, self.rooms[-1].problem)
             for room in self.rooms:
                 self.trial.admit(room.scenery)
         except CheckError:

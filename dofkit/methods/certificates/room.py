@@ -109,6 +109,11 @@ class Room(RoomParts):
         return not all(self.scenery.linear(name) for name in self.equations)
 
     @cached_property
+    def _squared(self) -> bool:
+        """Whether a relation that is not linear in the velocities was reduced to such that are."""
+        return not self.nonlinear and not all(map(self.scenery.linear, self.scenery.evidence.moving))
+
+    @cached_property
     def at_reference(self) -> bool:
         """Whether the main point is the scene's own configuration."""
         return self._reference is not None
@@ -128,6 +133,8 @@ class Room(RoomParts):
         if not self.small:
             return None
         found = self._reference or self._searched()
+        if found is not None and self._squared and not self.scenery.timed:
+            found.values |= dict.fromkeys(self.problem.rates, "0")
         if found is not None:
             found.name = f"{self.scenery.label}{found.name}"
             self.scenery.parts["points"].append(found.entry())

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from dofkit.checker.evidence import FAULTS, told
+from dofkit.checker.problem import Problem
 from dofkit.checker.verification import Verifier
 from dofkit.methods.certificates.scenery import Scenery
 
@@ -15,8 +16,8 @@ Outcome = Literal["shown", "contradicted", "open"]
 class ClaimTrial:
     """The checker at work on a certificate that grows."""
 
-    def __init__(self, document: Mapping[str, Any], certificate: dict[str, Any]) -> None:
-        self.verifier = Verifier(document, certificate)
+    def __init__(self, document: Mapping[str, Any], certificate: dict[str, Any], problem: Problem) -> None:
+        self.verifier = Verifier(document, certificate, problem)
         self.reasons: dict[str, str] = {}
 
     def admit(self, scenery: Scenery) -> None:
