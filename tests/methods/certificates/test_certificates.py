@@ -1,0 +1,124 @@
+"""Certificates of reports: what is proved is shown again, what is told wrongly is not."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+import dofkit
+from dofkit.checker import verify
+from dofkit.methods.certificates.certificate import made
+from dofkit.methods.certificates.lowering import document_of_scene, with_certificate
+from dofkit.report import Report
+from tests.shared.known_scenes import CATALOG, few, report_of, scene_of
+
+FOUR_BAR = "four-bar-linkage"
+SKATE = {"name": "skate", "coordinates": ["x", "y", "theta"], "constraints": ["sin(theta) dx - cos(theta) dy = 0"]}
+SQUARE = {
+    "name": "square",
+    "dimension": 2,
+    "particles": ["A", "B", "C", "D"],
+    "constraints": [
+        {"type": "link", "between": pair}
+        for pair in (["A", "B"], ["B", "C"], ["C", "D"], ["D", "A"], ["A", "C"], ["B", "D"])
+    ],
+}
+
+
+def certified(scene: Any, **changes: Any) -> tuple[dict[str, Any], dict[str, str]]:
+    """The certificate of a report, some of whose fields were changed, and what it contradicts."""
+    loaded = dofkit.load(scene)
+    certificate, failed = made(document_of_scene(loaded), dofkit.classify(loaded).model_copy(update=changes))
+    return certificate, dict(failed)
+
+
+@pytest.mark.parametrize("path", few("certificates", CATALOG, 8, (FOUR_BAR, "rolling-ball", "bolt")))
+def test_what_is_certified_is_verified(path: Any) -> None:
+    certificate, failed = made(document_of_scene(scene_of(path)), report_of(path))
+    found = verify(path.read_text(encoding="utf-8"), json.dumps(certificate))
+    assert (failed, found.failed, found.claims) == ([], [], found.verified)
+    told = sum(one.verdict == "proved" for one in report_of(path).verdicts.values())
+    told += sum(one.verdict == "proved" for e in report_of(path).constraints for one in e.verdicts.values())
+    assert found.claims + sum("/about" not in one for one in found.uncovered) == told
+
+
+def test_a_linkage_is_covered_whole() -> None:
+    certificate, failed = certified(FOUR_BAR)
+    assert (certificate["uncovered"], failed) == ([], {})
+    assert len(json.dumps(certificate)) < 6000
+
+
+def test_the_same_report_has_the_same_certificate() -> None:
+    assert certified(SKATE) == certified(SKATE)
+
+
+def test_a_skate_reaches_every_pose() -> None:
+    certificate, _ = certified(SKATE)
+    claims = {claim["path"]: claim for claim in certificate["claims"]}
+    assert claims["/dof"]["value"] == 3
+    assert claims["/dof"]["least"]["words"][-1][1:] != []
+    assert claims["/constraints/c1/holonomic"]["rule"] == "bracket"
+    assert claims["/growth_vector"]["value"] == [2, 3]
+
+
+def test_a_redundant_link_is_covered_by_rigid_motions() -> None:
+    # Six links between four points of the plane: 8 coordinates less 3 rigid motions leave 5 rows.
+    certificate, failed = certified(SQUARE)
+    claims = {claim["path"]: claim["value"] for claim in certificate["claims"]}
+    assert (claims["/dof"], claims["/redundant"], claims["/constraints/c6/independent"], failed) == (3, ["c6"], 0, {})
+    assert len(certificate["covers"][0]["blocks"][0]["fields"]) == 3
+
+
+@pytest.mark.parametrize(
+    ("scene", "changes", "path"),
+    [
+        (FOUR_BAR, {"dof": 2}, "/dof"),
+        (FOUR_BAR, {"instantaneous_dof": 3}, "/instantaneous_dof"),
+        ({"coordinates": ["x", "y"], "constraints": ["x = 2 y"]}, {"redundant_equations": 1}, "/redundant_equations"),
+        ({"coordinates": ["x", "y"], "constraints": ["x = 2 y"]}, {"holonomic": False}, "/holonomic"),
+    ],
+)
+def test_what_is_told_wrongly_is_contradicted(scene: Any, changes: dict[str, Any], path: str) -> None:
+    certificate, failed = certified(scene, **changes)
+    assert path in failed
+    assert failed[path].startswith("the evidence gives")
+    assert path not in {claim["path"] for claim in certificate["claims"]}
+    assert path not in certificate["uncovered"]
+
+
+def test_a_contradicted_number_is_undecided() -> None:
+    scene = dofkit.load(FOUR_BAR)
+    wrong: Report = dofkit.classify(scene).model_copy(update={"dof": 2})
+    found = with_certificate(scene, wrong)
+    assert (found.dof, found.verdicts["dof"].verdict, found.verdict) == (None, "undecided", "undecided")
+    assert any("/dof" in line and "second program" in line for line in found.warnings)
+    assert found.certificate is not None
+
+
+@pytest.mark.parametrize(
+    ("constraints", "members"),
+    [
+        (["x = 0", "y = 0", "x = 1"], ["c1", "c3"]),
+        (["x^2 + y^2 = -1"], ["c1"]),
+        (["x = 1", "xdot = 1"], ["c1", "c2"]),
+        (["t = 1"], ["c1"]),
+    ],
+)
+def test_contradictions_are_refuted(constraints: list[str], members: list[str]) -> None:
+    certificate, failed = certified({"coordinates": ["x", "y"], "constraints": constraints})
+    claims = {claim["path"]: claim for claim in certificate["claims"]}
+    assert (claims["/consistent"]["value"], failed) == (False, {})
+    assert claims.get("/conflicting", {"value": members})["value"] == members
+
+
+def test_measured_scenes_have_nothing_to_show() -> None:
+    scene = {"coordinates": ["x", "y"], "constraints": ["x = 2 y"], "tolerance": "1/1000"}
+    certificate, failed = certified(scene)
+    assert (certificate["claims"], failed) == ([], {})
+
+
+def test_a_certificate_is_of_json() -> None:
+    certificate, _ = certified("rolling-ball-euler-angles")
+    assert json.loads(json.dumps(certificate)) == certificate
