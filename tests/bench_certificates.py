@@ -16,9 +16,8 @@ import sys
 import tempfile
 import time
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -92,7 +91,7 @@ def certified(given: Path | tuple[str, Mapping[str, Any]]) -> Told | str:
 
 
 def others(quick: bool) -> list[tuple[str, Mapping[str, Any]]]:
-    """The scenes of the families of the benchmark, each once, and what the adversary found: not those of the catalog."""
+    """The scenes of the benchmark's families, each once, but for those of the catalog."""
     found: dict[str, tuple[str, Mapping[str, Any]]] = {}
     for name, family in FAMILIES.items():
         if name != "catalog":
@@ -182,7 +181,7 @@ def tamper(told: Sequence[Told], many: int, seed: int, pool: ProcessPoolExecutor
     """Mutated certificates: how many are accepted, and of those whether all claims are still true."""
     quick = [one for one in told if one.seconds[2] < SLOW and one.certificate["claims"]]
     print(
-        f"\nmutated certificates, of {len(quick)} scenes ({len(told) - len(quick)} take {SLOW} s or more, or claim nothing)"
+        f"\nmutated certificates, of {len(quick)} scenes; {len(told) - len(quick)} take {SLOW} s or more, or claim nothing"
     )
     share, counts, shown, lines = many // len(quick) + 1, Counter[str](), Counter[str](), []
     wrong: list[Outcome] = []
@@ -197,9 +196,7 @@ def tamper(told: Sequence[Told], many: int, seed: int, pool: ProcessPoolExecutor
     for kind in counts:
         print(f"  {kind:<8} {counts[kind]:6d} mutated {shown[kind]:6d} accepted, with all claims as they were proved: "
               f"{shown[kind] - sum(1 for one in wrong if one.kind == kind)}")  # fmt: skip
-    print(
-        f"  all      {counts.total():6d} mutated; accepted with a claim that is another one: {len(wrong)} (0, but for true ones)"
-    )
+    print(f"  all      {counts.total():6d} mutated; accepted with another claim: {len(wrong)} (0, but for true ones)")
     for one in wrong:
         print(f"  {one.told}\n      {one.faults}")
     if file is not None:
@@ -225,7 +222,7 @@ def one_edited(told: Told, done: str, scene: dict[str, Any]) -> Outcome | None:
         return None
     failed = {one["path"] for one in found.failed}
     claims = {c["path"]: (c["value"], c.get("about")) for c in certificate["claims"] if c["path"] not in failed}
-    return Outcome(done.split()[0], f"{told.name}: {done}", bool(claims), untrue(claims, report))
+    return Outcome(done.split(maxsplit=1)[0], f"{told.name}: {done}", bool(claims), untrue(claims, report))
 
 
 def edit(told: Sequence[Told], many: int, seed: int, pool: ProcessPoolExecutor) -> None:
@@ -281,7 +278,7 @@ def sizes(told: Sequence[Told]) -> None:
     bare = [length({**one.certificate, "scene": {}}) for one in told]
     most = max(whole, key=lambda name: whole[name])
     print(f"\nsize: median {statistics.median(whole.values()) / 1e3:.1f} kB, without the scene "
-          f"{statistics.median(bare) / 1e3:.1f} kB (4 kB); largest {whole[most] / 1e3:.0f} kB, {most} (1 MB)")  # fmt: skip
+          f"{statistics.median(bare) / 1e3:.1f} kB (4 kB); largest (1 MB) {whole[most] / 1e3:.0f} kB, {most}")  # fmt: skip
 
 
 def main() -> None:

@@ -68,7 +68,7 @@ def tampered(certificate: Mapping[str, Any], rng: random.Random) -> Tampered | N
         return None
     place, new, old = change
     changed = put(whole, place, new)
-    if changed == whole:
+    if changed == whole or new == old:
         return None
     return Tampered(kind, f"{'/'.join(map(str, place))}: {old!r:.120} -> {new!r:.120}", {**certificate, **changed})
 
@@ -104,7 +104,10 @@ def _claim(whole: dict[str, Any], rng: random.Random) -> Change | None:
     if what == "value":
         new = other_value(claim["value"], rng, owners or ["c1"])
     elif what == "about":
-        i = rng.choice([k for k, one in enumerate(whole["claims"]) if "about" in one] or [i])
+        told = [k for k, one in enumerate(whole["claims"]) if "about" in one]
+        if not told:
+            return None
+        i = rng.choice(told)
         claim, new = whole["claims"][i], rng.choice(ABOUTS)
     else:
         new = rng.choice(whole["claims"])["path"]
@@ -138,7 +141,7 @@ def _number(whole: dict[str, Any], rng: random.Random) -> Change | None:
 def _sign(whole: dict[str, Any], rng: random.Random) -> Change | None:
     found = [(p, v) for p, v in leaves(whole) if isinstance(v, str) and p[0] in ("relations", "points", "fields")]
     found += [(p, v) for p, v in leaves(whole["claims"], ("claims",)) if isinstance(v, str) and _NUMBER.search(v)]
-    found = [(p, v) for p, v in found if p[-1] not in ("path", "id", "by", "of", "at", "rule", "about")]
+    found = [(p, v) for p, v in found if p[-1] not in ("path", "id", "by", "of", "at", "rule", "about") and v != "0"]
     if not found:
         return None
     place, old = rng.choice(found)
