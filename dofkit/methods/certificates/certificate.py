@@ -48,6 +48,8 @@ LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Iterator[Told]]] = {
 }
 #: Claims that follow from others, which therefore stand before them.
 LAST = ("/singular", "/holonomic", "/scleronomic", "/redundant_equations", "/redundancies", "/integrable_part")
+#: Numbers that may differ from one part of the set to another.
+OF_A_POINT = ("dof", "velocity_dof", "redundant", "generalized_coordinates", "growth_vector", "independent", "circuit")
 HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError, ZeroDivisionError, OverflowError)
 
 
@@ -104,11 +106,27 @@ class Certifying:
                 outcome = self.trial.outcome(claim) if self.trial else "open"
                 if outcome == "shown":
                     return claim
-                if outcome == "contradicted" and self.trial and not room.scenery.reduced_from:
+                if outcome == "contradicted" and self.trial and self._counts(room, claim):
                     contradicted = contradicted or self.trial.reasons[path]
         if contradicted:
             self.contradictions[path] = contradicted
         return None
+
+    def _counts(self, room: Room, claim: Told) -> bool:
+        """Whether evidence for another value contradicts what is told, and is not of another place or reading.
+
+        Numbers at a point that was looked for may be those of another part of the set; what is reduced (squares) or
+        vanishes at the configuration may be told of what it was reduced to.
+        """
+        path = claim["path"]
+        if room.scenery.reduced_from or (path == "/instantaneous_dof" and room.has_empty_row):
+            return False
+        if path == "/dof" and self.trial and not room.problem.reference:
+            number = self.trial.reasons[path].removeprefix("the evidence gives ").partition(",")[0]
+            if number.isdigit() and int(number) > claim["value"]:
+                return True
+        pointed = any(key in claim for key in ("minor", "at", "most")) and path.rpartition("/")[2] in OF_A_POINT
+        return not pointed or room.at_reference or claim.get("about") == "everywhere"
 
     def _compare_about(self, path: str, claim: Told) -> None:
         """A number shown near a point only, that is told of everywhere, is uncovered in that."""

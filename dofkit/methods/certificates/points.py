@@ -42,8 +42,11 @@ class PointSearch:
         except NoEstimateError:
             return None
 
-    def somewhere(self, names: Sequence[str], unknowns: Sequence[str], seed: int = 0) -> FoundPoint | None:
-        """A point of the relations ``names``, the ``unknowns`` free to move; None where none was found."""
+    def somewhere(
+        self, names: Sequence[str], unknowns: Sequence[str], seed: int = 0, rank: int | None = None
+    ) -> FoundPoint | None:
+        """A point of the relations ``names``, the ``unknowns`` free; best where so many rows are independent."""
+        wanted = len(names) if rank is None else rank
         best: FoundPoint | None = None
         for attempt in range(seed, seed + ATTEMPTS):
             try:
@@ -52,9 +55,9 @@ class PointSearch:
                 point = self.settling.settled(found, names, set(unknowns)) if found is not None else None
             except (NoEstimateError, CheckError):
                 continue
-            if point is not None and (best is None or point.rank > best.rank):
+            if point is not None and (best is None or point.rank == wanted):
                 best = point
-                if point.rank == len(names) or self.problem.generic:
+                if point.rank == wanted:
                     break
         if best is not None:
             best.name = "P" if seed == 0 else f"P{seed}"

@@ -148,7 +148,9 @@ class Room(RoomParts):
             names += [name for name in self.equations if name not in names]
             names += [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
             unknowns += problem.rates
-        return self.search.somewhere(names, unknowns)
+        finite = not self.scenery.evidence.moving and self.report.dof is not None
+        rank = len(problem.coordinates) - (self.report.dof or 0) if finite else None
+        return self.search.somewhere(names, unknowns, rank=rank)
 
     @cached_property
     def equations(self) -> list[str]:
@@ -189,6 +191,16 @@ class Room(RoomParts):
             for q in self.problem.coordinates
             if (q if finite else f"{q}dot") in gradient
         }
+
+    @cached_property
+    def has_empty_row(self) -> bool:
+        """Whether a relation is stationary at the main point."""
+        try:
+            return self.point is not None and not all(
+                any(abs(v) > FAR for v in self.row(n, self.point).values()) for n in self.equations
+            )
+        except NoEstimateError:
+            return False
 
     @cached_property
     def standing(self) -> Standing | None:
