@@ -108,12 +108,13 @@ def grade(
     workers: options.Workers = None,
     scheduler: options.Scheduler = None,
     check_only: options.CheckOnly = False,
+    certificates: options.CertificateFolder = None,
 ) -> None:
     """Grade submissions: a result for each, in the order given."""
     from dofkit.homework.runs.run import GradingOptions, run
 
     with _failures_of(assignment):
-        clean = run(assignment, submissions, GradingOptions(form, out, workers, scheduler, check_only))
+        clean = run(assignment, submissions, GradingOptions(form, out, workers, scheduler, check_only, certificates))
     if not clean:
         raise typer.Exit(UNREADABLE)
 

@@ -53,6 +53,10 @@ CertificateFiles = Annotated[
     list[str],
     typer.Argument(metavar="[SCENE] CERT", help="A scene and its certificate, or one that holds its scene."),
 ]
+CertificateFolder = Annotated[
+    Path | None,
+    typer.Option("--certificates", metavar="DIR", help="Write what each problem's key rests on, for appeals."),
+]
 Strict = Annotated[bool, typer.Option("--strict", help="Nothing may be uncovered either.")]
 
 # of `lagrange`

@@ -17,6 +17,7 @@ from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.result import Result
+from dofkit.homework.runs.appeals import write_certificates
 from dofkit.homework.runs.batch import Orders, ResultLine
 from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
 from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
@@ -28,13 +29,17 @@ NATIVE = "native"
 
 @dataclass(frozen=True)
 class GradingOptions:
-    """What the command line says besides the files. ``out``: where results go, None for standard output."""
+    """What the command line says besides the files. ``out``: where results go, None for standard output.
+
+    ``certificates``: the folder of what the keys rest on, for appeals.
+    """
 
     form: str = NATIVE
     out: Path | None = None
     workers: int | None = None
     scheduler: str | None = None
     check_only: bool = False
+    certificates: Path | None = None
 
     @property
     def format(self) -> Format:
@@ -79,7 +84,9 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
             one.to_stdout(stream)
         else:
             one.to_path(stream, options.out)
-        return one.failed == 0
+    if options.certificates is not None:
+        write_certificates(prepared, options.certificates)
+    return one.failed == 0
 
 
 @contextmanager
