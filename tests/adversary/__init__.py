@@ -1,8 +1,8 @@
 """A standing adversary: scenes whose truth is known by how they are made, and a hunt for a wrong answer among them.
 
-python -m tests.adversary [--minutes 10] [--seed 1] [--kinds components,rounding/oval]
+python -m tests.adversary [--minutes 10] [--seed 1] [--kinds components,rounding/oval] [--certificates]
 
 A family is a file: its functions draw a `Case` from a random generator and a size. `registry` lists them,
 `disguises` write a case in another way, `judgement` holds the report against the truth, `shrinking` looks for the
-smallest case that is answered wrongly, and `found/` keeps those as tests.
+smallest case that is answered wrongly, and `found/` keeps those as tests. `certificates` asks the checker as well.
 """

@@ -25,9 +25,10 @@ def main() -> None:
     parser.add_argument(
         "--with-open", action="store_true", help="count those that are known to be answered wrongly too"
     )
+    parser.add_argument("--certificates", action="store_true", help="ask the checker as well")
     parser.add_argument("--no-files", action="store_true", help="keep nothing as a test")
     given = parser.parse_args()
-    hunt = Hunt(chosen(given.kinds, with_open=given.with_open), given.seconds, not given.no_files)
+    hunt = Hunt(chosen(given.kinds, with_open=given.with_open), given.seconds, not given.no_files, given.certificates)
     try:
         hunt.run(given.minutes, given.seed)
     finally:

@@ -16,10 +16,16 @@ FOUND = Path(__file__).parent / "found"
 
 
 def faults(case: Case, answer: Answer) -> dict[str, Any]:
-    """The fields that are answered wrongly with what was told; or the end, where there is no report."""
+    """The fields that are answered wrongly with what was told; or the end, where there is no report.
+
+    Where the checker was asked, ``certified FIELD``: wrong, and its certificate verifies; and the claims it refuses.
+    """
     if answer.report is None:
         return {} if answer.end == "refused" else {answer.end: answer.why}
-    return {one.field: f"{one.told} ({one.verdict})" for one in judged(case, answer.report) if one.outcome == "wrong"}
+    wrong = [one for one in judged(case, answer.report) if one.outcome == "wrong"]
+    sure = {one.field for one in wrong if one.verdict == "proved"} & answer.checked.verified
+    told = {f"{'certified ' * (one.field in sure)}{one.field}": f"{one.told} ({one.verdict})" for one in wrong}
+    return {**told, **answer.checked.faults}
 
 
 def outcome(case: Case, answer: Answer) -> str:
@@ -27,10 +33,10 @@ def outcome(case: Case, answer: Answer) -> str:
     return answer.end if answer.report is None else overall(judged(case, answer.report))
 
 
-def fails_alike(trial: Trial, fields: frozenset[str], seconds: float = SECONDS) -> bool:
+def fails_alike(trial: Trial, fields: frozenset[str], seconds: float = SECONDS, *, certificates: bool = False) -> bool:
     """Is one of these fields answered wrongly again?"""
     case = made(trial)
-    return bool(fields & faults(case, answered_apart(case.scene, seconds)).keys())
+    return bool(fields & faults(case, answered_apart(case.scene, seconds, certificates=certificates)).keys())
 
 
 def kept(trial: Trial, told: dict[str, Any], folder: Path = FOUND) -> Path:

@@ -21,11 +21,12 @@ LATE_TRIES = 6
 @dataclass
 class Hunt:
     """``seconds``: of processor time for a scene. ``counts``: outcomes by kind; ``seen``: a kind's fields found
-    wrong."""
+    wrong. ``certificates``: whether the checker is asked too, and what it says counts."""
 
     kinds: Sequence[str]
     seconds: float
     write: bool = True
+    certificates: bool = False
     counts: dict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
     seen: set[tuple[str, frozenset[str]]] = field(default_factory=set)
 
@@ -41,7 +42,7 @@ class Hunt:
     def look(self, trial: Trial) -> None:
         """Answer a trial, and shrink and keep what is wrong in a way that was not seen yet."""
         case = made(trial)
-        answer = answered_apart(case.scene, self.seconds)
+        answer = answered_apart(case.scene, self.seconds, certificates=self.certificates)
         result = outcome(case, answer)
         self.counts[trial.kind][result] += 1
         told = faults(case, answer)
@@ -57,9 +58,11 @@ class Hunt:
 
     def _shrink(self, trial: Trial, fields: frozenset[str]) -> None:
         tries = LATE_TRIES if "late" in fields else TRIES
-        least = shrunk(trial, lambda other: fails_alike(other, fields, self.seconds), tries)
+        least = shrunk(
+            trial, lambda other: fails_alike(other, fields, self.seconds, certificates=self.certificates), tries
+        )
         case = made(least)
-        told = faults(case, answered_apart(case.scene, self.seconds))
+        told = faults(case, answered_apart(case.scene, self.seconds, certificates=self.certificates))
         where = f", kept in {kept(least, told).name}" if self.write else ""
         truth = {key: case.truth.get(key) for key in told}
         print(f"  smallest, {length(case.scene)} characters{where}: {least}", flush=True)

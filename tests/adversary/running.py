@@ -16,6 +16,7 @@ import dofkit
 from dofkit.base.deadline import by_processor
 
 from .case import Scene
+from .certificates import Recheck, rechecked
 
 #: Seconds of processor time for one scene; past them it has a quarter more, and then is ended. Bytes of memory.
 SECONDS, MEMORY = 60.0, 6 << 30
@@ -23,18 +24,21 @@ SECONDS, MEMORY = 60.0, 6 << 30
 
 class Answer(NamedTuple):
     """``report`` as JSON where there is one; else ``why`` not, and the end: a scene that is refused, as too large to
-    read, is no fault; an error, a time that was overrun and a process that broke are."""
+    read, is no fault; an error, a time that was overrun and a process that broke are. ``checked``: by the checker."""
 
     end: Literal["told", "refused", "failed", "late", "killed"]
     report: Mapping[str, Any] | None
     why: str = ""
+    checked: Recheck = Recheck()
 
 
-def answered(scene: Scene, seconds: float = SECONDS) -> Answer:
-    """The report, from this process; its time is counted by the processor."""
+def answered(scene: Scene, seconds: float = SECONDS, *, certificates: bool = False) -> Answer:
+    """The report, from this process; its time is counted by the processor. ``certificates``: the checker's word too."""
     try:
         with by_processor(seconds):
-            return Answer("told", dofkit.classify(dict(scene)).model_dump(mode="json"))
+            report = dofkit.classify(dict(scene), certificate=certificates)
+        checked = rechecked(scene, report) if certificates else Recheck()
+        return Answer("told", report.model_dump(mode="json", exclude={"certificate"}), checked=checked)
     except dofkit.SceneError as error:
         return Answer("refused", None, str(error))
     except Exception as error:
@@ -42,12 +46,12 @@ def answered(scene: Scene, seconds: float = SECONDS) -> Answer:
         return Answer("failed", None, f"{type(error).__name__}: {error} ({Path(where.filename).stem}.{where.name})")
 
 
-def answered_apart(scene: Scene, seconds: float = SECONDS) -> Answer:
+def answered_apart(scene: Scene, seconds: float = SECONDS, *, certificates: bool = False) -> Answer:
     """The report, from a process of its own, a copy of this one."""
     _warm()
     context = get_context("fork")
     receiver, sender = context.Pipe(duplex=False)
-    child = context.Process(target=_answer, args=(scene, seconds, sender))
+    child = context.Process(target=_answer, args=(scene, seconds, sender, certificates))
     child.start()
     sender.close()
     try:
@@ -73,11 +77,11 @@ _WARM: tuple[Scene, ...] = (
 def _warm() -> None:
     """Import here what a copy would else import again."""
     for scene in _WARM:
-        answered(scene)
+        answered(scene, certificates=True)
 
 
-def _answer(scene: Scene, seconds: float, sender: Connection) -> None:
+def _answer(scene: Scene, seconds: float, sender: Connection, certificates: bool) -> None:
     most = int(1.25 * seconds) + 2
     resource.setrlimit(resource.RLIMIT_CPU, (most, most + 5))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    sender.send(answered(scene, seconds))
+    sender.send(answered(scene, seconds, certificates=certificates))
