@@ -184,7 +184,7 @@ def tamper(told: Sequence[Told], many: int, seed: int, pool: ProcessPoolExecutor
     share, counts, shown, lines = many // len(quick) + 1, Counter[str](), Counter[str](), []
     wrong: list[Outcome] = []
     seeds = range(10**6 * seed, 10**6 * seed + 4 * share)
-    found = [outcomes[:share] for outcomes in pool.map(all_mutated, quick, [seeds[: share * 5 // 4 + 1]] * len(quick))]
+    found = [outcomes[:share] for outcomes in pool.map(all_mutated, quick, [seeds[: share * 3 // 2 + 1]] * len(quick))]
     for one in (one for outcomes in found for one in outcomes):
         counts[one.kind] += 1
         shown[one.kind] += one.accepted
@@ -227,7 +227,7 @@ def edit(told: Sequence[Told], many: int, seed: int, pool: ProcessPoolExecutor) 
     """Edited scenes: the claims that are still verified, against what `classify` proves of the edited scene."""
     quick = [one for one in told if sum(one.seconds) < 2 and one.certificate["claims"]]
     share = many // len(quick) + 1
-    seeds = range(10**6 * seed, 10**6 * seed + 2 * share + 1)
+    seeds = range(10**6 * seed, 10**6 * seed + 4 * share)
     found = [one for outcomes in pool.map(all_edited, quick, [seeds] * len(quick)) for one in outcomes[:share]]
     wrong = [one for one in found if one.faults]
     print(f"\nedited scenes: {len(found)}, with a claim that is still verified: {sum(one.accepted for one in found)}; "
