@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from operator import mul
 from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq
 
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError
+from dofkit.checker.errors import CheckError, refuse
+from dofkit.checker.ring import repeated
 from dofkit.checker.trees import Tree
 
 #: Bits of every ball.
 PRECISION = 320
-#: Balls of a larger radius are boxes.
-WIDE = 1e-3
 _SMOOTH = frozenset(("sin", "cos", "tan", "cot", "sec", "csc", "atan", "sinh", "cosh", "tanh", "exp"))
-
-
-def ball_of(value: Fraction) -> Any:
-    """A rational number."""
-    return arb(fmpq(value.numerator, value.denominator))
+#: A choice for a declared function: its arguments, and a text of them.
+Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
 
 
 def excludes_zero(ball: Any) -> bool:
@@ -30,29 +27,41 @@ def excludes_zero(ball: Any) -> bool:
     return bool(ball.is_finite() and (ball > 0 or ball < 0))
 
 
-def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort) -> Any:
-    """The ball of a tree, where every part has a value and is smooth around; else `CheckError`."""
+def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort, functions: Choices | None = None) -> Any:
+    """The ball of a tree, where every part of it, as written, has a value and is smooth around; else `CheckError`."""
     done: dict[int, Any] = {}
 
     def value(node: Tree) -> Any:
         if id(node) not in done:
             effort.spend(1)
-            done[id(node)] = _value(node, values, [value(part) for part in node.below])
+            below = [value(part) for part in node.below]
+            if node.head == "apply":
+                arguments, text = (functions or {})[str(node.value)]
+                given = dict(zip(arguments, below, strict=True))
+                found = evaluated(slope_of(text, arguments, node.orders), given, effort)
+            else:
+                found = _value(node, values, below)
+            refuse(not found.is_finite(), "a value is not finite at the point")
+            done[id(node)] = found
         return done[id(node)]
 
     with ctx.workprec(PRECISION):
-        found = value(tree)
-    if not found.is_finite():
-        raise CheckError("a value is not finite at the point")
-    return found
+        return value(tree)
+
+
+def slope_of(text: Tree, arguments: Sequence[str], orders: Sequence[int]) -> Tree:
+    """A text differentiated so often by each of its arguments."""
+    for argument, order in zip(arguments, orders, strict=True):
+        for _ in range(order):
+            text = derivative(text, argument)
+    return text
 
 
 def _value(node: Tree, values: Mapping[str, Any], below: list[Any]) -> Any:
     if isinstance(node.value, Fraction):
-        return ball_of(node.value)
+        return arb(fmpq(node.value.numerator, node.value.denominator))
     if node.head == "symbol":
-        if node.value not in values:
-            raise CheckError(f"`{node.value}` has no value at the point")
+        refuse(node.value not in values, f"`{node.value}` has no value at the point")
         return values[str(node.value)]
     if node.head == "pi":
         return arb.pi()
@@ -61,34 +70,19 @@ def _value(node: Tree, values: Mapping[str, Any], below: list[Any]) -> Any:
         for part in below:
             found = found + part if node.head == "sum" else found * part
         return found
-    if node.head == "power":
-        return _powered(node, below)
     if node.head in _SMOOTH:
         return getattr(below[0], node.head)()
-    return _guarded(node, below)
+    return _guarded(node, below[0], below[-1])
 
 
-def _powered(node: Tree, below: list[Any]) -> Any:
-    base, exponent = below
-    value = node.below[1].value
-    if isinstance(value, Fraction) and value.denominator == 1:
-        if value < 0 and not excludes_zero(base):
-            raise CheckError("a denominator may be 0 at the point")
-        return base ** int(value) if base.rad() < WIDE or value < 0 else _wide_power(base, int(value))
-    if not base > 0:
-        raise CheckError("the base of a power that is not whole may be 0 or negative at the point")
-    return base**exponent
-
-
-def _wide_power(base: Any, exponent: int) -> Any:
-    """The power of a wide ball by its ends, as it is monotone on either side of 0."""
-    ends = base.lower() ** exponent, base.upper() ** exponent
-    found = ends[0].union(ends[1])
-    return found.union(arb(0)) if exponent % 2 == 0 and base.contains(0) else found
-
-
-def _guarded(node: Tree, below: list[Any]) -> Any:
-    head, u = node.head, below[0]
+def _guarded(node: Tree, u: Any, other: Any) -> Any:
+    head, exponent = node.head, node.below[-1].value
+    if head == "power" and isinstance(exponent, Fraction) and exponent.denominator == 1:
+        refuse(exponent < 0 and not excludes_zero(u), "a denominator may be 0 at the point")
+        found = repeated(arb(1), u, abs(int(exponent)), mul)
+        return found if exponent > 0 else 1 / found
+    if head == "power" and u > 0:
+        return u**other
     if head == "sqrt" and (u > 0 or (u == 0 and not symbols_in(node))):
         return u.sqrt()
     if head == "log" and u > 0:
@@ -97,56 +91,43 @@ def _guarded(node: Tree, below: list[Any]) -> Any:
         return u.asin() if head == "asin" else u.acos()
     if head == "abs" and excludes_zero(u):
         return abs(u)
-    if head == "atan2" and (below[1] > 0 or excludes_zero(u)):
-        return arb.atan2(u, below[1])
+    if head == "atan2" and (other > 0 or excludes_zero(u)):
+        return arb.atan2(u, other)
     raise CheckError(f"`{head}` has no smooth value at the point")
 
 
-def determinant(rows: Sequence[Sequence[Any]], effort: Effort) -> Any:
-    """The ball of a determinant."""
+def regular(rows: Sequence[Sequence[Any]], effort: Effort) -> bool:
+    """Whether the determinant of a square matrix of balls is certainly not 0."""
     effort.spend(len(rows) ** 3 // 10 + 1)
     with ctx.workprec(PRECISION):
-        return arb_mat([list(row) for row in rows]).det() if rows else arb(1)
+        return not rows or excludes_zero(arb_mat([list(row) for row in rows]).det())
 
 
 def krawczyk(
-    equations: Sequence[Tree],
-    unknowns: Sequence[str],
-    centre: Sequence[Any],
-    radius: Any,
-    inverse: Sequence[Sequence[Any]] | None,
-    effort: Effort,
+    equations: Sequence[Tree], centre: Mapping[str, Any], radius: Any, value: Callable[[Tree, Mapping[str, Any]], Any]
 ) -> dict[str, Any]:
     """Balls for the only zero of as many equations as unknowns within a box around ``centre``.
 
     Krawczyk 1969, Moore 1977: where K = y - C F(y) + (1 - C F'(X)) (X - y) lies inside X, F has exactly one zero in X,
-    and it lies in K.
+    and it lies in K. ``value`` gives the ball of a tree, from those of the unknowns.
     """
-    size = len(unknowns)
-    effort.spend(size**3 // 3 + 1)
+    size = len(centre)
     with ctx.workprec(PRECISION):
         spread = arb(0, radius)
-        middle = {name: ball.mid() for name, ball in zip(unknowns, centre, strict=True)}
+        middle = {name: ball.mid() for name, ball in centre.items()}
         box = {name: ball + spread for name, ball in middle.items()}
-        slopes = [[derivative(equation, name) for name in unknowns] for equation in equations]
-        at_box = arb_mat([[evaluated(slope, box, effort) for slope in row] for row in slopes])
-        if inverse is None:
-            at_middle = [[evaluated(slope, middle, effort).mid() for slope in row] for row in slopes]
-            inverse = _middle_of_inverse(at_middle)
-        multiplier = arb_mat([list(row) for row in inverse])
-        values = arb_mat([[evaluated(equation, middle, effort)] for equation in equations])
+        slopes = [[derivative(equation, name) for name in centre] for equation in equations]
+        at_box = arb_mat([[value(slope, box) for slope in row] for row in slopes])
+        try:
+            inverse = arb_mat([[value(slope, middle).mid() for slope in row] for row in slopes]).inv()
+        except ZeroDivisionError:
+            raise CheckError("the matrix of interval Newton is singular") from None
+        multiplier = arb_mat([[inverse[i, j].mid() for j in range(size)] for i in range(size)])
+        values = arb_mat([[value(equation, middle)] for equation in equations])
         rest = arb_mat([[arb(i == j) for j in range(size)] for i in range(size)]) - multiplier * at_box
-        start = arb_mat([[middle[name]] for name in unknowns])
-        image = start - multiplier * values + rest * arb_mat([[spread] for _ in unknowns])
-        for i, name in enumerate(unknowns):
-            if not box[name].contains_interior(image[i, 0]):
-                raise CheckError(f"interval Newton does not certify a zero: `{name}` leaves its box")
-        return {name: image[i, 0] for i, name in enumerate(unknowns)}
-
-
-def _middle_of_inverse(rows: list[list[Any]]) -> list[list[Any]]:
-    try:
-        found = arb_mat(rows).inv()
-    except ZeroDivisionError:
-        raise CheckError("the matrix of interval Newton is singular") from None
-    return [[found[i, j].mid() for j in range(len(rows))] for i in range(len(rows))]
+        start = arb_mat([[middle[name]] for name in centre])
+        image = start - multiplier * values + rest * arb_mat([[spread] for _ in centre])
+        for i, name in enumerate(centre):
+            inside = box[name].contains_interior(image[i, 0])
+            refuse(not inside, f"interval Newton does not certify a zero: `{name}` leaves its box")
+        return {name: image[i, 0] for i, name in enumerate(centre)}

@@ -1,4 +1,7 @@
-"""Rules for numbers: how many freedoms, from above and from below, and of which points that is said."""
+"""Rules for numbers: how many freedoms, near a point and everywhere, and what depends on what.
+
+A rule looks at the evidence of a claim and gives the value that it shows.
+"""
 
 from __future__ import annotations
 
@@ -6,259 +9,299 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.checker.balls import determinant, evaluated, excludes_zero
-from dofkit.checker.derivatives import derivative, substituted, symbols_in
-from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, has_own_symbol
-from dofkit.checker.fields import field_named, independent, involutive, span, tangent
-from dofkit.checker.points import CheckedPoint, in_turn
-from dofkit.checker.steps import Consequence
-from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, symbol, times
-
-Told = dict[str, Any]
+from dofkit.checker.balls import excludes_zero
+from dofkit.checker.derivatives import derivative, symbols_in
+from dofkit.checker.errors import refuse
+from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
+from dofkit.checker.fields import Told, admissible, family, independent, involutive, of_word, span
+from dofkit.checker.points import CheckedPoint
+from dofkit.checker.texts import heads_in
 
 
-def equal(claim: Told, value: object) -> None:
-    """`CheckError` unless the claim's value is what the evidence gives."""
-    if type(claim["value"]) is not type(value) or claim["value"] != value:
-        raise CheckError(f"the evidence gives {value!r}, not {str(claim['value'])[:80]!r}")
+def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
+    """dof or velocity_dof near a point, between two bounds."""
+    path, size = claim["path"], len(evidence.problem.coordinates)
+    one = {"minor": claim.get("minor")}
+    most, least = claim.get("most", {**one, "rule": "minor"}), claim.get("least", {**one, "rule": "regular"})
+    refuse(most["rule"] not in ("minor", "frobenius"), "an upper bound is `minor` or `frobenius`")
+    minor = involutive(evidence, most) if most["rule"] == "frobenius" else evidence.minor(most["minor"])
+    if most["rule"] == "minor" and path == "/dof":
+        _finite_rows(evidence, minor)
+    if least["rule"] == "regular":
+        other = evidence.accounts(evidence.minor(least["minor"]), evidence.equations)
+        point, found = other.point, size - len(other.rows)
+    else:
+        refuse(least["rule"] not in ("span", "family"), "a lower bound is `regular`, `span` or `family`")
+        given, longest = {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12
+        point, found = span(evidence, given, longest) if least["rule"] == "span" else family(evidence, given)
+    above = size - len(minor.rows)
+    refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
+    evidence.is_about(claim["about"], point)
+    verified[f"{path} at"] = "reference" if claim["about"] == "reference" else point.name
+    return found
+
+
+def _finite_rows(evidence: CheckedEvidence, minor: CheckedMinor) -> None:
+    moving = any(evidence.relation(row).kind != "finite" for row in minor.rows)
+    refuse(moving, "a row of velocities does not reduce dof by itself")
+
+
+def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
+    """The dimension of the whole set, from relations of three kinds, with a regular point where there are others.
+
+    ``order``: a relation gives a coordinate, a number times it and what is free or given before (a graph).
+    ``blocks``: a single analytic relation that is not 0 everywhere has zeros of dimension n - 1 at most.
+    ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
+    these the set is a manifold, of the rank that a cover of all shows (Sard 1942, Federer 3.4.3). Blocks, and the
+    generic relations together, share no free coordinate.
+    """
+    refuse(evidence.moving or claim.get("about") != "everywhere", "the rule is about everywhere, of finite relations")
+    order, blocks, generic = claim.get("order", []), claim.get("blocks", []), dict(claim.get("generic", []))
+    names, free = [*(name for name, _ in order), *blocks, *generic], _free(evidence, order)
+    refuse(sorted(names) != sorted(evidence.finite), "each finite relation stands in one place")
+    groups = [_coordinates(evidence, name, free) for name in blocks]
+    groups.append(frozenset().union(*(_coordinates(evidence, name, free) for name in generic)))
+    refuse(sum(map(len, groups)) != len(frozenset().union(*groups)), "two blocks share a coordinate")
+    for name, letter in generic.items():
+        refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
+    rank = len(names)
+    if blocks or generic:
+        minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.finite)
+        evidence.is_about("here", minor.point)
+        rank = len(minor.rows)
+    if blocks or rank < len(names):
+        lefts = [evidence.relation(name).left for name in names]
+        smooth = all(evidence.has_value_everywhere(left) and "apply" not in heads_in(left) for left in lefts)
+        refuse(not smooth, "a relation is not analytic everywhere")
+    if rank < len(names):
+        rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
+        refuse(blocks or sorted(rows) != sorted(names), "one cover of all finite relations is needed")
+    return len(evidence.problem.coordinates) - rank
+
+
+def _free(evidence: CheckedEvidence, order: list[list[str]]) -> dict[str, frozenset[str]]:
+    """On which coordinates those that are given depend."""
+    later, found = [q for _, q in order], dict[str, frozenset[str]]()
+    own = len(set(later)) == len(later) and set(later) <= set(evidence.problem.coordinates)
+    refuse(not own, "each relation gives a coordinate of its own")
+    for i, (name, q) in enumerate(order):
+        left = evidence.relation(name).left
+        gives = evidence.ring.rational(derivative(left, q)) and evidence.has_value_everywhere(left)
+        refuse(not gives, f"`{name}` does not give `{q}` everywhere")
+        refuse(not symbols_in(left).isdisjoint(later[i + 1 :]), f"`{name}` holds what is given later")
+        found[q] = _coordinates(evidence, name, found) - {q}
+    return found
+
+
+def _coordinates(evidence: CheckedEvidence, name: str, given: dict[str, frozenset[str]]) -> frozenset[str]:
+    held = symbols_in(evidence.relation(name).left) & set(evidence.problem.coordinates)
+    return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))
+
+
+def instantaneous(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
+    """n less the rank of all rows at the configuration: of rational rows, or of rows that are all in a minor."""
+    names, point, size = evidence.equations, evidence.point(claim["at"]), len(evidence.problem.coordinates)
+    evidence.is_about("reference", point)
+    evidence.on_set(point, names)
+    refuse(not all(map(evidence.is_linear, names)), "a relation is not linear in the velocities")
+    if "minor" in claim:
+        minor = evidence.minor(claim["minor"])
+        refuse(minor.point is not point or set(minor.rows) != set(names), "the minor is not of all relations there")
+        return size - len(names)
+    slopes = [evidence.slope(name, q) for name in names for q in evidence.problem.coordinates]
+    values = [evidence.ring.rational(evidence.at_reference(tree)) for tree in slopes if point.value(tree) is not None]
+    entries = [fmpq(value.numerator, value.denominator) for value in values if value is not None]
+    refuse(len(entries) < len(slopes), "the rows are not rational at the point")
+    evidence.effort.spend(len(entries) * len(names))
+    return size - (fmpq_mat(len(names), size, entries).rank() if entries else 0)
+
+
+def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
+    """A number or a label that follows from others that were verified."""
+    path, equations = claim["path"], len(evidence.equations)
+    if path == "/redundant_equations":
+        return max(0, equations - len(evidence.problem.coordinates) + verified["/velocity_dof"])
+    if path == "/singular":
+        return bool(verified["/instantaneous_dof"] != verified["/velocity_dof"])
+    if path == "/velocity_dof":
+        about = verified["/dof about"]
+        refuse(evidence.moving or claim.get("about", about) != about, "there are velocity relations, or other points")
+        return verified["/dof"]
+    if path == "/redundancies":
+        refuse(verified["/redundant_equations"] != 0, "groups of what is redundant are not counted")
+        return []
+    labels = [verified.get(f"/constraints/{escaped(owner)}{path}") for owner in owners(evidence)]
+    refuse(None in labels and False not in labels, "nothing that was verified decides this")
+    return False not in labels
+
+
+def escaped(name: str) -> str:
+    """A name as a part of a path."""
+    return name.replace("~", "~0").replace("/", "~1")
+
+
+def owners(evidence: CheckedEvidence) -> list[str]:
+    """The constraints with relations, in order."""
+    return list(dict.fromkeys(one.owner for one in evidence.problem.relations))
+
+
+def relations_of(evidence: CheckedEvidence, names: Any) -> tuple[str, ...]:
+    """The equations of constraints."""
+    return tuple(one for name in names for one in evidence.owned(name))
 
 
 def names_told(claim: Told) -> list[str]:
     """The claim's value as a list of names, each once."""
     value = claim["value"]
-    if not isinstance(value, list) or not all(isinstance(one, str) for one in value) or len(set(value)) < len(value):
-        raise CheckError("the value is a list of names, each once")
-    return value
+    fine = isinstance(value, list) and all(isinstance(one, str) for one in value) and len(set(value)) == len(value)
+    refuse(not fine, "the value is a list of names, each once")
+    return list(value)
 
 
-def is_about(evidence: CheckedEvidence, claim: Told, point: CheckedPoint) -> None:
-    """`CheckError` unless the point is one of those that the claim is about.
-
-    Where the scene has a configuration that meets its relations, numbers are about that.
-    """
-    about, reference = claim.get("about"), evidence.problem.reference
-    if about == "reference":
-        refuse(not reference, "the scene has no configuration")
-        if point.has("t"):
-            evidence.identity(point.prepared(symbol("t")), "the time of the configuration")
-        for name in evidence.problem.coordinates:
-            refuse(
-                not point.has(name)
-                or not evidence.ring.vanishes(
-                    add(point.prepared(symbol(name)), negative(point.prepared(reference[name])))
-                ),
-                f"`{name}` is not that of the scene's configuration",
-            )
-        for name in evidence.finite:
-            if evidence.is_open(evidence.relation(name).left):
-                evidence.identity(
-                    at_reference(evidence, evidence.relation(name).left), f"`{name}` at the configuration"
-                )
-    elif about != "component":
-        raise CheckError("a claim is about `reference`, `component` or `everywhere`")
-    elif reference and not _is_off(evidence, point):
-        raise CheckError("the scene has a configuration: the claim has to be about it")
-
-
-def at_reference(evidence: CheckedEvidence, tree: Tree) -> Tree:
-    """A tree at the scene's configuration, parameters and functions left open."""
-    return substituted(tree, {**evidence.problem.reference, "t": ZERO, "tdot": ONE})
-
-
-def is_here(evidence: CheckedEvidence, point: CheckedPoint) -> None:
-    """`CheckError` unless the point is the scene's configuration, where one is given that meets the relations."""
-    has_one = bool(evidence.problem.reference) and not _is_off(evidence, point)
-    is_about(evidence, {"about": "reference" if has_one else "component"}, point)
-
-
-def _is_off(evidence: CheckedEvidence, point: CheckedPoint) -> bool:
-    """Whether the scene's configuration is shown not to meet its relations."""
-    kept = {name: tree for name, tree in point.exact.items() if name not in evidence.problem.coordinates}
-    start = CheckedPoint("", {**kept, **evidence.problem.reference, "t": ZERO}, point.functions, evidence.effort)
-    for name in evidence.finite:
-        try:
-            if excludes_zero(start.value(evidence.relation(name).left)):
-                return True
-        except CheckError:
-            continue
-    return False
-
-
-def regular(evidence: CheckedEvidence, given: Any) -> CheckedMinor:
-    """Near the point the set of the rows is a manifold, and all relations hold on it (implicit functions).
-
-    Every velocity that the rows allow there is that of a motion, as the rows have full rank in the coordinates.
-    """
-    minor = evidence.minor(given)
-    evidence.covers(minor, (*evidence.finite, *evidence.moving))
-    return minor
-
-
-def _most(evidence: CheckedEvidence, given: Told, path: str) -> tuple[CheckedPoint, int]:
-    size = len(evidence.problem.coordinates)
-    if given["rule"] == "minor":
-        minor = evidence.minor(given["minor"])
-        if path == "/dof" and any(evidence.relation(row).kind != "finite" for row in minor.rows):
-            raise CheckError("a row of velocities does not reduce dof by itself")
-        return minor.point, size - len(minor.rows)
-    if given["rule"] == "frobenius":
-        minor = involutive(evidence, given)
-        return minor.point, size - len(minor.rows)
-    raise CheckError(f"no upper bound is called {str(given['rule'])[:40]!r}")
-
-
-def _least(evidence: CheckedEvidence, given: Told, path: str) -> tuple[CheckedPoint, int]:
-    if given["rule"] == "regular":
-        minor = regular(evidence, given["minor"])
-        return minor.point, len(evidence.problem.coordinates) - len(minor.rows)
-    if given["rule"] == "family":
-        return _family(evidence, given)
-    if given["rule"] == "span":
-        return span(evidence, given, 1 if path == "/velocity_dof" else 12)
-    if given["rule"] == "cover":
-        return _cover(evidence, given)
-    raise CheckError(f"no lower bound is called {str(given['rule'])[:40]!r}")
-
-
-def _family(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
-    """A family q(u) of configurations through the point, with as many directions there as parameters."""
-    refuse(evidence.moving or evidence.timed, "a family is for finite relations without time")
-    point, parameters = evidence.point(given["at"]), given["parameters"]
-    problem = evidence.problem
-    taken = {*evidence.variables, *evidence.velocities, *problem.parameters, *problem.generic, *point.exact}
-    refuse(not taken.isdisjoint(parameters), "a parameter of a family has a name that is taken")
-    own = {name: tree for name, tree in point.exact.items() if name in evidence.variables}
-    family = {q: substituted(evidence.text(text, parameters), own) for q, text in given["q"].items()}
-    family |= {q: point.prepared(symbol(q)) for q in problem.coordinates if q not in family}
-    refuse(not set(family) <= set(evidence.problem.coordinates), "a family has what is no coordinate")
-    values = in_turn({u: evidence.text(given["values"][u]) for u in parameters})
-    evidence.on_set(point, evidence.finite)
-    at_once = {"t": point.exact["t"]} if "t" in point.exact else {}
-    for name in evidence.finite:
-        left = substituted(evidence.relation(name).left, at_once)
-        evidence.identity(substituted(left, family), f"`{name}` on the family")
-    family = {q: point.prepared(tree) for q, tree in family.items()}
-    for q, tree in family.items():
-        evidence.identity(add(substituted(tree, values), negative(point.prepared(symbol(q)))), f"the family's `{q}`")
-    balls = {u: evaluated(tree, {}, evidence.effort) for u, tree in values.items()} | point.balls
-    columns = given["columns"]
-    if len(columns) != len(parameters) or not {*columns} <= {*family} or len({*columns}) != len({*parameters}):
-        raise CheckError("as many columns as parameters are needed, each once")
-    matrix = [[evaluated(derivative(family[q], u), balls, evidence.effort) for q in columns] for u in parameters]
-    for tree in family.values():
-        evaluated(tree, balls, evidence.effort)
-    if not excludes_zero(determinant(matrix, evidence.effort)):
-        raise CheckError("the family may be slower at the point than its parameters")
-    return point, len(parameters)
-
-
-def _constant_rank(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
-    """Blocks of rows, each with fields that keep it: near the point the rank is that of the minor, of some of the rows.
-
-    The fields are tangent identically, so a block has rank at most its variables less its fields, and the minor shows
-    that the sum is reached. Then all rows are functions of those of the minor (constant rank theorem).
-    """
-    minor = evidence.minor(given["minor"])
-    rows = [row for block in given["blocks"] for row in block["rows"]]
-    if len(rows) != len(set(rows)) or not set(minor.rows) <= set(rows) <= set(evidence.finite):
-        raise CheckError("the blocks do not hold each finite relation once, or the minor has other rows")
-    for row in rows:
-        left = evidence.relation(row).left
-        refuse("t" in symbols_in(left), f"`{row}` holds time: what is constant may be so at one moment only")
-        chosen = evidence.is_open(left) and not has_own_symbol(evidence, row)
-        refuse(chosen, f"`{row}` holds what the point chose: it may be met for that alone")
-    evidence.on_set(minor.point, rows)
-    total = 0
-    for block in given["blocks"]:
-        fields = [field_named(evidence, name) for name in block["fields"]]
-        held = frozenset().union(*(symbols_in(evidence.relation(row).left) for row in block["rows"]))
-        own = [q for q in evidence.problem.coordinates if q in held]
-        if not set(block["columns"]) <= set(own) or any("t" in field for field in fields):
-            raise CheckError("the columns of a block are coordinates that occur in it")
-        tangent(evidence, fields, block["rows"])
-        if fields:
-            independent(evidence, fields, block["columns"], minor.point)
-        total += min(len(own) - len(fields), len(block["rows"]))
-    refuse(total != len(minor.rows), f"the blocks have rank {total} at most, the minor {len(minor.rows)}")
-    return minor
-
-
-def _cover(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
-    """A level set of constant rank r is a manifold of dimension n - r (constant rank theorem)."""
-    minor = _constant_rank(evidence, given)
-    if evidence.moving or {row for block in given["blocks"] for row in block["rows"]} != set(evidence.finite):
-        raise CheckError("a cover is of all finite relations, where there are no others")
-    return minor.point, len(evidence.problem.coordinates) - len(minor.rows)
-
-
-def take_cover(evidence: CheckedEvidence, name: Any) -> None:
-    """Near the point the rows of a cover follow from those of its minor."""
-    if name in evidence.taken:
-        return
-    given = evidence.named("covers", name)
-    minor = _constant_rank(evidence, given)
-    evidence.taken.add(name)
-    for block in given["blocks"]:
-        for row in block["rows"]:
-            follows = Consequence(row, minor.rows, (), (), minor.point.name)
-            if row not in minor.rows:
-                evidence.consequences.append(follows)
-
-
-def freedom(evidence: CheckedEvidence, claim: Told) -> str:
-    """dof or velocity_dof near a point, squeezed between two bounds; told is where."""
-    path, rule = claim["path"], claim["rule"]
-    if rule == "squeeze":
-        (point, most), (other, least) = _most(evidence, claim["most"], path), _least(evidence, claim["least"], path)
-        refuse(point is not other or most != least, f"{least} at least and {most} at most, or of two points")
-    else:
-        minor = regular(evidence, claim["minor"])
-        point, most = minor.point, len(evidence.problem.coordinates) - len(minor.rows)
-        if path == "/dof" and any(evidence.relation(row).kind != "finite" for row in minor.rows):
-            raise CheckError("a row of velocities does not reduce dof by itself")
-    is_about(evidence, claim, point)
-    equal(claim, most)
-    return "reference" if claim["about"] == "reference" else point.name
-
-
-def nothing(evidence: CheckedEvidence, claim: Told) -> None:
-    """No equation: every coordinate is free."""
-    refuse(evidence.finite or evidence.moving, "there are equations")
-    equal(claim, len(evidence.problem.coordinates))
-
-
-def instantaneous(evidence: CheckedEvidence, claim: Told) -> None:
-    """n less the rank of all rows at the configuration: of rational rows, or a minor and what depends on it."""
-    names = (*evidence.finite, *evidence.moving)
-    point = evidence.point(claim["at"])
-    is_about(evidence, {"about": "reference"}, point)
-    evidence.on_set(point, evidence.finite)
-    refuse(not all(evidence.is_linear(name) for name in names), "a relation is not linear in the velocities")
-    size = evidence.problem.coordinates
+def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
+    """The constraint follows from those named near a point of all; without any one, a row of it is independent."""
+    names, point, own = names_told(claim), evidence.point(claim["at"]), evidence.owned(claim["owner"])
+    before = owners(evidence)[: owners(evidence).index(claim["owner"])]
+    refuse(not own or not set(names) <= set(before), "a circuit holds constraints that were written before")
+    evidence.is_about("here", point)
+    evidence.on_set(point, [*relations_of(evidence, names), *own])
+    evidence.follow(own, relations_of(evidence, names), point, "the circuit")
     for name in names:
-        for q in size:
-            point.value(evidence.slope(name, q))
-    slopes = {name: [at_reference(evidence, evidence.slope(name, q)) for q in size] for name in names}
-    if "minor" not in claim:
-        values = [evidence.ring.rational(tree) for row in slopes.values() for tree in row]
-        if any(value is None for value in values):
-            raise CheckError("the rows are not rational at the point")
-        entries = [fmpq(value.numerator, value.denominator) for value in values if value is not None]
-        evidence.effort.spend(len(entries) * len(names))
-        equal(claim, len(size) - (fmpq_mat(len(names), len(size), entries).rank() if entries else 0))
+        others = relations_of(evidence, [other for other in names if other != name])
+        minor = evidence.minor(claim["minimal"][name]["minor"], {*others, *own})
+        rows = [row for row in minor.rows if row not in own]
+        refuse(len(rows) == len(minor.rows) or minor.point is not point, "no row of the constraint, or another point")
+        evidence.follow(rows, others, point, "the other members")
+        evidence.follow(others, rows, point, "the rows of the minor")
+    return names
+
+
+def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]) -> int:
+    """How many rows of a minor follow from relations, which follow from them in turn."""
+    known = evidence.closure(names, minor.point)
+    rows = [row for row in minor.rows if row in known and not evidence.relation(row).leaf]
+    evidence.on_set(minor.point, names)
+    evidence.follow(names, rows, minor.point, "the rows of the minor")
+    return len(rows)
+
+
+def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
+    """How many equations a constraint adds to those of the constraints before it; or how many finite ones there are."""
+    minor, order = evidence.minor(claim["minor"]), owners(evidence)
+    evidence.is_about("here", minor.point)
+    if claim["path"] == "/count/independent":
+        return _rank(evidence, minor, evidence.finite)
+    place, own = order.index(claim["owner"]), len(evidence.owned(claim["owner"]))
+    refuse(not own, "the constraint has no equations")
+    ranks = [_rank(evidence, minor, relations_of(evidence, order[:k])) for k in (place, place + 1)]
+    return min(own, ranks[1] - ranks[0])
+
+
+def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
+    """The constraints named follow from the others near the point, and no more could be dropped.
+
+    No more: of E equations with r independent rows E - r can be spared at most, where what depends does so by numbers,
+    or is a single relation that depends with cofactors none of which is 0.
+    """
+    minor, dropped = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations), names_told(claim)
+    evidence.is_about("here", minor.point)
+    order, every = [owner for owner in owners(evidence) if evidence.owned(owner)], set(evidence.equations)
+    refuse(not set(dropped) <= set(order) or not set(minor.rows) <= every, "no constraints, or rows of no relations")
+    kept = relations_of(evidence, [owner for owner in order if owner not in dropped])
+    evidence.follow(relations_of(evidence, dropped), kept, minor.point, "what is kept")
+    _depend_plainly(evidence, minor, every - set(minor.rows))
+    sizes, spared = sorted(len(evidence.owned(owner)) for owner in order), len(every) - len(minor.rows)
+    most = sum(1 for i in range(len(sizes)) if sum(sizes[: i + 1]) <= spared)
+    refuse(len(dropped) != most, f"{len(dropped)} constraints are named, and {most} might be dropped")
+    return dropped
+
+
+def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[str]) -> None:
+    """`CheckError` unless relations depend on rows by numbers, or one does by cofactors that are not 0.
+
+    Where every relation is linear or has a generic length of its own, all ranks are constant near almost every point.
+    """
+    if not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite):
         return
-    minor = evidence.minor(claim["minor"])
-    if minor.point is not point or not set(minor.rows) <= set(names):
-        raise CheckError("the minor is not of the relations at the configuration")
-    for name in set(names) - set(minor.rows):
-        factors = {row: evidence.text(text) for row, text in claim["dependent"][name].items()}
-        held = frozenset().union(*(symbols_in(tree) for tree in factors.values()))
-        if not set(factors) <= set(minor.rows) or not held <= {*evidence.problem.parameters}:
-            raise CheckError("a row depends on rows of the minor, by numbers and parameters")
-        for tree in factors.values():
-            point.value(tree)
-        for i, tree in enumerate(slopes[name]):
-            total: list[Tree] = [times(factor, slopes[row][i]) for row, factor in factors.items()]
-            evidence.identity(add(tree, negative(add(*total))), f"`{name}` as a sum of rows")
-    equal(claim, len(size) - len(minor.rows))
+    for name in others:
+        ways = [one for one in evidence.consequences if one.target == name and set(one.sources) <= set(minor.rows)]
+        used = [(*one.defined, *one.nonzero) for one in ways if one.defined]
+        plain = any(not any(map(symbols_in, trees)) for trees in used)
+        single = len(others) == 1 and any(all(excludes_zero(minor.point.value(t)) for t in trees) for trees in used)
+        refuse(not plain and not single, f"`{name}` does not depend on the rows by numbers")
+
+
+def _is_general(evidence: CheckedEvidence, name: str) -> bool:
+    slopes = (derivative(evidence.relation(name).left, q) for q in evidence.problem.coordinates)
+    return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
+
+
+def _same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
+    """n less the dof that was verified near the point."""
+    evidence.is_about("here", point)
+    refuse(verified.get("/dof at") not in (None, "reference", point.name), "dof was verified at another point")
+    return len(evidence.problem.coordinates) - int(verified["/dof"])
+
+
+def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
+    """All other coordinates are functions of these near the point, whose number is dof there."""
+    minor = involutive(evidence, claim) if "fields" in claim else evidence.minor(claim["minor"])
+    if "fields" not in claim:
+        _finite_rows(evidence, minor)
+    others = set(evidence.problem.coordinates) - set(minor.columns)
+    refuse(set(names_told(claim)) != others, "the columns of the minor are not all the other coordinates")
+    refuse(_same_place(evidence, minor.point, verified) != len(minor.rows), "their number is not a verified dof")
+    evidence.on_set(minor.point, evidence.finite)
+    return names_told(claim)
+
+
+def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
+    """The rank of what is finite is n - dof; the basis are relations that give it with the finite ones as written."""
+    refuse(not evidence.moving, "an integrable part is of forms")
+    found: Told = {"rank": len(evidence.problem.coordinates) - verified["/dof"], "basis": claim["value"]["basis"]}
+    if found["basis"] is None:
+        return found
+    minor, steps = evidence.minor(claim["minor"]), claim.get("steps", [])
+    whole = set(steps) <= set(minor.rows) <= {*steps, *evidence.finite} and len(minor.rows) == found["rank"]
+    refuse(_same_place(evidence, minor.point, verified) != found["rank"] or not whole, "the minor is not of the basis")
+    for text, name in zip(found["basis"], steps, strict=True):
+        left, one = told_integral(evidence, text), evidence.relation(name)
+        refuse(not one.leaf, "a relation of the basis is an integral")
+        evidence.identity(evidence.text(left), one.left, "a relation of the basis as it is told")
+    return found
+
+
+def told_integral(evidence: CheckedEvidence, text: Any) -> str:
+    """The function of an integral that is told with a constant of a name of its own."""
+    function, _, constant = str(text).rpartition("=")
+    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *evidence.functions}
+    refuse(not constant.strip().isidentifier() or constant.strip() in taken, "an integral ends with `= C`")
+    return function.strip()
+
+
+def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
+    """Words span each step of the growth from below; from above as many words as there are, or the dimension of all.
+
+    Witt 1937: of length k there are (1/k) sum over d | k of mu(d) m^(k/d) brackets of m fields at most.
+    """
+    minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
+    whole = len(evidence.problem.coordinates) - _same_place(evidence, minor.point, verified) + evidence.timed
+    refuse(not evidence.moving or not all(map(evidence.is_linear, evidence.moving)), "a growth vector is of forms")
+    point, fields = admissible(evidence, claim, evidence.equations)
+    rank, most, found = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), 0, list[int]()
+    refuse(point is not minor.point or len(fields) > rank, "the fields and the minor are of one point")
+    for step, given in enumerate(claim["spans"], 1):
+        words = [of_word(evidence, word, claim["fields"], step) for word in given["words"]]
+        independent(evidence, words, given["columns"], point)
+        most = min(whole, most + _witt(rank, step))
+        refuse(len(words) != most, f"entry {step} is at least {len(words)} and at most {most}")
+        found.append(most)
+    refuse(found[-1] != whole and (len(found) < 2 or found[-1] != found[-2]), "the last entry is not the whole")
+    return found
+
+
+def _witt(fields: int, length: int) -> int:
+    """How many independent brackets of a length there are in a free Lie algebra."""
+    moebius = {1: 1, 2: -1, 3: -1, 4: 0, 5: -1, 6: 1, 7: -1, 8: 0, 9: 0, 10: 1, 11: -1, 12: 0}
+    total = sum(moebius[d] * int(fields ** (length // d)) for d in range(1, length + 1) if length % d == 0)
+    return total // length

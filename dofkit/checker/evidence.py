@@ -1,4 +1,4 @@
-"""What a certificate puts forward, looked at in the checker's reading of the scene: texts, steps, points, minors."""
+"""What a certificate puts forward at points: rows that hold, a minor of them that is not 0, and what follows there."""
 
 from __future__ import annotations
 
@@ -6,16 +6,14 @@ from collections.abc import Iterable
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from dofkit.checker.balls import determinant, evaluated, excludes_zero, krawczyk
-from dofkit.checker.derivatives import derivative, symbols_in
+from dofkit.checker.balls import evaluated, excludes_zero, krawczyk, regular
+from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.points import CheckedPoint, in_turn
-from dofkit.checker.relations import FAULTS, CheckedRelations, told
-from dofkit.checker.steps import DerivedRelation, total_derivative
-from dofkit.checker.texts import has_value_everywhere
-from dofkit.checker.trees import symbol
+from dofkit.checker.points import CheckedPoint
+from dofkit.checker.relations import FAULTS, CheckedRelations, told, total_derivative
+from dofkit.checker.trees import ONE, ZERO, Tree, symbol
 
-__all__ = ["FAULTS", "CheckedEvidence", "CheckedMinor", "has_own_symbol", "own_symbols", "told"]
+__all__ = ["FAULTS", "CheckedEvidence", "CheckedMinor", "told"]
 
 LARGEST_MINOR = 250
 
@@ -32,149 +30,177 @@ class CheckedEvidence(CheckedRelations):
     """The points and minors of a certificate, each looked at when it is used, and once."""
 
     @cached_property
-    def points(self) -> dict[str, CheckedPoint]:
-        """The points that were looked at."""
+    def seen(self) -> dict[Any, Any]:
+        """What was looked at: points and minors by their ids, relations that hold by names and points."""
         return {}
 
     @cached_property
-    def minors(self) -> dict[str, CheckedMinor]:
-        """The minors that were looked at."""
-        return {}
+    def index(self) -> dict[str, dict[str, dict[str, Any]]]:
+        """The entries of every part by their ids."""
+        return {part: {str(one.get("id")): one for one in entries} for part, entries in self.parts.items()}
 
-    @cached_property
-    def held(self) -> dict[tuple[str, str], bool]:
-        """Which relation holds at which point."""
-        return {}
+    def named(self, part: str, name: Any) -> dict[str, Any]:
+        """A point, minor, field or cover by its id."""
+        if not isinstance(name, str) or name not in self.index[part]:
+            raise CheckError(f"no such entry of `{part}`: {str(name)[:60]!r}")
+        return self.index[part][name]
 
     def point(self, name: Any) -> CheckedPoint:
         """A point by its id: exact, or certified by interval Newton."""
-        if name not in self.points:
-            self.points[name] = self._point(self.named("points", name))
-        return self.points[name]
+        if ("points", name) not in self.seen:
+            self.seen["points", name] = self._point(self.named("points", name))
+        found: CheckedPoint = self.seen["points", name]
+        return found
 
     def _point(self, given: dict[str, Any]) -> CheckedPoint:
-        columns, rows = given.get("columns", []), given.get("rows", [])
-        allowed = {*self.variables, *self.velocities, *self.problem.parameters, *self.problem.generic} - {"tdot"}
-        if not allowed.issuperset(given["values"]) or not set(columns) <= set(given["values"]):
-            raise CheckError("a point gives values to what the scene does not have, or none to a column")
-        if len(columns) != len(rows) or len(set(columns)) != len(columns) or len(set(rows)) != len(rows):
-            raise CheckError("a box has as many rows as columns, each once")
-        refuse(len(columns) > LARGEST_MINOR, "a box has too many columns")
-        values = in_turn({name: self.text(text) for name, text in given["values"].items()})
+        values, columns, rows = dict[str, Tree](), given.get("columns", []), given.get("rows", [])
+        allowed = {*self.variables, *self.velocities, *self.chosen} - {"tdot"}
+        refuse(not allowed >= given["values"].keys() >= set(columns), "a point gives values to symbols of the scene")
+        square = len(columns) == len(rows) == len(set(columns)) == len(set(rows)) <= LARGEST_MINOR
+        refuse(not square, "a box has as many rows as columns, each once, and not too many")
+        for name, text in given["values"].items():
+            values[name] = substituted(self.text(text), values)
         functions = {
             name: (tuple(f["arguments"]), self.text(f["text"], f["arguments"]))
             for name, f in given.get("functions", {}).items()
         }
         for name, (arguments, text) in functions.items():
-            if len(set(arguments)) != self.problem.functions.get(name) or not symbols_in(text) <= set(arguments):
-                raise CheckError(f"the choice for `{name}` is no function of its arguments")
+            fits = len(set(arguments)) == self.problem.functions.get(name) and symbols_in(text) <= set(arguments)
+            refuse(not fits, f"the choice for `{name}` is no function of its arguments")
+        balls = {name: evaluated(tree, {}, self.effort) for name, tree in values.items()}
         exact = {name: tree for name, tree in values.items() if name not in columns}
-        point = CheckedPoint(given["id"], exact, functions, self.effort)
+        point = CheckedPoint(given["id"], exact, functions, self.effort, balls, frozenset(rows))
         if columns:
-            equations = [point.prepared(self.relation(name).left) for name in rows]
-            centre = [evaluated(values[name], {}, self.effort) for name in columns]
             radius = evaluated(self.text(given["radius"]), {}, self.effort)
-            inverse = given.get("inverse")
-            balls = [[evaluated(self.text(x), {}, self.effort) for x in row] for row in inverse] if inverse else None
-            if any(len(row) != len(columns) for row in balls or ()) or not radius > 0:
-                raise CheckError("the matrix or the radius of a box is none")
-            point.balls = krawczyk(equations, columns, centre, radius.mid(), balls, self.effort)
-            point.rows = frozenset(rows)
-        self._check_signs(point)
-        return point
-
-    def _check_signs(self, point: CheckedPoint) -> None:
+            refuse(not radius > 0, "the radius of a box is positive")
+            equations, centre = [self.relation(name).left for name in rows], {name: balls[name] for name in columns}
+            point.balls |= krawczyk(equations, centre, radius.mid(), point.value_with)
         for name, sign in self.problem.parameters.items():
-            if point.has(name) and sign in ("positive", "nonzero"):
-                ball = point.value(symbol(name))
-                if not excludes_zero(ball) or (sign == "positive" and not ball > 0):
-                    raise CheckError(f"the parameter `{name}` is declared {sign}")
+            wrong = name in balls and not (balls[name] > 0 or (sign != "positive" and excludes_zero(balls[name])))
+            refuse(wrong and sign in ("positive", "nonzero"), f"the parameter `{name}` is declared {sign}")
+        return point
 
     def holds(self, name: str, point: CheckedPoint) -> bool:
         """Whether a relation is 0 at a point, exactly."""
-        one, key = self.relation(name), (name, point.name)
-        if key not in self.held:
-            near = bool(point.value(one.left).contains(0))
-            known = near and (name in point.rows or self.ring.vanishes(point.prepared(one.left)))
-            self.held[key] = one.leaf or known
-        return self.held[key]
+        left, key = self.relation(name).left, ("holds", name, point.name)
+        if key not in self.seen:
+            near = bool(point.value(left).contains(0))
+            self.seen[key] = near and (name in point.rows or self.ring.vanishes(point.prepared(left)))
+        return bool(self.seen[key])
 
     def on_set(self, point: CheckedPoint, names: Iterable[str]) -> None:
-        """`CheckError` unless the relations hold at a point; those of velocities are to be smooth there."""
-        wanted = tuple(names)
-        start = {*point.rows, *(n for n in wanted if self.relation(n).kind == "finite" and self.holds(n, point))}
-        held = start if start.issuperset(wanted) else self.closure(start, point)
-        for name in wanted:
-            one = self.relation(name)
-            if one.kind == "finite" and name not in held:
-                raise CheckError(f"`{name}` is not shown to hold at the point `{point.name}`")
-            point.value(one.left) if one.kind == "finite" else self._smooth(one, point)
-        if any(not self.is_linear(name) for name in wanted):
-            self._is_state(point, wanted)
+        """`CheckError` unless the relations hold at a point, but for integrals; forms are smooth there."""
+        wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
+        finite = {one.name for one in wanted if one.kind == "finite"}
+        held = {*point.rows, *(name for name in finite if self.holds(name, point))}
+        self.follow(finite, held, point, f"what is shown to hold at `{point.name}`")
+        for one in wanted:
+            smooth = [one.left] if one.kind == "finite" else [derivative(one.left, v) for v in self.met_by(one.left)]
+            values = [point.value(tree) for tree in smooth]
+            wrong = one.kind == "finite" and excludes_zero(values[0])
+            refuse(wrong, f"`{one.name}` does not hold at the point `{point.name}`")
+        if not all(self.is_linear(one.name) for one in wanted):
+            self._is_state(point, [one.name for one in wanted])
 
-    def _smooth(self, one: DerivedRelation, point: CheckedPoint) -> None:
-        for name in sorted(self.velocities & symbols_in(one.left)):
-            point.value(derivative(one.left, name))
+    def met_by(self, tree: Tree) -> list[str]:
+        """The velocities that occur."""
+        return sorted(self.velocities & symbols_in(tree))
 
     def _is_state(self, point: CheckedPoint, names: Iterable[str]) -> None:
         """A nonlinear relation speaks of a state: all velocity relations and all rates hold at its velocities."""
         for name in names:
             one = self.relation(name)
             left = one.left if one.kind == "velocity" else total_derivative(one.left, self.variables)
-            exact = self.ring.vanishes(point.prepared(left))
-            if not exact and not any(self.known[row].left == left for row in point.rows):
-                raise CheckError(f"`{name}` is not shown to hold for the velocities of `{point.name}`")
+            newton = any(self.known[row].left == left for row in point.rows)
+            refuse(
+                not point.value(left).contains(0) or not (newton or self.ring.vanishes(point.prepared(left))),
+                f"`{name}` is not shown to hold for the velocities of `{point.name}`",
+            )
 
     def minor(self, given: Any, allowed: Iterable[str] | None = None) -> CheckedMinor:
-        """A minor: rows that follow from ``allowed`` (or all relations), and a determinant that is not 0."""
+        """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""
         if isinstance(given, str) and allowed is None:
-            if given not in self.minors:
-                self.minors[given] = self._minor(self.named("minors", given), None)
-            return self.minors[given]
-        return self._minor(self.named("minors", given) if isinstance(given, str) else given, allowed)
-
-    def _minor(self, given: dict[str, Any], allowed: Iterable[str] | None) -> CheckedMinor:
+            if ("minors", given) not in self.seen:
+                self.seen["minors", given] = self.minor(self.named("minors", given))
+            found: CheckedMinor = self.seen["minors", given]
+            return found
+        given = self.named("minors", given) if isinstance(given, str) else given
         point, rows, columns = self.point(given["at"]), tuple(given["rows"]), tuple(given["columns"])
-        if len(rows) != len(columns) or len(rows) > LARGEST_MINOR or len({*rows}) + len({*columns}) != 2 * len(rows):
-            raise CheckError("a minor has as many rows as columns, each once")
+        square = len({*rows}) == len(rows) == len(columns) == len({*columns}) <= LARGEST_MINOR
+        refuse(not square, "a minor has as many rows as columns, each once, and not too many")
         refuse(not set(columns) <= set(self.problem.coordinates), "a column of a minor is no coordinate")
-        start = (*self.finite, *self.moving) if allowed is None else tuple(allowed)
-        followed = set(rows) if set(rows) <= set(start) else self.closure(start, point)
-        for row in rows:
-            if row not in followed:
-                raise CheckError(f"the row `{row}` is not shown to follow from the relations near `{point.name}`")
-        self.on_set(point, [row for row in rows if not self.relation(row).leaf])
-        matrix = [[point.value(self.slope(row, column)) for column in columns] for row in rows]
-        refuse(not excludes_zero(determinant(matrix, self.effort)), "the minor may be 0")
+        self.follow(rows, self.equations if allowed is None else allowed, point, "the relations")
+        self.on_set(point, rows)
+        self.is_regular([[self.slope(row, column) for column in columns] for row in rows], point)
         return CheckedMinor(point, rows, columns)
 
-    def covers(self, minor: CheckedMinor, wanted: Iterable[str]) -> None:
-        """`CheckError` unless relations hold at the point, and near it wherever the rows of a minor do."""
+    def is_regular(self, matrix: list[list[Tree]], point: CheckedPoint) -> None:
+        """`CheckError` unless a square matrix is regular at a point."""
+        values = [[point.value(tree) for tree in row] for row in matrix]
+        refuse(not regular(values, self.effort), "the minor may be 0")
+
+    def accounts(self, minor: CheckedMinor, wanted: Iterable[str]) -> CheckedMinor:
+        """The minor; `CheckError` unless relations hold at its point, and near it wherever its rows do."""
         names = tuple(wanted)
         self.on_set(minor.point, names)
-        held = self.closure(minor.rows, minor.point)
-        for name in names:
-            refuse(name not in held, f"`{name}` is not shown to follow from the rows")
+        self.follow(names, minor.rows, minor.point, "the rows of the minor")
+        return minor
 
+    def settled(self, point: CheckedPoint, names: Iterable[str], given: dict[str, Any]) -> None:
+        """`CheckError` where finite relations hold what the point chose, unless they hold near it for others, too.
 
-def own_symbols(evidence: CheckedEvidence, generic: dict[str, Any]) -> None:
-    """`CheckError` unless each relation has its own symbol, of no other, in which it is nowhere stationary."""
-    for name, letter in generic.items():
-        if letter not in evidence.problem.generic and letter not in evidence.problem.parameters:
-            raise CheckError(f"`{str(letter)[:40]}` is no parameter and no generic length")
-        left = evidence.relation(name).left
-        others = (one.left for one in evidence.problem.relations if one.name != name)
-        if any(letter in symbols_in(other) for other in others) or not has_value_everywhere(left):
-            raise CheckError(f"`{letter}` is not the own symbol of `{name}`")
-        refuse(not evidence.is_nonzero_product(derivative(left, letter)), f"`{name}` may be stationary in `{letter}`")
+        That is so where each has a generic symbol of its own, and where they follow from the rows of a minor.
+        """
+        finite = [name for name in names if self.relation(name).kind == "finite"]
+        if any(self.is_open(self.relation(name).left) and not self.own_symbol(name) for name in finite):
+            minor = self.accounts(self.minor(given["minor"]), finite)
+            refuse(minor.point is not point, "the minor is not at the point")
 
+    def own_symbol(self, name: str, letters: Iterable[str] | None = None) -> str:
+        """A generic symbol (or one of ``letters``) of one relation alone, in which it is never stationary."""
+        left = self.relation(name).left
+        others = [symbols_in(one.left) for one in self.problem.relations if one.name != name]
+        for letter in sorted(
+            symbols_in(left) & set(self.problem.generic if letters is None else letters) & self.chosen
+        ):
+            alone = not any(letter in held for held in others) and self.is_nowhere_zero(derivative(left, letter))
+            if alone and self.has_value_everywhere(left):
+                return letter
+        return ""
 
-def has_own_symbol(evidence: CheckedEvidence, name: str) -> bool:
-    """Whether a relation has a generic symbol of its own, in which it is nowhere stationary."""
-    for letter in sorted(symbols_in(evidence.relation(name).left) & set(evidence.problem.generic)):
-        try:
-            own_symbols(evidence, {name: letter})
-        except CheckError:
-            continue
-        return True
-    return False
+    def at_reference(self, tree: Tree) -> Tree:
+        """A tree at the scene's configuration, parameters and functions left open."""
+        return substituted(tree, {**self.problem.reference, "t": ZERO, "tdot": ONE})
+
+    def is_about(self, about: Any, point: CheckedPoint) -> None:
+        """`CheckError` unless a point is one of those that a claim is about.
+
+        ``reference``: the scene's configuration, which meets the relations for all values that a point chooses;
+        ``component``: any point, where no such configuration is given; ``here``: whichever of both is so.
+        """
+        off = not self.problem.reference or self._is_off(point)
+        if about == "component" or (about == "here" and off):
+            refuse(not off, "the scene has a configuration: the claim has to be about it")
+            return
+        refuse(about not in ("reference", "here"), "a claim is about `reference`, `component` or `everywhere`")
+        refuse(not self.problem.reference, "the scene has no configuration")
+        places = {q: self.problem.reference[q] for q in self.problem.coordinates}
+        places |= {"t": ZERO} if "t" in point.balls else {}
+        for name, tree in places.items():
+            told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
+            refuse(not told_here, f"`{name}` is not that of the scene's configuration")
+        for name in self.finite:
+            if self.is_open(self.relation(name).left):
+                self.identity(self.at_reference(self.relation(name).left), ZERO, f"`{name}` at the configuration")
+
+    def _is_off(self, point: CheckedPoint) -> bool:
+        """Whether the scene's configuration is shown not to meet its relations."""
+        for name in self.finite:
+            try:
+                places = {q: point.value(tree) for q, tree in self.problem.reference.items()}
+                zero = point.value_with(ZERO, {})
+                if excludes_zero(point.value_with(self.relation(name).left, {**places, "t": zero})):
+                    return True
+            except CheckError:
+                continue
+        return False

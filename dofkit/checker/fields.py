@@ -1,7 +1,7 @@
-"""Vector fields over the coordinates and time, given as texts or by Cramer's rule; their brackets, and what they span.
+"""Velocity fields: brackets and orbits, rows that integrate, blocks of constant rank, families of configurations.
 
-The orbit of smooth fields through a point is an immersed manifold, whose tangent space holds all their brackets there
-(Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to relations never leave them.
+The points that can be reached along fields form an immersed manifold, whose tangent space holds all their brackets
+there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to relations never leave them.
 """
 
 from __future__ import annotations
@@ -9,50 +9,41 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from dofkit.checker.balls import determinant, excludes_zero
+from dofkit.checker.balls import evaluated, excludes_zero, regular
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
-from dofkit.checker.errors import CheckError, refuse
+from dofkit.checker.errors import refuse
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.points import CheckedPoint
-from dofkit.checker.texts import size_of
-from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, times
+from dofkit.checker.relations import Consequence
+from dofkit.checker.texts import nodes_of
+from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, symbol, times
 
 LARGEST_CRAMER, LONGEST_WORD, MOST_FIELDS, LARGEST_FIELD = 5, 12, 40, 20_000
 VelocityField = dict[str, Tree]
+Told = dict[str, Any]
 
 
 def field_named(evidence: CheckedEvidence, name: Any) -> VelocityField:
-    """A field by its id; what is left out is 0."""
+    """A field by its id: its components (what is left out is 0), or made from rows by Cramer's rule."""
     given = evidence.named("fields", name)
-    if "cramer" in given:
-        return _by_cramer(evidence, given["cramer"])
-    refuse(not set(given["components"]) <= set(evidence.variables), "a field has a component that is no coordinate")
-    return {name: evidence.text(text) for name, text in given["components"].items()}
-
-
-def _by_cramer(evidence: CheckedEvidence, given: dict[str, Any]) -> VelocityField:
-    rows, columns, free = given["rows"], given["columns"], given["free"]
-    if len(rows) != len(columns) or len(rows) > LARGEST_CRAMER or free in columns or free not in evidence.variables:
-        raise CheckError("Cramer's rule is for as many rows as columns, 5 at most, and another free column")
-    matrix = [[evidence.slope(row, column) for column in columns] for row in rows]
-    right = [evidence.slope(row, free) for row in rows]
-    found = {free: _determinant(matrix)}
-    for i, column in enumerate(columns):
-        replaced = [[*row[:i], b, *row[i + 1 :]] for row, b in zip(matrix, right, strict=True)]
-        found[column] = negative(_determinant(replaced))
+    if "cramer" not in given:
+        refuse(not given["components"].keys() <= set(evidence.variables), "a field has a component of no coordinate")
+        return {name: evidence.text(text) for name, text in given["components"].items()}
+    rows, columns, free = (given["cramer"][key] for key in ("rows", "columns", "free"))
+    known = len(rows) == len(columns) <= LARGEST_CRAMER and free in evidence.variables and free not in columns
+    refuse(not known, "Cramer's rule is for as many rows as columns, 5 at most, and another free column")
+    found = {free: _determinant([[evidence.slope(row, column) for column in columns] for row in rows])}
+    for place, column in enumerate(columns):
+        others = [*columns[:place], free, *columns[place + 1 :]]
+        found[column] = negative(_determinant([[evidence.slope(row, other) for other in others] for row in rows]))
     return found
 
 
 def _determinant(rows: list[list[Tree]]) -> Tree:
     if not rows:
         return ONE
-    minors = ((j, [[*row[:j], *row[j + 1 :]] for row in rows[1:]]) for j in range(len(rows)) if rows[0][j] != ZERO)
-    return add(
-        *(
-            times(rows[0][j], _determinant(m)) if j % 2 == 0 else negative(times(rows[0][j], _determinant(m)))
-            for j, m in minors
-        )
-    )
+    below = [_determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]]) for j in range(len(rows))]
+    return add(*(times(rows[0][j] if j % 2 == 0 else negative(rows[0][j]), one) for j, one in enumerate(below)))
 
 
 def along(field: VelocityField, tree: Tree) -> Tree:
@@ -69,23 +60,24 @@ def bracket(first: VelocityField, second: VelocityField) -> VelocityField:
     }
 
 
-def of_word(evidence: CheckedEvidence, word: Any) -> VelocityField:
-    """The left-normed bracket of a word: [A, B, C] is [[A, B], C]."""
-    if not isinstance(word, list) or not 1 <= len(word) <= LONGEST_WORD:
-        raise CheckError("a word is a list of fields, not too long")
-    found = field_named(evidence, word[0])
-    for name in word[1:]:
-        field = field_named(evidence, name)
-        _pay(evidence, found, field)
-        found = bracket(found, field)
+def of_word(evidence: CheckedEvidence, word: Any, allowed: Iterable[str], longest: int = LONGEST_WORD) -> VelocityField:
+    """The left-normed bracket of a word of the fields that are allowed: [A, B, C] is [[A, B], C]."""
+    short = isinstance(word, list) and 1 <= len(word) <= longest and set(word) <= set(allowed)
+    refuse(not short, "a word is a list of the fields, not too long")
+    key = ("words", *word)
+    if key not in evidence.seen:
+        last, start = field_named(evidence, word[-1]), word[:-1]
+        evidence.seen[key] = paid(evidence, of_word(evidence, start, allowed), last) if start else last
+    found: VelocityField = evidence.seen[key]
     return found
 
 
-def _pay(evidence: CheckedEvidence, first: VelocityField, second: VelocityField) -> None:
-    """A bracket costs the size of its fields; large ones are refused."""
-    sizes = [sum(size_of(tree) for tree in field.values()) for field in (first, second)]
+def paid(evidence: CheckedEvidence, first: VelocityField, second: VelocityField) -> VelocityField:
+    """A bracket, at the price of the size of its fields; large ones are refused."""
+    sizes = [sum(len(nodes_of(tree)) for tree in field.values()) for field in (first, second)]
     evidence.effort.spend(sizes[0] * len(second) + sizes[1] * len(first) + 1)
     refuse(max(sizes) > LARGEST_FIELD, "a bracket is too large")
+    return bracket(first, second)
 
 
 def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
@@ -93,71 +85,123 @@ def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
     one = evidence.relation(row)
     if one.kind == "finite":
         return along(field, one.left)
-    if not evidence.is_linear(row) and field.get("t", ZERO) != ONE:
-        raise CheckError(f"`{row}` is not linear in velocities, and the field does not have time go by 1")
+    slow = not evidence.is_linear(row) and field.get("t", ZERO) != ONE
+    refuse(slow, f"`{row}` is not linear in velocities, and the field does not have time go by 1")
     return substituted(one.left, {name + "dot": field.get(name, ZERO) for name in evidence.variables})
 
 
-def tangent(evidence: CheckedEvidence, fields: Iterable[VelocityField], rows: Iterable[str]) -> None:
+def tangent(evidence: CheckedEvidence, fields: Iterable[VelocityField], rows: Sequence[str]) -> None:
     """`CheckError` unless fields are tangent to rows, identically."""
     for field in fields:
         for row in rows:
-            evidence.identity(on_row(evidence, row, field), f"a field along `{row}`")
+            evidence.identity(on_row(evidence, row, field), ZERO, f"a field along `{row}`")
 
 
 def independent(evidence: CheckedEvidence, fields: Sequence[VelocityField], columns: Any, point: CheckedPoint) -> None:
     """`CheckError` unless the fields have a minor at the point that is not 0."""
-    if len(fields) != len(columns) or len(set(columns)) != len(columns) or not set(columns) <= set(evidence.variables):
-        raise CheckError("as many columns as fields are needed, each once")
-    matrix = [[point.value(field.get(column, ZERO)) for column in columns] for field in fields]
-    refuse(not excludes_zero(determinant(matrix, evidence.effort)), "the fields may be dependent at the point")
+    square = len(fields) == len(columns) == len(set(columns)) and set(columns) <= set(evidence.variables)
+    refuse(not square, "as many columns as fields are needed, each once")
+    evidence.is_regular([[field.get(column, ZERO) for column in columns] for field in fields], point)
 
 
 def admissible(
-    evidence: CheckedEvidence, given: dict[str, Any], wanted: Sequence[str]
+    evidence: CheckedEvidence, given: Told, wanted: Sequence[str]
 ) -> tuple[CheckedPoint, list[VelocityField]]:
     """Fields whose curves through a point are motions: tangent to rows that account for ``wanted``, smooth there."""
-    point, names = evidence.point(given["at"]), given["fields"]
+    point, names, rows = evidence.point(given["at"]), given["fields"], given["rows"]
     refuse(not 0 < len(names) <= MOST_FIELDS, "there are no fields, or too many")
     fields = [field_named(evidence, name) for name in names]
-    tangent(evidence, fields, given["rows"])
-    evidence.on_set(point, [name for name in wanted if evidence.relation(name).kind == "finite"])
-    left = set(wanted) - evidence.closure(given["rows"], point)
-    if left:
-        raise CheckError(f"`{min(left)}` is not shown to follow from the rows of the fields")
+    tangent(evidence, fields, rows)
+    evidence.on_set(point, [*rows, *wanted])
+    evidence.follow(rows, wanted, point, "the relations")
+    evidence.follow(wanted, rows, point, "the rows of the fields")
+    evidence.settled(point, wanted, given)
     for field in fields:
         for value in field.values():
             point.value(value)
     return point, fields
 
 
-def span(evidence: CheckedEvidence, given: dict[str, Any], longest: int = LONGEST_WORD) -> tuple[CheckedPoint, int]:
+def span(evidence: CheckedEvidence, given: Told, longest: int) -> tuple[CheckedPoint, int]:
     """A lower bound of the dimension of the orbit through a point, at a fixed time."""
-    point, fields = admissible(evidence, given, (*evidence.finite, *evidence.moving))
-    words = given["words"]
-    if any(len(word) > longest or not set(word) <= set(given["fields"]) for word in words):
-        raise CheckError("a word is too long, or of other fields")
-    independent(evidence, [of_word(evidence, word) for word in words], given["columns"], point)
-    moves_time = any(field.get("t", ZERO) != ZERO for field in fields)
-    goes_on = any(excludes_zero(point.value(field.get("t", ZERO))) for field in fields)
-    refuse((evidence.timed or moves_time) and not goes_on, "no field is shown to have time go by")
-    return point, len(words) - moves_time
+    point, fields = admissible(evidence, given, evidence.equations)
+    words = [of_word(evidence, word, given["fields"], longest) for word in given["words"]]
+    independent(evidence, words, given["columns"], point)
+    times_of = [field["t"] for field in fields if field.get("t", ZERO) != ZERO]
+    goes_on = any(excludes_zero(point.value(tree)) for tree in times_of)
+    refuse((evidence.timed or times_of) and not goes_on, "no field is shown to have time go by")
+    return point, len(words) - bool(times_of)
 
 
-def involutive(evidence: CheckedEvidence, given: dict[str, Any], allowed: Iterable[str] | None = None) -> CheckedMinor:
+def involutive(evidence: CheckedEvidence, given: Told, allowed: Iterable[str] | None = None) -> CheckedMinor:
     """Rows whose kernel is spanned by fields that are closed under brackets: they integrate (Frobenius 1877)."""
     minor = evidence.minor(given["minor"], allowed)
-    timed = any(not {"t", "tdot"}.isdisjoint(symbols_in(evidence.relation(row).left)) for row in minor.rows)
+    timed = evidence.holds_time(minor.rows)
     fields = [field_named(evidence, name) for name in given["fields"]]
     missing = len(evidence.problem.coordinates) + timed - len(minor.rows)
-    if len(fields) != missing or not all(evidence.is_linear(row) for row in minor.rows):
-        raise CheckError(f"the kernel of the rows has {missing} fields, and the rows are linear in the velocities")
-    if not timed and any(field.get("t", ZERO) != ZERO for field in fields):
-        raise CheckError("a field moves time, which does not occur")
+    refuse(len(fields) != missing or not all(map(evidence.is_linear, minor.rows)), f"the kernel has {missing} fields")
+    moves = not timed and any(field.get("t", ZERO) != ZERO for field in fields)
+    refuse(moves, "a field moves time, which does not occur")
     independent(evidence, fields, given["columns"], minor.point)
+    brackets = (paid(evidence, first, second) for i, first in enumerate(fields) for second in fields[:i])
     tangent(evidence, fields, minor.rows)
-    for i, first in enumerate(fields):
-        for second in fields[:i]:
-            _pay(evidence, first, second)
-            tangent(evidence, [bracket(first, second)], minor.rows)
+    tangent(evidence, brackets, minor.rows)
     return minor
+
+
+def take_cover(evidence: CheckedEvidence, name: Any) -> None:
+    """Blocks of rows, each with fields that keep it: near a minor's point its rows give all (constant rank theorem).
+
+    The fields are tangent identically, so a block has rank at most its variables less its fields, and the minor shows
+    that the sum is reached.
+    """
+    if ("covers", name) in evidence.seen:
+        return
+    given, total = evidence.named("covers", name), 0
+    minor, rows = evidence.minor(given["minor"]), [row for block in given["blocks"] for row in block["rows"]]
+    once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
+    refuse(not once, "the blocks do not hold each finite relation once, or the minor has other rows")
+    refuse("t" in frozenset().union(*(symbols_in(evidence.relation(row).left) for row in rows)), "rows that hold time")
+    for row in rows:
+        chosen = evidence.is_open(evidence.relation(row).left) and not evidence.own_symbol(row)
+        refuse(chosen, f"`{row}` holds what the point chose: it may be met for that alone")
+    evidence.on_set(minor.point, rows)
+    for block in given["blocks"]:
+        fields = [field_named(evidence, field) for field in block["fields"]]
+        held = frozenset().union(*(symbols_in(evidence.relation(row).left) for row in block["rows"]))
+        own = held & set(evidence.problem.coordinates)
+        refuse(not set(block["columns"]) <= own or any("t" in field for field in fields), "a column of no coordinate")
+        tangent(evidence, fields, block["rows"])
+        independent(evidence, fields, block["columns"], minor.point)
+        total += min(len(own) - len(fields), len(block["rows"]))
+    refuse(total != len(minor.rows), f"the blocks have rank {total} at most, the minor {len(minor.rows)}")
+    evidence.seen["covers", name] = rows
+    for row in set(rows) - set(minor.rows):
+        evidence.consequences.append(Consequence(row, minor.rows, at=minor.point.name))
+
+
+def family(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
+    """A family q(u) of configurations through the point, with as many directions there as parameters."""
+    refuse(evidence.moving or evidence.timed, "a family is for finite relations without time")
+    point, names, columns = evidence.point(given["at"]), given["parameters"], given["columns"]
+    coordinates = evidence.problem.coordinates
+    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen}
+    refuse(not taken.isdisjoint(names), "a parameter of a family has a name that is taken")
+    refuse(not set(columns) <= given["q"].keys() <= set(coordinates), "a family has what is no coordinate")
+    evidence.on_set(point, evidence.finite)
+    own = {name: tree for name, tree in point.exact.items() if name in coordinates}
+    path = {
+        q: substituted(evidence.text(given["q"][q], names) if q in given["q"] else symbol(q), own) for q in coordinates
+    }
+    for name in evidence.finite:
+        evidence.identity(substituted(evidence.relation(name).left, path), ZERO, f"`{name}` on the family")
+    start = {u: evidence.text(given["values"][u]) for u in names}
+    balls = {u: evaluated(tree, {}, evidence.effort) for u, tree in start.items()}
+    for q, tree in path.items():
+        evidence.identity(point.prepared(substituted(tree, start)), point.prepared(symbol(q)), f"the family's `{q}`")
+        point.value_with(tree, balls)
+    square = len(columns) == len(names) == len(set(columns)) == len(set(names))
+    refuse(not square, "as many columns as parameters are needed, each once")
+    slopes = [[point.value_with(derivative(path[q], u), balls) for q in columns] for u in names]
+    refuse(not regular(slopes, evidence.effort), "the family may be slower at the point than its parameters")
+    return point, len(names)

@@ -181,10 +181,10 @@ from typing import Any
 
 from dofkit.checker.errors import CheckError, refuse
 
-VERSION = 1
-LARGEST_TEXT, MOST_CLAIMS, MOST_ENTRIES = 20_000_000, 20_000, 20_000
+LARGEST_TEXT, MOST_ENTRIES = 20_000_000, 20_000
 PARTS = ("relations", "points", "minors", "fields", "covers")
-KEYS = ("certificate", "scene", "cayley", *PARTS, "claims", "uncovered")
+#: The fields of a certificate that are lists, and of what.
+LISTS = {**dict.fromkeys((*PARTS, "claims"), dict), "cayley": str, "uncovered": str}
 
 
 def certificate_of(given: str | bytes | Mapping[str, Any]) -> dict[str, Any]:
@@ -195,26 +195,19 @@ def certificate_of(given: str | bytes | Mapping[str, Any]) -> dict[str, Any]:
             given = json.loads(given)
         except (ValueError, RecursionError) as error:
             raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
-    if not isinstance(given, Mapping) or not isinstance(given.get("scene", {}), Mapping):
+    if not isinstance(given, Mapping) or not isinstance(given.get("scene"), Mapping):
         raise CheckError("a certificate is an object with a scene")
-    if type(given.get("certificate")) is not int or given["certificate"] != VERSION:
-        raise CheckError(f"a certificate of version {str(given.get('certificate'))[:20]!r}, not {VERSION}")
-    if unknown := [key for key in given if key not in KEYS]:
-        raise CheckError(f"a certificate has no field {str(unknown[0])[:40]!r}")
-    for part, most in (*((part, MOST_ENTRIES) for part in PARTS), ("claims", MOST_CLAIMS)):
-        entries = given.get(part, [])
-        if not isinstance(entries, list) or len(entries) > most or not all(isinstance(one, dict) for one in entries):
-            raise CheckError(f"`{part}` is a list of at most {most} objects")
+    version = given.get("certificate")
+    refuse(type(version) is not int or version != 1, f"a certificate of version {str(version)[:20]!r}, not 1")
+    unknown = sorted(str(key)[:40] for key in given if key not in ("certificate", "scene", *LISTS))
+    refuse(unknown, f"a certificate has no such field: {unknown[:1]}")
+    found = {**{name: [] for name in LISTS}, **given}
+    for name, kind in LISTS.items():
+        entries = found[name]
+        fine = isinstance(entries, list) and len(entries) <= MOST_ENTRIES and all(isinstance(e, kind) for e in entries)
+        refuse(not fine, f"`{name}` is a list of at most {MOST_ENTRIES} {'texts' if kind is str else 'objects'}")
     for part in PARTS:
-        names = [str(one.get("id")) for one in given.get(part, [])]
-        refuse(len(set(names)) != len(names), f"an id of `{part}` is given twice")
-    _check_texts(given)
-    return {"cayley": [], "uncovered": [], **{part: [] for part in (*PARTS, "claims")}, **given}
-
-
-def _check_texts(given: Mapping[str, Any]) -> None:
-    for part in ("cayley", "uncovered"):
-        entries = given.get(part, [])
-        if not isinstance(entries, list) or not all(isinstance(one, str) for one in entries):
-            raise CheckError(f"`{part}` is a list of texts")
-    refuse(len(given.get("uncovered", [])) > MOST_CLAIMS, "too much is uncovered")
+        names = [one.get("id") for one in found[part]]
+        told = all(isinstance(name, str) and name for name in names)
+        refuse(not told or len(set(names)) < len(names), f"every entry of `{part}` has an id of its own")
+    return found

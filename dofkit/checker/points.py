@@ -1,28 +1,29 @@
-"""Points: exact values, or a box in which interval Newton certifies the only zero of some rows."""
+"""Points: exact values and balls for all of them; some may be the only zero of rows in a box."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from dofkit.checker.balls import evaluated
-from dofkit.checker.derivatives import derivative, rebuilt, substituted, symbols_in
+from flint import arb
+
+from dofkit.checker.balls import Choices, evaluated, slope_of
+from dofkit.checker.derivatives import rebuilt, substituted
 from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError
 from dofkit.checker.trees import ONE, Tree
 
 
 @dataclass
 class CheckedPoint:
-    """A point that was checked: ``exact`` values, ``functions`` chosen, and ``balls`` for the columns of a box.
+    """A point that was checked: ``exact`` values, ``functions`` chosen, and ``balls`` for all symbols.
 
     The relations ``rows`` hold at it by interval Newton.
     """
 
     name: str
     exact: dict[str, Tree]
-    functions: Mapping[str, tuple[tuple[str, ...], Tree]]
+    functions: Choices
     effort: Effort
     balls: dict[str, Any] = field(default_factory=dict)
     rows: frozenset[str] = frozenset()
@@ -30,28 +31,20 @@ class CheckedPoint:
 
     def prepared(self, tree: Tree) -> Tree:
         """A tree with the exact values and the chosen functions put in; velocities are by ``t``."""
-        chosen = with_functions(tree, self.functions) if self.functions else tree
-        return substituted(chosen, {"tdot": ONE, **self.exact})
+        return substituted(with_functions(tree, self.functions), {"tdot": ONE, **self.exact})
 
     def value(self, tree: Tree) -> Any:
-        """The ball of a tree at the point."""
+        """The ball of a tree at the point, every part of which has a value."""
         if id(tree) not in self.memory:
-            self.memory[id(tree)] = (tree, evaluated(self.prepared(tree), self.balls, self.effort))
+            self.memory[id(tree)] = (tree, self.value_with(tree, {}))
         return self.memory[id(tree)][1]
 
-    def value_with(self, tree: Tree, velocities: Mapping[str, Tree]) -> Any:
-        """The ball of a tree at the point, with expressions in the place of velocities."""
-        ahead = {name: value for name, value in self.exact.items() if name not in velocities}
-        put_in = {name: self.prepared(value) for name, value in velocities.items()}
-        chosen = with_functions(tree, self.functions) if self.functions else tree
-        return evaluated(substituted(chosen, {**ahead, **put_in}), self.balls, self.effort)
-
-    def has(self, name: str) -> bool:
-        """Whether a symbol has a value here."""
-        return name in self.exact or name in self.balls
+    def value_with(self, tree: Tree, others: Mapping[str, Any]) -> Any:
+        """The ball of a tree at the point, with other balls for some symbols."""
+        return evaluated(tree, {"tdot": arb(1), **self.balls, **others}, self.effort, self.functions)
 
 
-def with_functions(tree: Tree, functions: Mapping[str, tuple[tuple[str, ...], Tree]]) -> Tree:
+def with_functions(tree: Tree, functions: Choices) -> Tree:
     """A tree with texts in the place of declared functions, derivatives carried out."""
     done: dict[int, Tree] = {}
 
@@ -59,27 +52,11 @@ def with_functions(tree: Tree, functions: Mapping[str, tuple[tuple[str, ...], Tr
         if node.below and id(node) not in done:
             below = tuple(read(part) for part in node.below)
             if node.head == "apply" and node.value in functions:
-                done[id(node)] = _applied(functions[str(node.value)], node.orders, below)
+                arguments, text = functions[str(node.value)]
+                slope = slope_of(text, arguments, node.orders)
+                done[id(node)] = substituted(slope, dict(zip(arguments, below, strict=True)))
             else:
                 done[id(node)] = rebuilt(node, below)
         return done.get(id(node), node)
 
-    return read(tree)
-
-
-def _applied(function: tuple[tuple[str, ...], Tree], orders: Sequence[int], below: tuple[Tree, ...]) -> Tree:
-    arguments, text = function
-    for argument, order in zip(arguments, orders, strict=True):
-        for _ in range(order):
-            text = derivative(text, argument)
-    return substituted(text, dict(zip(arguments, below, strict=True)))
-
-
-def in_turn(values: Mapping[str, Tree]) -> dict[str, Tree]:
-    """Values with those before them put in; what is left over is no number."""
-    found: dict[str, Tree] = {}
-    for name, tree in values.items():
-        found[name] = substituted(tree, found)
-        if left := symbols_in(found[name]):
-            raise CheckError(f"the value of `{name}` at a point mentions `{min(left)}`")
-    return found
+    return read(tree) if functions else tree

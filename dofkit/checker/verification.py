@@ -2,70 +2,60 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from dofkit.checker import dependence_rules, dimension_rules, emptiness_rules, everywhere_rules, label_rules
+from dofkit.checker import dimension_rules as numbers
+from dofkit.checker import emptiness_rules as emptiness
+from dofkit.checker import label_rules as labels
 from dofkit.checker.document import document_of, sha256_of
 from dofkit.checker.effort import Effort
 from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.evidence import CheckedEvidence
+from dofkit.checker.fields import take_cover
 from dofkit.checker.format import PARTS, certificate_of
 from dofkit.checker.problem import Problem, read_problem
 from dofkit.checker.relations import FAULTS, told
 
-Rule = Callable[[CheckedEvidence, dict[str, Any]], object]
-Counting = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], None]
-#: The rules of the whole: path and name of the rule.
-WHOLE: dict[tuple[str, str], Rule] = {
-    **{("/consistent", rule): emptiness_rules.consistent for rule in ("point", "regular", "motion")},
-    **{("/consistent", rule): emptiness_rules.inconsistent for rule in ("nullstellensatz", "polygon", "boxes")},
-    ("/conflicting", "conflict"): emptiness_rules.conflict,
-    **{(path, rule): dimension_rules.freedom for path in ("/dof", "/velocity_dof") for rule in ("squeeze", "regular")},
-    **{(path, "nothing"): everywhere_rules.nothing for path in ("/dof", "/velocity_dof")},
-    **{("/dof", rule): everywhere_rules.everywhere for rule in ("everywhere", "graph", "one relation")},
-    ("/dof", "generic rank"): everywhere_rules.generic_rank,
-    **{("/feasible", rule): emptiness_rules.feasible for rule in ("point", "regular")},
-    ("/instantaneous_dof", "rank"): dimension_rules.instantaneous,
-    ("/count/independent", "independent"): dependence_rules.independent_in_all,
-    ("/redundant", "cofactors"): dependence_rules.redundant,
+Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
+#: The rules: of a path of the report (of a field of an entry, without ``/``), by the rule's name.
+RULES: dict[str, dict[str, Rule]] = {
+    "/consistent": {
+        **{"point": emptiness.consistent, "regular": emptiness.consistent},
+        "nullstellensatz": emptiness.inconsistent,
+    },
+    "/feasible": {"point": emptiness.consistent, "regular": emptiness.consistent},
+    "/conflicting": {"conflict": emptiness.conflict},
+    "/dof": {"squeeze": numbers.bounds, "regular": numbers.bounds, "everywhere": numbers.everywhere},
+    "/velocity_dof": {"squeeze": numbers.bounds, "regular": numbers.bounds, "count": numbers.counted},
+    "/instantaneous_dof": {"rank": numbers.instantaneous},
+    "/singular": {"compare": numbers.counted},
+    "/holonomic": {"count": numbers.counted},
+    "/scleronomic": {"count": numbers.counted},
+    "/redundant_equations": {"count": numbers.counted},
+    "/redundancies": {"count": numbers.counted},
+    "/redundant": {"cofactors": numbers.redundant},
+    "/count/independent": {"independent": numbers.independence},
+    "/integrable_part": {"integrals": numbers.integrable_part},
+    "/generalized_coordinates": {"minor": numbers.generalized_coordinates},
+    "/growth_vector": {"span": numbers.growth},
+    "holonomic": {
+        **{"finite": labels.finite, "inequality": labels.inequality, "bracket": labels.bracket},
+        **{"integral": labels.integrable, "frobenius": labels.integrable},
+    },
+    "scleronomic": {"timeless": labels.timeless, "turns": labels.turns},
+    "catastatic": {"timeless": labels.timeless, "turns": labels.turns},
+    "exact": {"exact": labels.exact, "not exact": labels.exact},
+    "integrating_factor": {"integral": labels.integral},
+    "integral": {"integral": labels.integral},
+    "circuit": {"cofactors": numbers.circuit},
+    "independent": {"independent": numbers.independence, "inequality": labels.inequality},
 }
-COUNTING: dict[tuple[str, str], Counting] = {
-    **{(path, "count"): dependence_rules.counted for path in ("/velocity_dof", "/holonomic", "/scleronomic")},
-    ("/redundant_equations", "count"): dependence_rules.counted,
-    ("/redundancies", "count"): dependence_rules.counted,
-    ("/integrable_part", "integrals"): dependence_rules.integrable_part,
-    ("/singular", "compare"): dependence_rules.counted,
-    ("/generalized_coordinates", "minor"): dependence_rules.generalized_coordinates,
-    ("/growth_vector", "span"): dependence_rules.growth,
-}
+RULES["holonomic_alone"] = {**RULES["holonomic"], "wedge": labels.wedge}
 #: What may be false of poses near the configuration alone.
 LOCAL = ("/singular", "/holonomic", "/scleronomic")
-#: The rules of an entry: field and name of the rule.
-ENTRY: dict[tuple[str, str], Rule] = {
-    **{
-        (field, rule): check
-        for field in ("holonomic", "holonomic_alone")
-        for rule, check in (
-            ("finite", label_rules.finite),
-            ("inequality", label_rules.inequality),
-            ("integral", label_rules.integrable),
-            ("frobenius", label_rules.frobenius),
-            ("bracket", label_rules.bracket),
-            ("wedge", label_rules.wedge),
-        )
-    },
-    **{(field, "timeless"): label_rules.timeless for field in ("scleronomic", "catastatic")},
-    **{(field, "turns"): label_rules.turns for field in ("scleronomic", "catastatic")},
-    ("exact", "exact"): label_rules.closed,
-    ("exact", "not exact"): label_rules.not_closed,
-    ("integrating_factor", "integral"): label_rules.factor,
-    ("integral", "integral"): label_rules.integral,
-    ("circuit", "cofactors"): dependence_rules.circuit,
-    ("independent", "inequality"): label_rules.inequality,
-    ("independent", "independent"): dependence_rules.independent_of_those_before,
-}
 
 
 @dataclass(frozen=True)
@@ -90,12 +80,10 @@ def verify(scene: Mapping[str, Any] | str | None, certificate: Mapping[str, Any]
     scene, raises `CheckError`; a claim that is not shown is told in ``failed``.
     """
     given = certificate_of(certificate)
-    if scene is None:
-        scene = given["scene"].get("document")
+    scene = given["scene"].get("document") if scene is None else scene
     if scene is None:
         raise CheckError("no scene is given, and none is in the certificate")
-    document = document_of(scene) if isinstance(scene, str) else scene
-    return Verifier(document, given).run()
+    return Verifier(document_of(scene) if isinstance(scene, str) else scene, given).run()
 
 
 class Verifier:
@@ -103,8 +91,8 @@ class Verifier:
 
     def __init__(self, document: Mapping[str, Any], given: dict[str, Any], problem: Problem | None = None) -> None:
         self.document, self.given, self.effort = document, given, Effort()
-        if given.get("scene", {}).get("sha256") != sha256_of(document):
-            raise CheckError("the certificate is of another scene, or of this one before it was edited")
+        other = given["scene"].get("sha256") != sha256_of(document)
+        refuse(other, "the certificate is of another scene, or of this one before it was edited")
         self.problem = problem or read_problem(document)
         refuse(self.problem.tolerance is not None, "what is measured up to a tolerance is not proved")
         self.evidences: dict[bool, CheckedEvidence] = {}
@@ -122,41 +110,34 @@ class Verifier:
 
     def run(self) -> Verification:
         """Every claim in its order."""
-        failed: list[dict[str, str]] = []
-        seen: set[str] = set()
+        failed, seen = list[dict[str, str]](), set(self.given["uncovered"])
         for claim in self.given["claims"]:
             path, rule = str(claim.get("path"))[:200], str(claim.get("rule"))[:60]
             try:
-                refuse(path in seen, "the path is claimed twice")
-                refuse(path in self.given["uncovered"], "the path is claimed and uncovered")
+                refuse(path in seen, "the path is claimed twice, or claimed and uncovered")
                 self.check(claim)
             except FAULTS as error:
                 failed.append({"path": path, "rule": rule, "why": told(error)})
             seen.add(path)
-        count = len(self.given["claims"])
-        name = str(self.given["scene"].get("name", self.problem.name))[:200]
+        name, count = str(self.given["scene"].get("name", self.problem.name))[:200], len(self.given["claims"])
         return Verification(name, count, count - len(failed), failed, list(self.given["uncovered"]))
 
     def check(self, claim: dict[str, Any]) -> None:
         """`CheckError` unless the claim is shown; what was verified before may be used."""
-        path, rule = claim["path"], claim["rule"]
-        evidence = self.evidence(claim.get("cayley") is True)
-        whole = claim.get("about") == "everywhere" or path == "/conflicting" or claim["value"] is False
+        path, rule, value, cayley = claim["path"], claim["rule"], claim["value"], claim.get("cayley") is True
+        whole = claim.get("about") == "everywhere" or path == "/conflicting" or value is False
         refuse(
-            claim.get("cayley") is True and whole and path.count("/") == 1 and path not in LOCAL, "a chart is no whole"
+            cayley and whole and path.startswith("/") and path.count("/") == 1 and path not in LOCAL,
+            "a chart is no whole",
         )
+        evidence, parts = self.evidence(cayley), path.split("/")
         for name in claim.get("covers", []):
-            dimension_rules.take_cover(evidence, name)
-        parts = path.split("/")
-        if (path, rule) in WHOLE:
-            place = WHOLE[path, rule](evidence, claim)
-            self.verified[f"{path} at"] = place if isinstance(place, str) else None
-            self.verified[f"{path} about"] = claim.get("about")
-        elif (path, rule) in COUNTING:
-            COUNTING[path, rule](evidence, claim, self.verified)
-        elif len(parts) == 4 and parts[:2] == ["", "constraints"] and (parts[3], rule) in ENTRY:
-            owner = parts[2].replace("~1", "/").replace("~0", "~")
-            ENTRY[parts[3], rule](evidence, {**claim, "owner": owner, "field": parts[3]})
-        else:
-            raise CheckError(f"no rule `{str(rule)[:40]}` for `{path[:60]}`")
-        self.verified[path] = claim["value"]
+            take_cover(evidence, name)
+        field = parts[3] if len(parts) == 4 and parts[:2] == ["", "constraints"] else ""
+        rules = RULES.get(field or path, {})
+        refuse(rule not in rules or (not field and parts[0]), f"no rule `{str(rule)[:40]}` for `{path[:60]}`")
+        owner = {"owner": parts[2].replace("~1", "/").replace("~0", "~"), "field": field} if field else {}
+        found = rules[rule](evidence, {**claim, **owner}, self.verified)
+        same = json.dumps(found, sort_keys=True) == json.dumps(value, sort_keys=True)
+        refuse(not same, f"the evidence gives {found!r}, not {str(value)[:80]!r}")
+        self.verified |= {path: value, f"{path} about": claim.get("about")}

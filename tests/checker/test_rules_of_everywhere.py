@@ -63,7 +63,7 @@ def test_a_function_that_is_0_on_half_a_line_is_not_analytic():
         "points": [{"id": "P", "values": {"x": "1", "y": "-1"}}],
         "minors": [{"id": "m", "at": "P", "rows": ["c1"], "columns": ["y"]}],
     }
-    claim = {"path": "/dof", "value": 1, "rule": "one relation", "about": "everywhere", "minor": "m"}
+    claim = {"path": "/dof", "value": 1, "rule": "everywhere", "blocks": ["c1"], "about": "everywhere", "minor": "m"}
     assert not accepted(scene, [claim], **parts)
     circle = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 2"]}
     assert faults(circle, [claim], **parts) == {}
@@ -99,7 +99,7 @@ FRAME: dict[str, Any] = {
 }
 OWN = {"order": [], "generic": [[link, f"square_{link}"] for link in LINKS]}
 CLAIMS = [
-    {"path": "/dof", "value": 3, "rule": "generic rank", "about": "everywhere", "minor": "m", "covers": ["k"], **OWN},
+    {"path": "/dof", "value": 3, "rule": "everywhere", "about": "everywhere", "minor": "m", "covers": ["k"], **OWN},
     {"path": "/velocity_dof", "value": 3, "rule": "count"},
     {"path": "/redundant_equations", "value": 1, "rule": "count"},
     {"path": "/constraints/c6/independent", "value": 0, "rule": "independent", "minor": "m", "covers": ["k"]},
@@ -179,10 +179,10 @@ def test_what_is_feasible_together():
 def test_motions_through_time():
     scene = {"coordinates": ["x", "y"], "constraints": ["x = sin(t)", "xdot = cos(t) + y*0"]}
     at = [{"id": "P", "values": {"x": "0", "y": "0", "t": "0"}}]
-    claim = {"path": "/consistent", "value": True, "rule": "motion", "q": {"x": "sin(t)", "y": "0"}, "at": "P"}
+    claim = {"path": "/consistent", "value": True, "rule": "point", "q": {"x": "sin(t)", "y": "0"}, "at": "P"}
     assert faults(scene, [claim], points=at) == {}
     assert not accepted(scene, [{**claim, "q": {"x": "t", "y": "0"}}], points=at)
-    assert not accepted(scene, [{**claim, "q": {"x": "sin(t)"}}], points=at)
+    assert not accepted(scene, [{**claim, "q": {"y": "0"}}], points=at)
     assert not accepted(scene, [{"path": "/consistent", "value": True, "rule": "point", "at": "P"}], points=at)
     moment = {"coordinates": ["x"], "constraints": ["x*t = 0", "x = 0", "t = 0"]}
     start = [{"id": "P", "values": {"x": "0", "t": "0"}}]
@@ -241,7 +241,7 @@ def test_a_chart_of_poses_says_nothing_of_all():
     }
     assert accepted(scene, [never])
     assert not accepted(scene, [{**never, "cayley": True}], cayley=["B"])
-    graph = {"path": "/dof", "value": 5, "rule": "graph", "order": [["c1", "x_B"]], "about": "everywhere"}
+    graph = {"path": "/dof", "value": 5, "rule": "everywhere", "order": [["c1", "x_B"]], "about": "everywhere"}
     one = {**scene, "constraints": [line]}
     assert accepted(one, [graph])
     assert not accepted(one, [{**graph, "cayley": True}], cayley=["B"])

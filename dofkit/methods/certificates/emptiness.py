@@ -70,8 +70,10 @@ def refutations(room: Room, names: Sequence[str]) -> Iterator[Told]:
 def polynomials(room: Room, trees: Sequence[Tree]) -> tuple[list[Polynomial], list[Tree]] | None:
     """Trees as polynomials in the ring's generators with one denominator left out; None where it differs."""
     ring = room.scenery.evidence.ring
-    normals = [ring.normal(substituted(tree, {"tdot": ONE})) for tree in trees]
-    normals = [ring._fresh(normal) for normal in normals]
+    put_in = [substituted(tree, {"tdot": ONE}) for tree in trees]
+    for tree in put_in:
+        ring.normal(tree)
+    normals = [ring.normal(tree) for tree in put_in]
     if any(not normal.below.is_constant() for normal in normals):
         return None
     found = []

@@ -32,7 +32,7 @@ def everywhere(room: Room) -> Iterator[Told]:
     if all(name in own for name in evidence.finite) and (backed := backing(room, standing)):
         pairs = [[name, own[name]] for name in evidence.finite]
         minor = room.minor(standing)
-        yield {"rule": "generic rank", "about": "everywhere", "order": [], "generic": pairs, "minor": minor, **backed}
+        yield {"rule": "everywhere", "about": "everywhere", "order": [], "generic": pairs, "minor": minor, **backed}
 
 
 def graph_order(room: Room) -> tuple[Order, list[str]]:

@@ -43,7 +43,7 @@ def _inequalities(room: Room) -> dict[str, str] | None:
 def dof(room: Room) -> Iterator[Told]:
     """The dimension of the configuration space: everywhere where that is one line, else near the main point."""
     if not room.equations:
-        yield {"rule": "nothing", "about": "everywhere"}
+        yield {"rule": "everywhere", "about": "everywhere"}
         return
     if room.report.verdicts["dof"].about == "everywhere":
         yield from everywhere(room)

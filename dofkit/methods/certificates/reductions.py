@@ -43,8 +43,8 @@ def _steps(name: str, left: Tree) -> Iterator[tuple[Step, list[str]]]:
     pairs = [pair for pair in squares if pair is not None]
     if len(pairs) == 1:
         coefficient, base, exponent = pairs[0]
-        root = {"base": text_of(base), "power": exponent, "number": number_text(coefficient)}
-        yield {"id": f"root of {name}", "by": "square", "of": name, **root}, [f"root of {name}"]
+        root = {"factors": [text_of(base), number_text(coefficient)], "chosen": 0, "power": exponent}
+        yield {"id": f"root of {name}", "by": "branch", "of": name, **root}, [f"root of {name}"]
     elif all(exponent == 2 for _, _, exponent in pairs):
         terms = [[number_text(c), text_of(base)] for c, base, _ in pairs]
         made = [f"terms of {name}.{i}" for i in range(1, len(pairs) + 1)]
