@@ -1,12 +1,17 @@
-"""Trees as functions of their symbols: substitution, derivatives, and degrees in velocities."""
+"""Trees as functions of their symbols: substitution, derivatives, and relations in velocities."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from fractions import Fraction
+from typing import TypeVar
 
-from dofkit.checker.errors import CheckError
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
+from dofkit.checker.errors import refuse
+from dofkit.checker.trees import ONE, ZERO, Tree, add, call, difference, negative, number, power, symbol, times
+
+TIME_RATE = "tdot"
+TWO = number(2)
+Made = TypeVar("Made")
 
 
 def symbols_in(tree: Tree) -> frozenset[str]:
@@ -15,96 +20,89 @@ def symbols_in(tree: Tree) -> frozenset[str]:
     stack, seen = [tree], set()
     while stack:
         node = stack.pop()
-        if id(node) in seen:
-            continue
-        seen.add(id(node))
-        if node.head == "symbol":
-            found.add(str(node.value))
-        stack.extend(node.below)
+        if id(node) not in seen:
+            seen.add(id(node))
+            stack.extend(node.below)
+            if node.head == "symbol":
+                found.add(str(node.value))
     return frozenset(found)
+
+
+def folded(tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made]) -> Made:
+    """What is made of a tree, of each node once, from what was made of the nodes right below it."""
+    done: dict[int, Made] = {}
+
+    def read(node: Tree) -> Made:
+        if id(node) not in done:
+            done[id(node)] = made(node, tuple(map(read, node.below)))
+        return done[id(node)]
+
+    return read(tree)
 
 
 def substituted(tree: Tree, values: Mapping[str, Tree]) -> Tree:
     """A tree with trees in the place of symbols, all at once."""
-    done: dict[int, Tree] = {}
 
-    def read(node: Tree) -> Tree:
-        if not node.below:
-            return values.get(str(node.value), node) if node.head == "symbol" else node
-        if id(node) not in done:
-            done[id(node)] = rebuilt(node, tuple(read(part) for part in node.below))
-        return done[id(node)]
+    def put_in(node: Tree, below: tuple[Tree, ...]) -> Tree:
+        if below:
+            return rebuilt(node, below)
+        return values.get(str(node.value), node) if node.head == "symbol" else node
 
-    return read(tree)
+    return folded(tree, put_in)
 
 
 def rebuilt(node: Tree, below: tuple[Tree, ...]) -> Tree:
     """The node with other parts below it."""
     if below == node.below:
         return node
-    if node.head == "sum":
-        return add(*below)
-    if node.head == "product":
-        return times(*below)
-    return power(*below) if node.head == "power" else Tree(node.head, below, node.value, node.orders)
+    makers: dict[str, Callable[..., Tree]] = {"sum": add, "product": times, "power": power}
+    return makers[node.head](*below) if node.head in makers else Tree(node.head, below, node.value, node.orders)
 
 
 def derivative(tree: Tree, name: str) -> Tree:
     """The partial derivative by a symbol."""
-    done: dict[int, Tree] = {}
 
-    def by(node: Tree) -> Tree:
-        if not node.below:
+    def by(node: Tree, inner: tuple[Tree, ...]) -> Tree:
+        if not inner:
             return ONE if node.head == "symbol" and node.value == name else ZERO
-        if id(node) not in done:
-            inner = [by(part) for part in node.below]
-            done[id(node)] = ZERO if all(part == ZERO for part in inner) else _chain(node, inner)
-        return done[id(node)]
+        return ZERO if all(part == ZERO for part in inner) else _chain(node, inner)
 
-    return by(tree)
+    return folded(tree, by)
 
 
-def _chain(node: Tree, inner: list[Tree]) -> Tree:
+def _chain(node: Tree, inner: tuple[Tree, ...]) -> Tree:
     """The chain rule at one node, whose parts have the derivatives ``inner``."""
     below = node.below
     if node.head == "sum":
         return add(*inner)
     if node.head == "product":
-        return add(*(times(*below[:i], inner[i], *below[i + 1 :]) for i in range(len(below)) if inner[i] != ZERO))
-    if node.head == "power" and inner[1] == ZERO:
-        return times(below[1], power(below[0], add(below[1], number(-1))), inner[0])
+        return add(*(times(*below[:i], part, *below[i + 1 :]) for i, part in enumerate(inner) if part != ZERO))
     if node.head == "power":
-        logarithmic = add(
-            times(inner[1], call("log", below[0])), times(below[1], inner[0], power(below[0], number(-1)))
-        )
-        return times(node, logarithmic)
+        (base, exponent), (slope, growth) = below, inner
+        falling = times(exponent, power(base, add(exponent, number(-1))), slope)
+        return falling if growth == ZERO else add(falling, times(node, call("log", base), growth))
     if node.head == "apply":
         orders = [tuple(k + (i == j) for j, k in enumerate(node.orders)) for i in range(len(below))]
-        return add(*(times(Tree("apply", below, node.value, orders[i]), inner[i]) for i in range(len(below))))
+        return add(*(times(Tree("apply", below, node.value, k), part) for k, part in zip(orders, inner, strict=True)))
     if node.head == "atan2":
         (y, x), (dy, dx) = below, inner
-        under = power(add(power(x, number(2)), power(y, number(2))), number(-1))
-        return times(add(times(x, dy), negative(times(y, dx))), under)
-    return times(_slope(node, below[0]), inner[0])
+        return times(difference(times(x, dy), times(y, dx)), power(add(power(x, TWO), power(y, TWO)), number(-1)))
+    refuse(node.head not in _SLOPES, f"`{node.head}` has no derivative here")
+    return times(substituted(_SLOPES[node.head], {"u": below[0]}), inner[0])
 
 
-def _slope(node: Tree, u: Tree) -> Tree:
-    """The derivative of an elementary function of one argument."""
-    if node.head not in _SLOPES:
-        raise CheckError(f"`{node.head}` has no derivative here")
-    return substituted(_SLOPES[node.head], {"u": u})
+def _of(name: str, exponent: int = 1) -> Tree:
+    return power(call(name, _U), number(exponent))
 
 
 _U = symbol("u")
-_INVERSE_ROOT = power(call("sqrt", add(ONE, negative(power(_U, number(2))))), number(-1))
+_ROOT = power(call("sqrt", difference(ONE, power(_U, TWO))), number(-1))
 _SLOPES = {
-    "sin": call("cos", _U), "cos": negative(call("sin", _U)), "tan": power(call("cos", _U), number(-2)),
-    "cot": negative(power(call("sin", _U), number(-2))), "sec": times(call("sec", _U), call("tan", _U)),
-    "csc": times(number(-1), call("csc", _U), call("cot", _U)), "asin": _INVERSE_ROOT, "acos": negative(_INVERSE_ROOT),
-    "atan": power(add(ONE, power(_U, number(2))), number(-1)), "sinh": call("cosh", _U), "cosh": call("sinh", _U),
-    "tanh": power(call("cosh", _U), number(-2)), "exp": call("exp", _U), "log": power(_U, number(-1)),
-    "sqrt": times(number(Fraction(1, 2)), power(call("sqrt", _U), number(-1))),
-    "abs": times(_U, power(call("abs", _U), number(-1))),
+    "sin": _of("cos"), "cos": negative(_of("sin")), "tan": _of("cos", -2), "cot": negative(_of("sin", -2)),
+    "sec": times(_of("sec"), _of("tan")), "csc": times(number(-1), _of("csc"), _of("cot")), "sinh": _of("cosh"),
+    "cosh": _of("sinh"), "tanh": _of("cosh", -2), "asin": _ROOT, "acos": negative(_ROOT), "exp": _of("exp"),
+    "atan": power(add(ONE, power(_U, TWO)), number(-1)), "log": power(_U, number(-1)),
+    "sqrt": times(number(Fraction(1, 2)), _of("sqrt", -1)), "abs": times(_U, _of("abs", -1)),
 }  # fmt: skip
 
 
@@ -119,16 +117,54 @@ def linear_parts(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], T
 
 def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
     """The degree in symbols in which every term of a tree is homogeneous; None where there is none."""
-    if symbols_in(tree).isdisjoint(names):
-        return Fraction(0)
-    degrees = [homogeneous_degree(part, names) for part in tree.below]
-    known = [degree for degree in degrees if degree is not None]
-    if not degrees or len(known) < len(degrees):
-        return None if degrees else Fraction(1)
-    if tree.head == "product":
-        return sum(known, Fraction(0))
-    if tree.head == "power" and isinstance(tree.below[1].value, Fraction):
-        return known[0] * tree.below[1].value
-    if tree.head == "sqrt":
-        return known[0] / 2
-    return known[0] if len(set(known)) == 1 and (tree.head == "sum" or known[0] == 0) else None
+
+    def of(node: Tree, below: tuple[Fraction | None, ...]) -> Fraction | None:
+        known = [degree for degree in below if degree is not None]
+        if not below or len(known) < len(below):
+            return None if below else Fraction(node.head == "symbol" and node.value in names)
+        exponent = Fraction(1, 2) if node.head == "sqrt" else node.below[-1].value
+        if node.head in ("power", "sqrt") and isinstance(exponent, Fraction):
+            return known[0] * exponent
+        if node.head == "product":
+            return sum(known, Fraction(0))
+        return known[0] if len(set(known)) == 1 and (node.head == "sum" or not known[0]) else None
+
+    return folded(tree, of)
+
+
+def differentials(tree: Tree, coordinates: Collection[str]) -> dict[str, Tree]:
+    """The differentials in a tree, and the velocities that belong to them."""
+    found = {name for name in symbols_in(tree) if name == "dt" or (name[0] == "d" and name[1:] in coordinates)}
+    return {name: symbol(f"{name[1:]}dot") for name in found}
+
+
+def over_time(tree: Tree, coordinates: Collection[str]) -> Tree:
+    """A tree over dt: ``dx/dt`` is the velocity."""
+    moved = differentials(tree, coordinates)
+    if homogeneous_degree(tree, moved) == 1:
+        return substituted(tree, {**moved, "dt": ONE})
+    return times(tree, power(symbol("dt"), number(-1)))
+
+
+def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
+    """A relation with velocities in the place of differentials.
+
+    What is linear in velocities becomes a form, its terms without one times ``tdot``. Other relations that are
+    homogeneous in differentials are divided by a power of dt.
+    """
+    moved = differentials(tree, coordinates)
+    if moved:
+        refuse(homogeneous_degree(tree, moved) is None, "differentials and finite terms are added together")
+        tree = substituted(tree, moved)
+    rates = [
+        name for name in symbols_in(tree) if name == TIME_RATE or (name[-3:] == "dot" and name[:-3] in coordinates)
+    ]
+    parts = linear_parts(tree, rates)
+    if moved and (parts is None or parts[1] != ZERO):
+        tree = substituted(tree, {TIME_RATE: ONE})
+        parts = linear_parts(tree, rates)
+    if parts is None or parts[1] == ZERO:
+        return tree
+    slopes, rest = parts
+    form = [times(slope, symbol(rate)) for rate, slope in slopes.items()]
+    return add(*form, times(rest, symbol(TIME_RATE))) if slopes else rest

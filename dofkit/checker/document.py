@@ -16,113 +16,98 @@ from typing import Any
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
-from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent, MappingStartEvent, ScalarEvent
+from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent, MappingEndEvent, ScalarEvent
 
-from dofkit.checker.errors import CheckError
-from dofkit.checker.tokens import decimal_value
+from dofkit.checker.errors import CheckError, refuse
+from dofkit.checker.words import decimal_value
 
-MOST_CHARACTERS, MOST_ENTRIES, DEEPEST = 2_000_000, 200_000, 40
+MOST_CHARACTERS, MOST_BITS, DEEPEST = 2_000_000, 4000, 40
 _WORDS = {"": None, "~": None, **dict.fromkeys(("null", "Null", "NULL"))} | {
     form(word): word == "true" for word in ("true", "false") for form in (str.lower, str.upper, str.title)
 }
 _VALUE = re.compile(r"\s*([-+]?)((?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,6})?)(?:\s*/\s*(\d{1,400}))?\s*", re.ASCII)
-_NO_NUMBER = re.compile(r"[-+]?\.(?:inf|nan)|0[xo][0-9a-f]+", re.ASCII | re.IGNORECASE)
 #: Keys that say nothing of the mathematics, texts that are no values, and entries that are as good as left out.
 _SILENT = ("name", "title", "source", "notes", "expect")
 _TEXTS = ("name", "text", "surface", "curve", "drive")
 _NOTHING: tuple[Any, ...] = (None, {}, [])
+#: What a text alone stands for in these lists.
+_SHORT = {"particles": "name", "bodies": "name", "constraints": "text"}
 
 
 def document_of(text: str) -> Mapping[str, Any]:
     """The document that a text writes in YAML 1.2 or JSON."""
-    if len(text) > MOST_CHARACTERS:
-        raise CheckError(f"a document of more than {MOST_CHARACTERS} characters is not read")
+    refuse(len(text) > MOST_CHARACTERS, f"a document of more than {MOST_CHARACTERS} characters is not read")
     try:
         try:
             found = json.loads(text, parse_float=Decimal, object_pairs_hook=_mapping)
         except json.JSONDecodeError:
             found = _from_yaml(text)
-    except CheckError:
-        raise
+        return exact_document(found)
     except (YAMLError, RecursionError, ValueError) as error:
         raise CheckError(f"the document cannot be read: {str(error)[:200]}") from None
-    return exact_document(found)
 
 
 def _mapping(pairs: list[tuple[Any, Any]]) -> dict[str, Any]:
     found = dict(pairs) if all(isinstance(key, str) for key, _ in pairs) else {}
-    if len(found) < len(pairs):
-        raise CheckError("a key is no text, or stands twice in one mapping")
+    refuse(len(found) < len(pairs), "a key is no text, or stands twice in one mapping")
     return found
 
 
 def _from_yaml(text: str) -> Any:
     """A document from the events of a YAML text: no tags, no aliases, plain scalars by the core schema."""
-    stack: list[tuple[bool, list[Any]]] = [(False, [])]
-    for count, event in enumerate(YAML(typ="safe", pure=True).parse(text)):
-        if count > MOST_ENTRIES or len(stack) > DEEPEST:
-            raise CheckError("a document is too large or nested too deep")
+    stack: list[list[Any]] = [[]]
+    for event in YAML(typ="safe", pure=True).parse(text):
         tagged = getattr(event, "tag", None) not in (None, "!") or getattr(event, "anchor", None)
-        if tagged or isinstance(event, AliasEvent):
-            raise CheckError("tags and aliases are not read")
+        refuse(tagged or isinstance(event, AliasEvent) or len(stack) > DEEPEST, "tags, aliases and depths are not read")
         if isinstance(event, ScalarEvent):
-            stack[-1][1].append(event.value if event.style else _plain(event.value))
+            stack[-1].append(event.value if event.style else _plain(event.value))
         elif isinstance(event, CollectionStartEvent):
-            stack.append((isinstance(event, MappingStartEvent), []))
+            stack.append([])
         elif isinstance(event, CollectionEndEvent):
-            mapped, entries = stack.pop()
-            stack[-1][1].append(_mapping(list(zip(entries[::2], entries[1::2], strict=True))) if mapped else entries)
-    if len(stack[0][1]) != 1:
-        raise CheckError("one document is needed")
-    return stack[0][1][0]
+            entries = stack.pop()
+            pairs = zip(entries[::2], entries[1::2], strict=False)
+            stack[-1].append(_mapping(list(pairs)) if isinstance(event, MappingEndEvent) else entries)
+    refuse(len(stack[0]) != 1, "one document is needed")
+    return stack[0][0]
 
 
 def _plain(text: str) -> Any:
-    """A scalar without quotes, by the core schema of YAML 1.2."""
-    if text in _WORDS:
-        return _WORDS[text]
-    if _NO_NUMBER.fullmatch(text):
-        raise CheckError(f"a decimal number is needed, not {text[:20]}")
-    found = None if "/" in text else _number(text)
-    return text if found is None else found
-
-
-def _number(value: object) -> Fraction | int | None:
-    """The number that a text writes as a decimal or a quotient."""
-    match = _VALUE.fullmatch(value) if isinstance(value, str) and len(value) <= 400 else None
-    if match is None or (match[3] and not int(match[3])):
-        return None
-    return decimal_value(match[2]) / int(match[3] or 1) * (-1 if match[1] == "-" else 1)
+    """A scalar without quotes, by the core schema of YAML 1.2; what is no decimal number is a text."""
+    found = _WORDS.get(text, text)
+    return value_text(found) if isinstance(found, str) and "/" not in found else found
 
 
 def value_text(value: object) -> Any:
     """A text that writes a number as that number: ``0.50`` is ``1/2``; others are left as they are."""
-    found = _number(value)
-    return value if found is None else int(found) if found == int(found) else str(found)
+    match = _VALUE.fullmatch(value) if isinstance(value, str) and len(value) <= 400 else None
+    if match is None or (match[3] and not int(match[3])):
+        return value
+    return _shown(decimal_value(match[2]) / int(match[3] or 1) * (-1 if match[1] == "-" else 1))
 
 
-def exact_document(document: object) -> Mapping[str, Any]:
+def _shown(value: Fraction | int) -> int | str:
+    refuse(max(map(int.bit_length, value.as_integer_ratio())) > MOST_BITS, "a number is too large")
+    return int(value) if value == int(value) else str(value)
+
+
+def exact_document(document: object) -> dict[str, Any]:
     """A document with all its numbers exact, as plain mappings, lists, texts and whole numbers; a copy."""
-    left = [MOST_ENTRIES]
-
-    def exact(value: object, depth: int) -> Any:
-        left[0] -= 1
-        if left[0] < 0 or depth > DEEPEST:
-            raise CheckError("a document is too large or nested too deep")
-        if isinstance(value, Mapping):
-            return _mapping([(key, exact(part, depth + 1)) for key, part in value.items()])
-        if isinstance(value, (list, tuple)):
-            return [exact(part, depth + 1) for part in value]
-        if value is None or isinstance(value, (str, bool)):
-            return value
-        found = value if isinstance(value, (int, Fraction)) else _number(str(value))
-        if found is None or found.numerator.bit_length() > 4000:
-            raise CheckError(f"{str(value)[:40]} cannot stand in a document")
-        return int(found) if found == int(found) else str(found)
-
-    found = exact(document, 0)
+    found = _exact(document, 0)
     if not isinstance(found, dict):
         raise CheckError("a scene is a mapping")
+    return found
+
+
+def _exact(value: object, depth: int) -> Any:
+    refuse(depth > DEEPEST, "a document is nested too deep")
+    if isinstance(value, Mapping):
+        return _mapping([(key, _exact(part, depth + 1)) for key, part in value.items()])
+    if isinstance(value, (list, tuple)):
+        return [_exact(part, depth + 1) for part in value]
+    if value is None or isinstance(value, (str, bool)):
+        return value
+    found = value_text(str(value))
+    refuse(isinstance(found, str) and "/" not in found, f"{str(value)[:40]} cannot stand in a document")
     return found
 
 
@@ -135,20 +120,19 @@ def canonical(document: Mapping[str, Any]) -> dict[str, Any]:
 
 def _canonical(value: Any, key: str) -> Any:
     if key == "parameters" and isinstance(value, (str, list)):
-        value = dict.fromkeys([value] if isinstance(value, str) else value, "real")
-    if isinstance(value, dict) and key in ("parameters", "functions"):
-        listed = {name: [given] if isinstance(given, str) else given for name, given in value.items()}
-        return listed if key == "functions" else {k: "real" if v is None else value_text(v) for k, v in value.items()}
+        value = dict.fromkeys([value] if isinstance(value, str) else value)
+    if isinstance(value, dict) and key == "parameters":
+        return {name: "real" if given is None else value_text(given) for name, given in value.items()}
     if isinstance(value, dict):
-        if "members" in value and isinstance(value.get("curve"), str):
-            value = {**value, "curve": [value["curve"]]}
-        parts = {name: _canonical(part, name) for name, part in value.items()}
+        listed = key == "functions" or ("curve" if "members" in value else None)
+        filled = {k: [v] if isinstance(v, str) and listed in (True, k) else v for k, v in value.items()}
+        parts = {name: _canonical(part, name) for name, part in filled.items()}
         return {name: part for name, part in parts.items() if part not in _NOTHING}
     if isinstance(value, list):
-        field = {"particles": "name", "bodies": "name", "constraints": "text"}.get(key)
-        rest = {"type": "equation"} if field == "text" else {}
-        filled = [{**rest, field: one} if field and isinstance(one, str) else one for one in value]
-        return [_canonical(one, "" if field else key) for one in filled]
+        short = _SHORT.get(key)
+        rest = {"type": "equation"} if short == "text" else {}
+        longer = [{**rest, short: one} if short and isinstance(one, str) else one for one in value]
+        return [_canonical(one, "" if short else key) for one in longer]
     return value if key in _TEXTS else value_text(value)
 
 

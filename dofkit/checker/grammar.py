@@ -1,6 +1,6 @@
 """The grammar of texts: relations and values as people write them, read into trees.
 
-From loosest to tightest: relation, sum, term, factor, power, primary. What could be read in two ways is an error.
+From loosest to tightest: relation, sum, term, factor, primary. What could be read in two ways is an error.
 """
 
 from __future__ import annotations
@@ -8,19 +8,17 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.checker.derivatives import derivative, linear_parts, substituted, symbols_in
-from dofkit.checker.errors import CheckError
-from dofkit.checker.tokens import Lexeme, tokens_of
+from dofkit.checker.derivatives import derivative, folded, over_time, symbols_in
+from dofkit.checker.errors import refuse
 from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
-from dofkit.checker.words import EULER, PI, KnownNames
+from dofkit.checker.words import EULER, MOST_ORDERS, KnownNames, Lexeme, tokens_of
 
-DEEPEST = 60
-LARGEST_EXPONENT = 64
-MOST_BITS = 8192
-#: How often a function is differentiated, and the nodes of a tree that is differentiated while a text is read.
-MOST_ORDERS, LARGEST = 6, 400
+DEEPEST, LARGEST_EXPONENT, MOST_BITS = 60, 64, 8192
+#: The nodes of a tree that is differentiated while a text is read.
+LARGEST = 400
+_TIME = symbol("t")
 _PAIRS = {"(": ")", "[": "]", "{": "}"}
-_BEGIN = ("value", "moving", "function", "declared", "operator", "(")
+_BEGIN = ("value", "moving", "function", "declared", "operator", *_PAIRS)
 
 
 class Sided(NamedTuple):
@@ -44,10 +42,9 @@ def parse_relations(text: str, names: KnownNames) -> list[Sided]:
     reader = _Reader(text, names)
     left, found = reader.sum(), []
     while reader.next.kind == "relation":
-        sign = reader.take().name
-        right = reader.sum()
-        larger, smaller = (right, left) if "<" in sign else (left, right)
-        found.append(Sided(add(larger, negative(smaller)), ">" if sign[0] in "<>" else "=", sign in ("<", ">")))
+        sign, right = reader.take().name, reader.sum()
+        tree = add(right, negative(left)) if "<" in sign else add(left, negative(right))
+        found.append(Sided(tree, ">" if sign[0] in "<>" else "=", sign in ("<", ">")))
         left = right
     reader.expect("end")
     return found or [Sided(left)]
@@ -57,8 +54,7 @@ class _Reader:
     """One text, read from left to right."""
 
     def __init__(self, text: str, names: KnownNames) -> None:
-        self.names = names
-        self.tokens = tokens_of(text, names)
+        self.names, self.tokens = names, tokens_of(text, names)
         self.at = self.depth = 0
 
     @property
@@ -69,216 +65,164 @@ class _Reader:
         self.at += 1
         return self.tokens[self.at - 1]
 
-    def expect(self, kind: str, opening: str = "") -> None:
+    def expect(self, kind: str) -> None:
         token = self.take()
-        if token.kind != kind or (opening and token.name != _PAIRS[opening]):
-            raise CheckError(f"`{token.name or token.kind}` stands where `{kind}` is expected")
+        refuse(token.kind != kind, f"`{token.name or token.kind}` stands where `{kind}` is expected")
 
     def sum(self) -> Tree:
-        """Terms with signs between them."""
-        self.depth += 1
-        if self.depth > DEEPEST:
-            raise CheckError("a text is nested too deep")
+        """Terms, each with its sign before it."""
         terms = [self.term()]
         while self.next.kind in ("+", "-"):
-            terms.append(negative(self.term()) if self.take().kind == "-" else self.term())
-        self.depth -= 1
+            terms.append(self.term())
         return terms[0] if len(terms) == 1 else add(*terms)
 
     def term(self) -> Tree:
         """Factors; a space after a quotient makes what follows a factor of all that was before."""
-        factors = [self.factor()]
-        quotient = False
+        factors, quotient = [self.factor()], False
         while self.next.kind in ("*", "/", *_BEGIN):
             kind = self.next.kind
-            if kind not in "*/":
-                if quotient and self.next.touching:
-                    raise CheckError("what stands under a fraction line can be read in two ways")
-                factors.append(self.power())
-            elif self.take().kind == "*":
-                factors.append(self.factor())
-            quotient = kind == "/" and not self.divide(factors)
-        if self.next.kind == "number":
-            raise CheckError("a number stands right after a factor")
+            refuse(quotient and kind in _BEGIN and self.next.touching, "it is not clear what is under a fraction line")
+            self.at += kind in ("*", "/")
+            factor = self.factor()
+            quotient = kind == "/" and factor != symbol("dt")
+            if kind != "/":
+                factors.append(factor)
+            elif quotient:
+                factors.append(_power(factor, number(-1)))
+            else:
+                factors[-1] = over_time(factors[-1], self.names.coordinates)
         return times(*factors)
 
-    def divide(self, factors: list[Tree]) -> bool:
-        """Divide by the next factor; True for ``dx/dt``, which is one unit."""
-        divisor = self.factor()
-        if divisor == symbol("dt"):
-            known = self.names.coordinates
-            rates = {d: symbol(f"{d[1:]}dot") for d in symbols_in(factors[-1]) if d[0] == "d" and d[1:] in known}
-            rates |= {"dt": ONE}
-            parts = linear_parts(factors[-1], rates)
-            if parts is not None and parts[0] and parts[1] == ZERO:
-                factors[-1] = substituted(factors[-1], rates)
-                return True
-        factors.append(_power(divisor, number(-1)))
-        return False
-
     def factor(self) -> Tree:
-        """A power with signs before it."""
+        """Signs, a primary and its power: ``-x^2`` is -(x^2), ``x^y^z`` is x^(y^z)."""
+        self.depth += 1
+        refuse(self.depth > DEEPEST, "a text is nested too deep")
         minus = False
         while self.next.kind in ("+", "-"):
             minus ^= self.take().kind == "-"
-        return negative(self.power()) if minus else self.power()
-
-    def power(self) -> Tree:
-        """A primary, perhaps raised; ``x^y^z`` is x^(y^z)."""
-        base = self.primary()
-        if self.next.kind == "raised":
-            base = _power(base, self.take().tree)
-            if self.next.kind in ("^", "raised"):
-                raise CheckError("one power stands on another")
-        elif self.next.kind == "^":
+        found = self.primary()
+        if self.next.kind == "^":
             self.at += 1
-            self.depth += 1
-            if self.depth > DEEPEST:
-                raise CheckError("a text is nested too deep")
-            base = _power(base, self.factor())
-            self.depth -= 1
-        return base
+            found = _power(found, self.factor())
+        self.depth -= 1
+        return negative(found) if minus else found
 
     def primary(self) -> Tree:
         """A number, a name, a group, or a function of something."""
-        token = self.take()
+        token = self.next
+        if token.kind in _PAIRS:
+            found, *more = self.arguments()
+            refuse(more, "a comma stands in a group")
+            return found
+        self.at += 1
         if token.kind == "number":
             return token.tree
         if token.kind in ("value", "moving"):
             return self.named(token)
-        if token.kind == "(":
-            self.at -= 1
-            return self.arguments(1)[0]
         readers = {"function": self.function, "declared": self.declared, "operator": self.derivative}
-        if token.kind not in readers:
-            raise CheckError(f"`{token.name or token.kind}` cannot stand here")
+        refuse(token.kind not in readers, f"`{token.name or token.kind}` cannot stand here")
         return readers[token.kind](token)
 
-    def arguments(self, most: int) -> list[Tree]:
+    def arguments(self) -> list[Tree]:
         """Values in parentheses, with commas between them."""
-        opening = self.take()
-        if opening.kind != "(":
-            raise CheckError("parentheses are missing")
+        opening = self.take().kind
+        refuse(opening not in _PAIRS, "parentheses are missing")
         found = [self.sum()]
-        while self.next.kind == "," and len(found) < most:
+        while self.next.kind == ",":
             self.at += 1
             found.append(self.sum())
-        self.expect(")", opening.name)
+        self.expect(_PAIRS[opening])
         return found
 
     def named(self, token: Lexeme) -> Tree:
-        """A name with its prime; ``x(y)`` is a question, as is ``x (t)``."""
-        found = token.tree
-        if self.next.kind == "prime" and self.next.touching:
-            motion = self.names.moved(token.name, "{}dot") if self.take().name == "'" else None
-            if motion is None:
-                raise CheckError("a prime stands where nothing can be differentiated by time")
-            found = motion.tree
-        ahead = [token.kind for token in self.tokens[self.at : self.at + 3]]
-        called = ahead in (["(", "value", ")"], ["(", "number", ")"]) and found not in (PI, EULER, symbol("t"))
-        if called and (self.next.touching or self.tokens[self.at + 1].tree == symbol("t")):
-            raise CheckError("a name before parentheses may be a factor or a function")
-        return found
+        """A name; ``x(y)`` is a question, as is ``x (t)``."""
+        after = self.tokens[self.at : self.at + 3]
+        called = [one.kind for one in after] in (["(", "value", ")"], ["(", "number", ")"])
+        doubtful = called and (self.next.touching or after[1].tree == _TIME)
+        refuse(doubtful, "a name before parentheses may be a factor or a function")
+        return token.tree
 
     def function(self, token: Lexeme) -> Tree:
         """``sin(x)``, ``sin^2(x)``, ``sin x``."""
         exponent = ONE
-        if self.next.kind in ("^", "raised"):
-            raised = self.take()
-            raised = self.take() if raised.kind == "^" and self.next.kind == "number" else raised
-            exponent = raised.tree
-            if not isinstance(exponent.value, Fraction) or exponent.value.denominator != 1 or exponent.value < 2:
-                raise CheckError(f"this power of `{token.name}` can be read in two ways")
-        given = self.arguments(2) if self.next.kind == "(" else [self.bare(token)]
-        if len(given) != (2 if token.name == "atan2" else 1):
-            raise CheckError(f"`{token.name}` has {len(given)} arguments")
+        if self.next.kind == "^":
+            self.at += 1
+            exponent = self.next.tree
+            refuse(_whole(exponent) < 2, f"this power of `{token.name}` can be read in two ways")
+            self.at += 1
+        given = self.arguments() if self.next.kind in _PAIRS else [self.bare(token)]
+        refuse(len(given) != (2 if token.name == "atan2" else 1), f"`{token.name}` has {len(given)} arguments")
         return _power(ONE if (token.name, given) == ("exp", [ZERO]) else call(token.name, *given), exponent)
 
     def bare(self, token: Lexeme) -> Tree:
         """What a function without parentheses is taken of: one name, where nothing after it could belong to it."""
-        if self.next.kind != "value":
-            raise CheckError(f"it is not clear what `{token.name}` is taken of")
-        found = self.named(self.take())
-        after = self.next
-        if after.kind in ("value", "number", "^", "raised", "(") or (after.kind in ("*", "/") and after.touching):
-            raise CheckError(f"it is not clear what `{token.name}` is taken of")
-        return found
+        refuse(self.next.kind != "value", f"it is not clear what `{token.name}` is taken of")
+        taken, after = self.take(), self.next
+        unclear = after.kind in ("value", "number", "^", *_PAIRS) or (after.kind in ("*", "/") and after.touching)
+        refuse(unclear, f"it is not clear what `{token.name}` is taken of")
+        return taken.tree
 
     def declared(self, token: Lexeme) -> Tree:
         """``h(s)``, ``h'(s)``, ``h`` alone."""
-        own = self.names.functions[token.name]
-        primes = len(self.take().name) if self.next.kind == "prime" and self.next.touching else 0
-        if self.next.kind == "(":
-            given = self.arguments(len(own))
-        else:
-            meanings = [self.names.meaning(name) for name in own]
-            given = [meaning.tree for meaning in meanings if meaning is not None and meaning.kind == "value"]
-            if self.next.kind in ("value", "^", "raised"):
-                raise CheckError(f"`{token.name}` needs its argument in parentheses here")
-        if len(given) != len(own) or (primes and len(own) != 1) or primes > MOST_ORDERS:
-            raise CheckError(f"`{token.name}` is declared with {len(own)} arguments")
-        return Tree("apply", tuple(given), token.name, (primes,) if primes else (0,) * len(own))
+        alone = token.tree
+        given = tuple(self.arguments()) if self.next.kind in _PAIRS else alone.below
+        refuse(given is alone.below and self.next.kind in ("value", "^"), f"`{token.name}` needs parentheses here")
+        refuse(len(given) != len(alone.orders), f"`{token.name}` is declared with {len(alone.orders)} arguments")
+        return Tree("apply", given, alone.value, alone.orders)
 
     def derivative(self, token: Lexeme) -> Tree:
         """``diff(h(s), s)``, ``diff(h(s), s, 2)``; ``partial(h(x, x), 2)`` by the place of an argument."""
-        found, *steps = self.arguments(2 * MOST_ORDERS)
+        found, *steps = self.arguments()
         by: list[Tree] = []
         for step in steps:
-            count = int(step.value) if isinstance(step.value, Fraction) and step.value.denominator == 1 else 0
-            if by and token.name == "diff" and 0 < count <= MOST_ORDERS:
-                by += by[-1:] * (count - 1)
-            else:
-                by.append(step)
-        if not 0 < len(by) <= MOST_ORDERS:
-            raise CheckError(f"`{token.name}` needs what to differentiate and by what")
+            again = by and token.name == "diff" and 0 < _whole(step) <= MOST_ORDERS
+            by += by[-1:] * (_whole(step) - 1) if again else [step]
+        refuse(not 0 < len(by) <= MOST_ORDERS, f"`{token.name}` needs what to differentiate and by what")
         for step in by:
-            found = self.once(found, step, token.name)
+            if token.name == "diff" and step == _TIME:
+                refuse(not symbols_in(found) <= {"t", *self.names.values}, "a derivative by time is not read")
+            found = _once(found, step)
         return found
 
-    def once(self, tree: Tree, step: Tree, name: str) -> Tree:
-        """One derivative, by a symbol or by the place of an argument."""
-        if step.head == "symbol":
-            total = step == symbol("t") and name == "diff" and not symbols_in(tree) <= {"t", *self.names.values}
-            if total or _size(tree) > LARGEST:
-                raise CheckError("this derivative by time, or of a long expression, is not read")
-            return derivative(tree, str(step.value))
-        places = [i for i in range(len(tree.below)) if number(i + 1) == step]
-        if tree.head != "apply" or not places:
-            raise CheckError(f"`{name}` differentiates by a symbol, or a declared function by its argument")
-        return Tree("apply", tree.below, tree.value, tuple(k + (i in places) for i, k in enumerate(tree.orders)))
+
+def _whole(tree: Tree) -> int:
+    """A whole number; 0 for anything else."""
+    return int(tree.value) if isinstance(tree.value, Fraction) and tree.value.denominator == 1 else 0
+
+
+def _once(tree: Tree, step: Tree) -> Tree:
+    """One derivative, by a symbol or by the place of an argument."""
+    if step.head == "symbol":
+        size = folded(tree, lambda _, below: 1 + sum(below))
+        refuse(size > LARGEST, "a derivative of a long expression is not read")
+        return derivative(tree, str(step.value))
+    places = [i for i in range(len(tree.below)) if number(i + 1) == step]
+    refuse(tree.head != "apply" or not places, "a derivative is by a symbol, or of a declared function by its argument")
+    return Tree("apply", tree.below, tree.value, tuple(k + (i in places) for i, k in enumerate(tree.orders)))
 
 
 def _power(base: Tree, exponent: Tree) -> Tree:
     """A power within the bounds; powers of numbers are carried out."""
-    value = exponent.value
+    raised, value = base.value, exponent.value
     if base == EULER:
         return call("exp", exponent)
-    if not isinstance(value, Fraction):
-        return power(base, exponent)
-    if (
-        value.denominator > LARGEST_EXPONENT
-        or max(Fraction(abs(value.numerator)), _nested(base) * abs(value)) > LARGEST_EXPONENT
-    ):
-        raise CheckError("an exponent is too large")
-    if not isinstance(base.value, Fraction):
-        return power(base, exponent)
-    if (base == ZERO and value <= 0) or (base.value < 0 and value.denominator != 1):
-        raise CheckError("0 stands in a denominator, or a negative number under a root")
-    if value.denominator != 1:
-        return power(base, exponent)
-    found = base.value ** int(value)
-    if max(found.numerator.bit_length(), found.denominator.bit_length()) > MOST_BITS:
-        raise CheckError("a number is too large")
-    return number(found)
+    if isinstance(value, Fraction):
+        deep: Fraction = abs(value) * folded(base, _nested)
+        large = max(abs(value.numerator), value.denominator) > LARGEST_EXPONENT
+        refuse(large or deep > LARGEST_EXPONENT, "an exponent is too large")
+        if isinstance(raised, Fraction):
+            refuse(raised == 0 and value <= 0, "0 stands in a denominator")
+            refuse(raised < 0 and value.denominator != 1, "a negative number stands under a root")
+            if value.denominator == 1:
+                found = raised ** int(value)
+                size = max(found.numerator.bit_length(), found.denominator.bit_length())
+                refuse(size > MOST_BITS, "a number is too large")
+                return number(found)
+    return power(base, exponent)
 
 
-def _nested(tree: Tree) -> Fraction:
+def _nested(node: Tree, below: tuple[Fraction, ...]) -> Fraction:
     """The largest product of exponents within each other."""
-    inner = max([Fraction(1), *map(_nested, tree.below)])
-    exponent = tree.below[1].value if tree.head == "power" else ""
-    return inner * max(Fraction(1), abs(exponent)) if isinstance(exponent, Fraction) else inner
-
-
-def _size(tree: Tree) -> int:
-    """The number of nodes."""
-    return 1 + sum(map(_size, tree.below))
+    exponent = node.below[1].value if node.head == "power" else ""
+    own = abs(exponent) if isinstance(exponent, Fraction) else Fraction(1)
+    return max(own, Fraction(1)) * max(below, default=Fraction(1))

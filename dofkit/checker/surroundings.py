@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from dofkit.checker.balls import evaluated, excludes_zero
-from dofkit.checker.bodies import CheckedFrame, MaterialPoint, Vector, difference, identity
 from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.document import value_text
 from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError
-from dofkit.checker.grammar import parse
-from dofkit.checker.trees import ONE, Tree, negative, number, symbol, times
+from dofkit.checker.errors import refuse
+from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector
+from dofkit.checker.grammar import Sided, parse, parse_relations
+from dofkit.checker.trees import ONE, ZERO, Tree, negative, symbol
 from dofkit.checker.words import KnownNames
 
 Entry = Mapping[str, Any]
@@ -30,74 +29,63 @@ class Surroundings:
     """
 
     dimension: int
-    names: KnownNames
-    signs: Mapping[str, str]
     frames: dict[str, CheckedFrame]
+    names: KnownNames = field(default_factory=KnownNames)
+    signs: dict[str, str] = field(default_factory=dict)
     particles: dict[str, MaterialPoint] = field(default_factory=dict)
     generic: list[str] = field(default_factory=list)
     drawn: set[str] = field(default_factory=set)
     welded: list[tuple[str, str]] = field(default_factory=list)
     index: int = 0
-    made: Counter[tuple[str, int]] = field(default_factory=Counter)
+    made: Counter[str] = field(default_factory=Counter)
 
-    def expression(self, value: object, allowed: frozenset[str] = frozenset()) -> Tree:
+    def expression(self, value: object, *allowed: str) -> Tree:
         """A number or text that mentions parameters, and what is ``allowed`` besides."""
-        exact = value_text(value)
-        found = number(exact) if isinstance(exact, int) else parse(exact, self.names)
-        if not symbols_in(found) <= allowed.union(self.signs):
-            raise CheckError(f"`{value}` mentions what cannot stand there")
+        found = parse(str(value), self.names)
+        refuse(not symbols_in(found) <= {*self.signs, *allowed}, f"`{value}` mentions what cannot stand there")
         return found
+
+    def moving(self, value: object) -> Tree:
+        """A length that may change with time and place."""
+        return self.expression(value, "t", *self.names.coordinates)
 
     def vector(self, values: Any) -> Vector:
         """A place or direction."""
-        if not isinstance(values, list) or len(values) != self.dimension:
-            raise CheckError(f"{self.dimension} components are needed, not {str(values)[:60]}")
+        bad = not isinstance(values, list) or len(values) != self.dimension
+        refuse(bad, f"{self.dimension} components are needed, not {str(values)[:60]}")
         return tuple(map(self.expression, values))
 
     def fresh(self, stem: str) -> Tree:
         """A new generic symbol, named by the constraint it belongs to."""
-        self.made[stem, self.index] += 1
-        count = self.made[stem, self.index]
-        self.generic.append(f"{stem}_c{self.index}" + (f"_{count}" if count > 1 else ""))
+        name = f"{stem}_c{self.index}"
+        self.made[name] += 1
+        self.generic.append(name if self.made[name] == 1 else f"{name}_{self.made[name]}")
         return symbol(self.generic[-1])
 
     def place(self, values: object) -> Vector:
         """A given place, or a generic one."""
         return self.vector(values) if values is not None else tuple(self.fresh("place") for _ in range(self.dimension))
 
-    def frame(self, name: str) -> CheckedFrame:
-        """A body, or the ground."""
-        if name not in self.frames:
-            raise CheckError(f"there is no body '{name}'")
-        return self.frames[name]
-
     def point(self, written: Any) -> MaterialPoint:
         """A particle, a point of the world, or a point of a body."""
         if isinstance(written, Mapping):
-            known_fields(written, "point", ("on", "at"))
+            known_fields(written, "on at")
             self.drawn.add(written["on"])
-            return self.frame(written["on"]).point(self.vector(written["at"]))
-        if isinstance(written, str) and written not in self.particles:
-            raise CheckError(f"there is no particle '{written}'")
-        return (
-            self.particles[written] if isinstance(written, str) else self.frames["ground"].point(self.vector(written))
-        )
+            return self.frames[written["on"]].point(self.vector(written["at"]))
+        if isinstance(written, list):
+            return self.frames["ground"].point(self.vector(written))
+        return self.particles[str(written)]
 
     def direction(self, values: object) -> tuple[Vector, tuple[Vector, ...]]:
         """A direction n, given or generic, and d - 1 independent vectors across it."""
-        d = self.dimension
-        n = self.vector(values) if values is not None else (ONE, *(self.fresh("axis") for _ in range(d - 1)))
-        pivots = [i for i, part in enumerate(n) if self.nonzero(part)]
-        if not pivots and (d == 3 or not any(map(symbols_in, n))):
-            raise CheckError("no component of a direction is surely not 0")
-        if d == 2:
-            return n, ((negative(n[1]), n[0]),)
-        k = min(pivots, key=lambda i: n[i].head != "number")
-        units = identity(d)
-        others = [i for i in range(d) if i != k]
-        return n, tuple(
-            tuple(difference(times(n[k], units[i][j]), times(n[i], units[k][j])) for j in range(d)) for i in others
-        )
+        every = range(self.dimension)
+        n = self.vector(values) if values is not None else (ONE, *(self.fresh("axis") for _ in every[1:]))
+        sure = [i for i in every if self.nonzero(n[i])]
+        doubtful = not sure and (self.dimension == 3 or not any(map(symbols_in, n)))
+        refuse(doubtful, "no component of a direction is surely not 0")
+        k = min(sure, key=lambda i: n[i].head != "number", default=0)
+        rows = [{i: n[k], k: negative(n[i])} for i in every if i != k]
+        return n, tuple(tuple(row.get(j, ZERO) for j in every) for row in rows)
 
     def nonzero(self, tree: Tree) -> bool:
         """Is a constant certainly not 0?"""
@@ -107,9 +95,19 @@ class Surroundings:
             return all(map(self.nonzero, tree.below[: 1 if tree.head == "power" else None]))
         return not symbols_in(tree) and excludes_zero(evaluated(tree, {}, Effort()))
 
+    def on_places(self, texts: Sequence[str]) -> list[Sided]:
+        """Relations in which x, y, z are the coordinates of a point; no velocity occurs."""
+        letters = set("xyz"[: self.dimension])
+        values = {name: tree for name, tree in self.names.values.items() if name not in letters}
+        functions = {name: own for name, own in self.names.functions.items() if name not in letters}
+        own = KnownNames(self.names.coordinates.union(letters), values, functions)
+        found = [relation for text in texts for relation in parse_relations(text, own)]
+        used = frozenset().union(*(symbols_in(one.tree) for one in found))
+        refuse(not used <= own.coordinates.union(self.signs, "t"), "a surface mentions places, parameters and t")
+        return found
 
-def known_fields(entry: Entry, called: str, fields: tuple[str, ...]) -> None:
+
+def known_fields(entry: Entry, fields: str) -> None:
     """Refuse an entry with a field that is not known: it would be read past."""
-    unknown = [key for key in entry if key not in fields and entry[key] is not None]
-    if unknown:
-        raise CheckError(f"a {called} has no `{unknown[0]}`")
+    unknown = entry.keys() - set(fields.split())
+    refuse(unknown, f"there is no {' '.join(sorted(unknown))}; known are {fields}")

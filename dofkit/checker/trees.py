@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 
 FUNCTIONS = (
     *("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh"),
@@ -51,10 +52,7 @@ def add(*terms: Tree) -> Tree:
 
 def times(*factors: Tree) -> Tree:
     """A product; numbers are multiplied and 1 is left out, 0 is 0."""
-    constant = Fraction(1)
-    for factor in factors:
-        if isinstance(factor.value, Fraction):
-            constant *= factor.value
+    constant = prod((f.value for f in factors if isinstance(f.value, Fraction)), start=Fraction(1))
     rest = [f for f in factors if f.head != "number"]
     if constant == 0:
         return ZERO
@@ -66,6 +64,11 @@ def times(*factors: Tree) -> Tree:
 def negative(term: Tree) -> Tree:
     """Times -1."""
     return times(number(-1), term)
+
+
+def difference(a: Tree, b: Tree) -> Tree:
+    """a - b, 0 where they are the same."""
+    return ZERO if a == b else add(a, negative(b))
 
 
 def power(base: Tree, exponent: Tree) -> Tree:
