@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import combinations, pairwise
+from typing import NamedTuple
 
 from dofkit.checker.derivatives import TWO, in_velocities, substituted
 from dofkit.checker.errors import refuse
 from dofkit.checker.geometry import (
     CheckedFrame,
     MaterialPoint,
+    Vector,
     apart,
     cross,
     dot,
@@ -146,6 +148,41 @@ KEEPS = {
 }  # fmt: skip
 
 
+class CheckedJoint(NamedTuple):
+    """The bodies of a joint, the place where they meet, a direction n that they keep, and vectors across n."""
+
+    first: CheckedFrame
+    second: CheckedFrame
+    place: Vector
+    n: Vector
+    across: tuple[Vector, ...]
+
+    def offset(self, direction: Vector) -> Tree:
+        """How far the place has moved along a direction of the first body."""
+        return self.first.offset(self.second.point(self.place), self.place, direction)
+
+    def shifted(self, by: Tree) -> Tree:
+        """How much more than by a given length the place has moved along n."""
+        under = times(self.first.under, self.second.point(self.place).under)
+        return difference(self.offset(self.n), times(under, length(self.n), by))
+
+    def turned(self) -> tuple[Tree, Tree]:
+        """The sine and cosine of the angle about n, times one positive factor."""
+        u, now = self.across[0], self.second.carry(self.across[0])
+        return dot(self.first.carry(cross(self.n, u)), now), times(length(self.n), dot(self.first.carry(u), now))
+
+    def turns(self) -> Tree:
+        """How often the second body has turned about n."""
+        return times(call("atan2", *self.turned()), power(times(TWO, PI), number(-1)))
+
+    def turned_by(self, angle: Tree) -> Tree:
+        """The angle about n is a given one."""
+        if not self.across:
+            return difference(difference(self.second.angle, self.first.angle), angle)
+        sine, cosine = self.turned()
+        return difference(times(sine, call("cos", angle)), times(cosine, call("sin", angle)))
+
+
 def joint(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """What a joint keeps, one after the other, and what its drive prescribes."""
     kind, keeps = entry["type"], KEEPS[entry["type"]].split()
@@ -156,40 +193,23 @@ def joint(world: Surroundings, entry: Entry) -> Iterator[Tree]:
         world.welded.append((first.name, second.name))
     # what does not turn moves as its origin does
     place = second.start if "turn" in keeps or kind == "planar" else world.place(entry.get("at"))
-    point = second.point(place)
     asks = "line" in keeps or ("axis" in keeps and world.dimension == 3)
     refuse(asks and "at" in entry and "axis" not in entry, "a joint with a place has an axis")
-    n, across = world.direction(entry.get("axis")) if asks else ((), ())
-
-    def shifted(by: Tree) -> Tree:
-        return difference(first.offset(point, place, n), times(first.under, point.under, length(n), by))
-
-    def turned() -> tuple[Tree, Tree]:
-        """The sine and cosine of the angle about n, times one positive factor."""
-        now, u = second.carry(across[0]), across[0]
-        return dot(first.carry(cross(n, u)), now), times(length(n), dot(first.carry(u), now))
-
-    def driven(law: Tree) -> Tree:
-        if kind not in ("revolute", "screw"):
-            return shifted(law)
-        if not across:
-            return difference(difference(second.angle, first.angle), law)
-        sine, cosine = turned()
-        return difference(times(sine, call("cos", law)), times(cosine, call("sin", law)))
-
+    hinge = CheckedJoint(first, second, place, *(world.direction(entry.get("axis")) if asks else ((), ())))
     equations: dict[str, Callable[[], Iterable[Tree]]] = {
         "turn": lambda: parallel(first, second),
-        "point": lambda: apart(first.point(place), point)[0],
-        "axis": lambda: (dot(first.carry(u), second.carry(n)) for u in across),
-        "line": lambda: (first.offset(point, place, u) for u in across),
-        "plane": lambda: [shifted(ZERO)],
+        "point": lambda: apart(first.point(place), second.point(place))[0],
+        "axis": lambda: (dot(first.carry(u), second.carry(hinge.n)) for u in hinge.across),
+        "line": lambda: map(hinge.offset, hinge.across),
+        "plane": lambda: [hinge.offset(hinge.n)],
         "cross": lambda: [crossed(world, entry, first, second)],
-        "thread": lambda: [shifted(times(world.expression(entry["pitch"]), call("atan2", *turned()), _TURNS))],
+        "thread": lambda: [hinge.shifted(times(world.expression(entry["pitch"]), hinge.turns()))],
     }
     for kept in keeps:
         yield from equations[kept]()
     if "drive" in entry:
-        yield driven(world.expression(entry["drive"], "t"))
+        law = world.expression(entry["drive"], "t")
+        yield hinge.turned_by(law) if kind in ("revolute", "screw") else hinge.shifted(law)
 
 
 def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
@@ -212,7 +232,6 @@ def crossed(world: Surroundings, entry: Entry, first: CheckedFrame, second: Chec
     return dot(first.carry(a), second.carry(b))
 
 
-_TURNS = power(times(TWO, PI), number(-1))
 #: Every type: how it is read, the fields it has, and the dimensions in which it is defined.
 TYPES: dict[str, tuple[Read, str, str]] = {
     "equation": (equation, "text", "123"), "on": (on, "members surface curve", "123"),
