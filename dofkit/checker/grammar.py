@@ -33,7 +33,7 @@ def parse(text: str, names: KnownNames) -> Tree:
     """The value that a text writes."""
     reader = _Reader(text, names)
     found = reader.sum()
-    reader.expect("end")
+    reader.take("end")
     return found
 
 
@@ -46,7 +46,7 @@ def parse_relations(text: str, names: KnownNames) -> list[Sided]:
         tree = add(right, negative(left)) if "<" in sign else add(left, negative(right))
         found.append(Sided(tree, ">" if sign[0] in "<>" else "=", sign in ("<", ">")))
         left = right
-    reader.expect("end")
+    reader.take("end")
     return found or [Sided(left)]
 
 
@@ -61,13 +61,11 @@ class _Reader:
     def next(self) -> Lexeme:
         return self.tokens[self.at]
 
-    def take(self) -> Lexeme:
+    def take(self, kind: str = "") -> Lexeme:
         self.at += 1
-        return self.tokens[self.at - 1]
-
-    def expect(self, kind: str) -> None:
-        token = self.take()
-        refuse(token.kind != kind, f"`{token.name or token.kind}` stands where `{kind}` is expected")
+        token = self.tokens[self.at - 1]
+        refuse(kind and token.kind != kind, f"`{token.name or token.kind}` stands where `{kind}` is expected")
+        return token
 
     def sum(self) -> Tree:
         """Terms, each with its sign before it."""
@@ -131,7 +129,7 @@ class _Reader:
         while self.next.kind == ",":
             self.at += 1
             found.append(self.sum())
-        self.expect(_PAIRS[opening])
+        self.take(_PAIRS[opening])
         return found
 
     def named(self, token: Lexeme) -> Tree:

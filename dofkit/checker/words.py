@@ -18,13 +18,11 @@ MOST_DIGITS, LARGEST_POWER, MOST_DIGITS_IN_ALL = 400, 1000, 12_000
 #: How often a declared function is differentiated.
 MOST_ORDERS = 6
 PI, EULER = Tree("pi"), call("exp", ONE)
-GREEK = {
-    "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "epsilon", "ζ": "zeta", "η": "eta", "ϑ": "theta",
-    "θ": "theta", "ι": "iota", "κ": "kappa", "λ": "lambda", "μ": "mu", "ν": "nu", "ξ": "xi", "π": "pi", "ϕ": "phi",
-    "ρ": "rho", "σ": "sigma", "τ": "tau", "υ": "upsilon", "φ": "phi", "χ": "chi", "ψ": "psi", "ω": "omega",
-    "Γ": "Gamma", "Δ": "Delta", "Θ": "Theta", "Λ": "Lambda", "Ξ": "Xi", "Π": "Pi", "Σ": "Sigma", "Φ": "Phi",
-    "Ψ": "Psi", "Ω": "Omega",
-}  # fmt: skip
+_LATIN = (
+    "alpha beta gamma delta epsilon zeta eta theta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi phi "
+    "chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"
+)
+GREEK = dict(zip("αβγδεζηθϑικλμνξπρστυφϕχψωΓΔΘΛΞΠΣΦΨΩ", _LATIN.split(), strict=True))
 #: A dot above the letter before it.
 DOT = "\u0307"
 _PLAIN = str.maketrans({
