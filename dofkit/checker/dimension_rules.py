@@ -128,11 +128,19 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
         refuse(evidence.moving or claim.get("about", about) != about, "there are velocity relations, or other points")
         return verified["/dof"]
     if path == "/redundancies":
-        refuse(verified["/redundant_equations"] != 0, "groups of what is redundant are not counted")
-        return []
+        return _groups(evidence, verified)
     labels = [verified.get(f"/constraints/{escaped(owner)}{path}") for owner in owners(evidence)]
     refuse(None in labels and False not in labels, "nothing that was verified decides this")
     return False not in labels
+
+
+def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
+    """What depends on what: nothing, one constraint alone, or a circuit where one equation is too many."""
+    surplus, known = verified["/redundant_equations"], [one for one in owners(evidence) if evidence.owned(one)]
+    around = [{one, *verified[key]} for one in known if (key := f"/constraints/{escaped(one)}/circuit") in verified]
+    around = [set(known)] if len(known) == 1 else around
+    refuse(surplus and (len(around) != 1 or (surplus != 1 and len(known) > 1)), "several groups, or none that is shown")
+    return [{"nullity": surplus, "members": [one for one in known if one in around[0]]}] if surplus else []
 
 
 def escaped(name: str) -> str:

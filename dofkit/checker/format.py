@@ -12,30 +12,29 @@ STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of
 =========== =============================================== ==================================================
 by          fields                                          meaning (identities in the ring of `ring.py`)
 =========== =============================================== ==================================================
-branch      of, factors [TEXT], chosen (place), number      of = number * product of factors; id is factor
-                                                            ``chosen``. Needs the other factors not 0
-sos         of, terms [[c, a]]                              of = sum c a^2, all c > 0 or all < 0 (numbers); ids
-                                                            ``id.1``, ``id.2``, ... are the a
-factor      of, factor, rest                                of = factor * rest; id is rest. Needs factor not 0
-square      of, base, power, number                         of = number * base^power; id is base
+branch      of, factors [TEXT], chosen (place), power       of = product of factors, that of place ``chosen`` to the
+                                                            ``power`` (1 where left out); id is that factor. Needs the
+                                                            other factors not 0
+sos         of, terms [[c, a]]                              of = sum c a^2 or its negative, all c > 0; ids ``id.1``,
+                                                            ``id.2``, ... are the a, which have a value everywhere
 implied     of (or ``text``: a new relation), h, c {ID:     h * of = sum c[i] * i; id (and ``of``) follows from
             TEXT}                                           the i. Needs h not 0, the c defined. The c of a
                                                             velocity relation may hold velocities
-rate        of (finite)                                     its time derivative, with qdot and tdot
+rate        of (finite, or an integral)                                     its time derivative, with qdot and tdot
 integral    function (f), h, c {ID: TEXT}                   h * (df/dt) = sum c[i] * i: f keeps its value. Needs
                                                             h not 0, the c defined. A finite relation of the leaf
 =========== =============================================== ==================================================
 
-``h`` and ``number`` are 1 where left out. ``nonzero``: ``{"sos": [[c, a], ...], "plus": c}`` (the factor, or h, is that
-sum, c >= 0, plus > 0; or the negative of it), ``{"parameters": TEXT}`` (a product of powers of parameters declared
-nonzero or positive, and numbers), ``{"number": true}``, ``{"exp": TEXT}`` (it is exp(TEXT)).
+``h`` is 1 where left out. Not 0 by itself is a product of powers of numbers and of parameters declared nonzero or
+positive; else ``nonzero``: ``{"sos": [[c, a], ...], "plus": c}`` (the factor, or h, is that sum or the negative of it;
+c > 0, plus > 0, the a have a value everywhere). All texts of a step need a value at the point, as they are written.
 
 POINTS ``{"id", "values": {symbol: TEXT}, "functions": {h: {"arguments": [s], "text": TEXT}}}``: coordinates, ``t``,
 parameters, generic lengths, velocities ``qdot`` (``tdot`` is 1), each a TEXT of numbers and of parameters given before
 it; a choice for every unknown function that occurs. A BOX has besides ``rows`` [ID], ``columns`` [symbol] (as many),
-``radius`` ("1e-30") and optionally ``inverse`` [[decimal]] (else the checker inverts): values of columns are
-centres. A relation holds at an exact point where the ring says 0 after substitution, at a box where it is a row, or is
-0 in the ring, or follows from such by steps.
+``radius`` ("1e-30"): values of columns are centres. A relation holds at an exact point where the ring says 0 after
+substitution, at a box where it is a row, or is 0 in the ring, or follows from such by steps; and its ball, worked out
+as it is written, holds 0.
 
 MINORS ``{"id", "at": POINT, "rows": [ID], "columns": [coordinate]}``: the determinant of d(row)/d(column) (of a finite
 relation) and d(row)/d(column's velocity) (of a velocity relation) excludes 0. A claim's ``minor`` is an id or the
@@ -70,10 +69,10 @@ family      at, parameters [u], values {u: TEXT},         least the number of u:
                                                           relations
 span        at, fields [id], rows [ID], words [WORD],     least the words (less 1 where a field moves t): fields
             columns [coordinate or t]                     tangent to rows identically, rows account for all
-                                                          relations; the words' columns are independent. Where
+                                                          relations, all at the point; the words' columns are
+                                                          independent. Where finite relations hold parameters: minor
+                                                          (that of ``most`` does) whose rows account for them. Where
                                                           t or tdot occurs a field's t is not 0 at the point
-cover       minor, blocks (as in COVERS, of all finite    least n - rows of the minor. No velocity relations
-            relations)
 =========== ============================================= ======================================================
 
 CLAIMS ``{"path", "value", "rule", ..., "about", "cayley"}``. ``about`` (dof, velocity_dof): ``reference`` (the point
@@ -83,48 +82,38 @@ NAME is a constraint's name, with ``~1`` for ``/`` and ``~0`` for ``~``.
 ======================================= ============== ==========================================================
 path                                    rule           fields
 ======================================= ============== ==========================================================
-/consistent true                        point          at; all relations hold; at rest, for all t. ``inequalities``
-                                                       {NAME or ID: POINT}: each holds at a point by itself. Where
-                                                       parameters or functions occur in finite relations (but for
-                                                       a generic symbol of its own): minor as well, whose rows
-                                                       account for the finite relations
+/consistent true                        point          at; all relations hold; at rest, for all t. ``q``
+                                                       {coordinate: TEXT in t and parameters}: a motion that meets
+                                                       them identically. ``inequalities`` {NAME or ID: POINT}: each
+                                                       holds at a point by itself. Where parameters or functions
+                                                       occur in finite relations (but for a generic symbol of its
+                                                       own): minor as well, whose rows account for these, and rest
+                                                       is identical in the coordinates
 /consistent true                        regular        minor, inequalities: a motion through the point
-/consistent true                        motion         q {coordinate: TEXT in t and parameters}, at (values of t and
-                                                       parameters), inequalities
 /consistent false                       nullstellensatz c {ID: TEXT}, number, sos [[c, a]], inequality {ID:
                                                        [[c, a]]}: number + sos + sum c i + sum (sos) ineq = 0 with
                                                        tdot = 1; the TEXTs have a value everywhere. An inequality
                                                        stands alone, without c
-/consistent false                       polygon        side S, way [S]; S: [ID, [TEXT vector], length TEXT, number]:
-                                                       ID = number * (vector^2 - length^2); side vector = sum of way
-                                                       vectors (number is 1 where left out)
-/consistent false                       boxes          variables {x: half TEXT (rational) or "angle"}, bounds {x:
-                                                       {"c": {ID: TEXT}, "sos": [[c, a]]}}: half^2 - x^2 = sum c i
-                                                       + sos, box from -half to half; tree: ["cut", {ID: TEXT}] (the
-                                                       sum excludes 0) or [x, value, tree below, tree above]
 /conflicting                            conflict       refutation: an object with rule, as for /consistent false,
-                                                       using just these constraints; minimal {NAME: POINT at which
-                                                       the others hold at rest, or an object with rule (point,
-                                                       regular, motion) as for /consistent true}
+                                                       using just these constraints; minimal {NAME: an object with
+                                                       rule, as for /consistent true, of the others}
 /dof, /velocity_dof                     squeeze        most, least (above); about
 /dof, /velocity_dof                     regular        minor; about (most and least in one, all rows of one kind)
-/dof                                    nothing        no relation but inequalities: n, everywhere
 /velocity_dof                           count          equals /dof: no velocity relations
 /dof everywhere                         everywhere     order [[ID, coordinate]]: each gives its coordinate (a number
                                                        times it and what is free or given before); blocks [ID]:
                                                        single analytic relations; generic [[ID, symbol]]: each with
-                                                       a symbol of its own; minor: rows are all finite relations
-                                                       (left out where there is order alone). Every finite relation
-                                                       in one place; blocks and generic share no free coordinate.
-                                                       ``graph`` and ``one relation`` are names of the same rule
-/dof everywhere                         generic rank   order, generic as above; minor (rows of some), covers [ID]: one
-                                                       cover of all finite relations
-/instantaneous_dof                      rank           at: the reference. Rational rows: nothing more. Else minor and
-                                                       dependent {ID: {row: TEXT}}: ID's row is that sum of rows
+                                                       a symbol of its own; every finite relation in one place;
+                                                       blocks and generic share no free coordinate. Where there are
+                                                       any: minor, whose rows account for all; as many rows as
+                                                       relations, or one cover of all in ``covers``, without blocks
+/instantaneous_dof                      rank           at: the reference. Rational rows: nothing more. Else minor,
+                                                       of all relations
 /singular                               compare        (of verified /instantaneous_dof and /velocity_dof)
 /holonomic, /scleronomic                count          (of the verified entries)
 /redundant_equations                    count          (of verified /velocity_dof)
-/redundancies []                        count          (of verified /redundant_equations 0)
+/redundancies                           count          (of verified /redundant_equations: 0, or all equations are of
+                                                       one constraint, or 1 and one verified circuit)
 /feasible true                          point, regular at, or minor: equations as for /consistent; all inequalities
                                                        hold at that point
 /integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of
@@ -146,7 +135,7 @@ path                                    rule           fields
                                                        from their rates, finite relations and theirs
 .../holonomic true                      frobenius      minor, fields, columns: NAME's relations are rows or follow
 .../holonomic false                     bracket        at, fields, rows, combination [[c, WORD]], pairs ID: the
-                                                       relation ID of NAME is not 0 there
+                                                       relation ID of NAME is not 0 there; minor as for ``span``
 .../holonomic_alone true, false         wedge          true: omega ^ d(omega) = 0 (one form); false: at, triple [x, y,
                                                        z] (``t`` for time)
 .../scleronomic, .../catastatic true    timeless       steps [ID of factor steps]: t, tdot do not occur in what is
@@ -158,15 +147,15 @@ path                                    rule           fields
 .../exact false                         not exact      at, pair [x, y]; relation ID where there are several forms
 .../independent 0                       inequality     of nothing but inequalities
 .../integrating_factor                  integral       at; the value mu makes mu * form closed and is not 0 there
-.../integral                            integral       at, function TEXT (value is "function = C"); alone: d function =
+.../integral                            integral       at (value is "function = C"); alone: d function =
                                                        factor * form, factor TEXT. In the system: step ID of the
                                                        integral, and NAME's relation follows from its rate
-.../circuit                             cofactors      at (a point of all); minimal {NAME: {"at": POINT} where the
-                                                       others hold and the constraint does not (all finite, without
-                                                       parameters), or {"minor"}: rows of
-                                                       the other members that account for them, and one of its own}
+.../circuit                             cofactors      at (a point of all); minimal {NAME: {"minor"} at that point:
+                                                       rows of the other members that account for them, and one of
+                                                       the constraint's own}
 .../independent                         independent    minor: rows of constraints up to this; those before follow from
-                                                       rows before, and its own from all rows
+                                                       rows before, and its own from all rows; at most as many as
+                                                       it has equations
 ======================================= ============== ==========================================================
 
 Local claims (holonomic, circuit, independent, ...) are made at the scene's configuration (with t = 0), where one is

@@ -20,40 +20,33 @@ from dofkit.checker.problem import Problem, read_problem
 from dofkit.checker.relations import FAULTS, told
 
 Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
-#: The rules: of a path of the report (of a field of an entry, without ``/``), by the rule's name.
-RULES: dict[str, dict[str, Rule]] = {
-    "/consistent": {
-        **{"point": emptiness.consistent, "regular": emptiness.consistent},
-        "nullstellensatz": emptiness.inconsistent,
-    },
-    "/feasible": {"point": emptiness.consistent, "regular": emptiness.consistent},
-    "/conflicting": {"conflict": emptiness.conflict},
-    "/dof": {"squeeze": numbers.bounds, "regular": numbers.bounds, "everywhere": numbers.everywhere},
-    "/velocity_dof": {"squeeze": numbers.bounds, "regular": numbers.bounds, "count": numbers.counted},
-    "/instantaneous_dof": {"rank": numbers.instantaneous},
-    "/singular": {"compare": numbers.counted},
-    "/holonomic": {"count": numbers.counted},
-    "/scleronomic": {"count": numbers.counted},
-    "/redundant_equations": {"count": numbers.counted},
-    "/redundancies": {"count": numbers.counted},
-    "/redundant": {"cofactors": numbers.redundant},
-    "/count/independent": {"independent": numbers.independence},
-    "/integrable_part": {"integrals": numbers.integrable_part},
-    "/generalized_coordinates": {"minor": numbers.generalized_coordinates},
-    "/growth_vector": {"span": numbers.growth},
-    "holonomic": {
-        **{"finite": labels.finite, "inequality": labels.inequality, "bracket": labels.bracket},
-        **{"integral": labels.integrable, "frobenius": labels.integrable},
-    },
-    "scleronomic": {"timeless": labels.timeless, "turns": labels.turns},
-    "catastatic": {"timeless": labels.timeless, "turns": labels.turns},
-    "exact": {"exact": labels.exact, "not exact": labels.exact},
-    "integrating_factor": {"integral": labels.integral},
-    "integral": {"integral": labels.integral},
-    "circuit": {"cofactors": numbers.circuit},
-    "independent": {"independent": numbers.independence, "inequality": labels.inequality},
-}
-RULES["holonomic_alone"] = {**RULES["holonomic"], "wedge": labels.wedge}
+#: The rules: paths of the report (fields of an entry, without ``/``), names of rules, and what looks at them.
+TABLE: tuple[tuple[str, str, Rule], ...] = (
+    ("/consistent, /feasible", "point, regular", emptiness.consistent),
+    ("/consistent", "nullstellensatz", emptiness.inconsistent),
+    ("/conflicting", "conflict", emptiness.conflict),
+    ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds),
+    ("/dof", "everywhere", numbers.everywhere),
+    ("/velocity_dof, /holonomic, /scleronomic, /redundant_equations, /redundancies", "count", numbers.counted),
+    ("/singular", "compare", numbers.counted),
+    ("/instantaneous_dof", "rank", numbers.instantaneous),
+    ("/redundant", "cofactors", numbers.redundant),
+    ("/count/independent, independent", "independent", numbers.independence),
+    ("/integrable_part", "integrals", numbers.integrable_part),
+    ("/generalized_coordinates", "minor", numbers.generalized_coordinates),
+    ("/growth_vector", "span", numbers.growth),
+    ("circuit", "cofactors", numbers.circuit),
+    ("holonomic, holonomic_alone", "finite", labels.finite),
+    ("holonomic, holonomic_alone, independent", "inequality", labels.inequality),
+    ("holonomic, holonomic_alone", "integral, frobenius", labels.integrable),
+    ("holonomic, holonomic_alone", "bracket", labels.bracket),
+    ("holonomic_alone", "wedge", labels.wedge),
+    ("scleronomic, catastatic", "timeless", labels.timeless),
+    ("scleronomic, catastatic", "turns", labels.turns),
+    ("exact", "exact, not exact", labels.exact),
+    ("integral, integrating_factor", "integral", labels.integral),
+)
+RULES = {(path, rule): look for paths, rules, look in TABLE for path in paths.split(", ") for rule in rules.split(", ")}
 #: What may be false of poses near the configuration alone.
 LOCAL = ("/singular", "/holonomic", "/scleronomic")
 
@@ -134,10 +127,11 @@ class Verifier:
         for name in claim.get("covers", []):
             take_cover(evidence, name)
         field = parts[3] if len(parts) == 4 and parts[:2] == ["", "constraints"] else ""
-        rules = RULES.get(field or path, {})
-        refuse(rule not in rules or (not field and parts[0]), f"no rule `{str(rule)[:40]}` for `{path[:60]}`")
+        look = RULES.get((field or path, rule)) if field or path.startswith("/") else None
+        if look is None:
+            raise CheckError(f"no rule `{str(rule)[:40]}` for `{path[:60]}`")
         owner = {"owner": parts[2].replace("~1", "/").replace("~0", "~"), "field": field} if field else {}
-        found = rules[rule](evidence, {**claim, **owner}, self.verified)
+        found = look(evidence, {**claim, **owner}, self.verified)
         same = json.dumps(found, sort_keys=True) == json.dumps(value, sort_keys=True)
         refuse(not same, f"the evidence gives {found!r}, not {str(value)[:80]!r}")
         self.verified |= {path: value, f"{path} about": claim.get("about")}
