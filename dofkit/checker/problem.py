@@ -158,9 +158,10 @@ def _relations(
     """The relations of every constraint, in order."""
     rates, left, owners = {*(f"{q}dot" for q in coordinates), TIME_RATE}, MOST_RELATIONS, set[str]()
     for world.index, entry in enumerate(constraints, 1):
-        read, fields, dimensions = TYPES[entry["type"]]
+        called = entry.get("type", "equation")
+        read, fields, dimensions = TYPES[called]
         known_fields(entry, f"type name {fields}")
-        refuse(str(world.dimension) not in dimensions, f"no {entry['type']} is defined in dimension {world.dimension}")
+        refuse(str(world.dimension) not in dimensions, f"no {called} is defined in dimension {world.dimension}")
         owner = str(entry.get("name", f"c{world.index}"))
         found = [one if isinstance(one, Sided) else Sided(one) for one in islice(read(world, entry), left + 1)]
         left -= len(found)
