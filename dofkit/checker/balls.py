@@ -36,6 +36,7 @@ def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort, functions: 
             effort.spend(1)
             below = [value(part) for part in node.below]
             if node.head == "apply":
+                refuse(node.value not in (functions or {}), f"no choice for the function `{node.value}` at the point")
                 arguments, text = (functions or {})[str(node.value)]
                 given = dict(zip(arguments, below, strict=True))
                 found = evaluated(slope_of(text, arguments, node.orders), given, effort)
