@@ -9,12 +9,11 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.checker.balls import excludes_zero
+from dofkit.checker.balls import CheckedPoint, excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.errors import refuse
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import Told, admissible, family, independent, involutive, of_word, span
-from dofkit.checker.points import CheckedPoint
 from dofkit.checker.texts import heads_in
 
 

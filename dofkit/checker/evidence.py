@@ -6,10 +6,9 @@ from collections.abc import Iterable
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from dofkit.checker.balls import evaluated, excludes_zero, krawczyk, regular
+from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, krawczyk, regular
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.points import CheckedPoint
 from dofkit.checker.relations import FAULTS, CheckedRelations, told, total_derivative
 from dofkit.checker.trees import ONE, ZERO, Tree, symbol
 

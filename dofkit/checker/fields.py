@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from dofkit.checker.balls import evaluated, excludes_zero, regular
+from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, regular
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.errors import refuse
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.points import CheckedPoint
 from dofkit.checker.relations import Consequence
 from dofkit.checker.texts import nodes_of
 from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, symbol, times

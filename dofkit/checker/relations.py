@@ -14,11 +14,10 @@ from typing import Any
 
 from flint import arb
 
-from dofkit.checker.balls import excludes_zero
+from dofkit.checker.balls import CheckedPoint, excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.effort import Effort
 from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.points import CheckedPoint
 from dofkit.checker.problem import Problem
 from dofkit.checker.texts import CheckedTexts
 from dofkit.checker.trees import Tree, add, number, power, symbol, times

@@ -43,14 +43,6 @@ UNCOVERED: Mapping[str, tuple[str, str]] = {
     ),
     "/redundancies": (
         "a field is missing or of another kind ('/redundant_equations')",
-        "complete-framework-3-points-in-1d complete-framework-4-points-in-1d "
-        "complete-framework-4-points-in-2d complete-framework-5-points-in-1d "
-        "complete-framework-5-points-in-2d complete-framework-5-points-in-3d "
-        "complete-framework-6-points-in-1d complete-framework-6-points-in-2d "
-        "complete-framework-6-points-in-3d complete-framework-7-points-in-1d "
-        "complete-framework-7-points-in-2d complete-framework-7-points-in-3d "
-        "complete-framework-8-points-in-1d complete-framework-8-points-in-2d "
-        "complete-framework-8-points-in-3d five-particles-rigidly-connected five-particles-ten-links "
         "lead-screw",
     ),
     "/redundant": (

@@ -7,11 +7,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from dofkit.checker.balls import with_functions
 from dofkit.checker.derivatives import symbols_in
 from dofkit.checker.effort import Effort
 from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import CheckedEvidence
-from dofkit.checker.points import with_functions
 from dofkit.checker.problem import Problem
 from dofkit.checker.trees import Tree
 

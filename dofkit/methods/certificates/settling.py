@@ -7,9 +7,8 @@ from fractions import Fraction
 
 from flint import arb, ctx, fmpq
 
-from dofkit.checker.balls import PRECISION, evaluated
+from dofkit.checker.balls import PRECISION, CheckedPoint, evaluated
 from dofkit.checker.derivatives import derivative
-from dofkit.checker.points import CheckedPoint
 from dofkit.checker.trees import Tree, number
 from dofkit.methods.certificates.elimination import Pivot, echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
