@@ -122,6 +122,7 @@ class QuotientRing:
         if above == 0:
             return Quotient(above, self.one)
         if not below.is_constant() and len(above) * len(below) < 20_000:
+            self.effort.spend(len(above) * len(below) // 10)
             common = above.gcd(below)
             above, below = (above / common, below / common) if not common.is_constant() else (above, below)
         lead = below.leading_coefficient()
@@ -134,6 +135,7 @@ class QuotientRing:
             order, rule = self.rules[place]
             if degrees[place] < order:
                 continue
+            self.effort.spend(len(polynomial))
             parts: dict[int, dict[tuple[int, ...], Any]] = {}
             for exponents, coefficient in polynomial.to_dict().items():
                 count, rest = divmod(exponents[place], order)

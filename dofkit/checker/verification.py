@@ -124,6 +124,7 @@ class Verifier:
             "a chart is no whole",
         )
         evidence, parts = self.evidence(cayley), path.split("/")
+        refuse("about" in claim and path not in ("/dof", "/velocity_dof"), "only numbers of freedoms have an `about`")
         for name in claim.get("covers", []):
             take_cover(evidence, name)
         field = parts[3] if len(parts) == 4 and parts[:2] == ["", "constraints"] else ""
