@@ -7,14 +7,19 @@ function, ``orders`` how often it is differentiated by each argument). ``pi`` is
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from math import prod
+
+from dofkit.checker.errors import refuse
 
 FUNCTIONS = (
     *("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh"),
     *("exp", "log", "sqrt", "abs"),
 )
+
+#: Nodes of a tree as it is written, and bits of a number.
+MOST_NODES, MOST_BITS = 50_000, 32_768
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +30,16 @@ class Tree:
     below: tuple[Tree, ...] = ()
     value: Fraction | str = ""
     orders: tuple[int, ...] = ()
+    size: int = field(init=False, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Parts may be shared, so that a short text writes a huge tree, and a few products a huge number."""
+        size = 1 + sum(part.size for part in self.below)
+        refuse(size > MOST_NODES, f"an expression of more than {MOST_NODES} terms and factors is not read")
+        if isinstance(self.value, Fraction):
+            bits = max(self.value.numerator.bit_length(), self.value.denominator.bit_length())
+            refuse(bits > MOST_BITS, f"a number of more than {MOST_BITS} bits is not read")
+        object.__setattr__(self, "size", size)
 
 
 ZERO = Tree("number", (), Fraction(0))

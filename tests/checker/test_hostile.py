@@ -221,7 +221,7 @@ def _places(value: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]
         yield from _places(part, (*place, key))
 
 
-@pytest.mark.parametrize("path", few("odd values", CATALOG, 12), ids=stem)
+@pytest.mark.parametrize("path", few("odd values", CATALOG, 24), ids=stem)
 def test_an_odd_value_in_any_place_is_a_fault_and_no_crash(path: Any) -> None:
     scene, rng = scene_of(path), random.Random(path.stem)
     document = dict(exact_document(document_of_scene(scene)))

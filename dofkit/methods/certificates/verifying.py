@@ -50,7 +50,7 @@ def _written(scene: SceneLike | None) -> Mapping[str, Any] | str | None:
 def _text_of(certificate: Given) -> Mapping[str, Any] | str | bytes:
     if isinstance(certificate, Mapping | bytes):
         return certificate
-    if isinstance(certificate, os.PathLike) or (isinstance(certificate, str) and not certificate.lstrip()[:1] == "{"):
+    if isinstance(certificate, os.PathLike) or (isinstance(certificate, str) and certificate.lstrip()[:1] != "{"):
         return Path(certificate).read_bytes()
     if not isinstance(certificate, str):
         raise ArgumentError(f"a certificate is a mapping, a path or JSON, not {description_of(certificate)}")
