@@ -76,7 +76,7 @@ class CountsBeside:
         return drawn_placement(self.system, self.setting.positive)
 
     def _dependent_sets(self) -> list[list[int]]:
-        """The constraints of minimal dependent sets of rows at the drawing, and of circuits; none that holds another."""
+        """The constraints of minimal dependent sets of rows at the drawing, of circuits too; none holds another."""
         sets: list[list[int]] = []
         for block, a in zip(self.outcome.blocks, self.outcome.answers, strict=True):
             if len(a.matrix) != len(block.rows):

@@ -85,10 +85,10 @@ def special_facts(
 
 
 def _of_texts(g: Geometry, members: Sequence[int]) -> Iterator[str]:
-    """Equations among joints and links: they hold the drawing's own numbers, which general position leaves alone."""
+    """Equations among joints and links: general position leaves them as they are, and they cease to fit."""
     texts = [g.names[i] for i in members if g.system.constraints[i].facts.written]
     if texts and len(texts) < len(members):
-        yield f"{_listed(texts)} {'is' if len(texts) == 1 else 'are'} written with numbers that hold at the drawing only"
+        yield f"what {_listed(texts)} say{'s' * (len(texts) == 1)} fits the others at the drawing only"
 
 
 def _facts_of_set(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:

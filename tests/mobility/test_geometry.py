@@ -147,7 +147,7 @@ def test_two_slides_in_one_direction(bodies: tuple[str, str]) -> None:
     assert report.generic.differs.endswith("; c1 and c2 slide in parallel directions")
 
 
-def test_an_equation_that_repeats_a_link_holds_at_the_drawing_only() -> None:
+def test_an_equation_that_repeats_a_link_fits_at_the_drawing_only() -> None:
     scene = {
         "dimension": 2,
         "particles": [{"name": "P", "at": [3, 4]}],
@@ -156,7 +156,7 @@ def test_an_equation_that_repeats_a_link_holds_at_the_drawing_only() -> None:
     report = dofkit.classify(dofkit.load(scene))
     assert report.generic is not None
     assert report.generic.differs is not None
-    assert report.generic.differs.endswith("; c2 is written with numbers that hold at the drawing only")
+    assert report.generic.differs.endswith("; what c2 says fits the others at the drawing only")
 
 
 def test_points_in_one_plane_of_space() -> None:
