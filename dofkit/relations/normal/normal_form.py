@@ -14,7 +14,7 @@ from fractions import Fraction
 from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero.identity import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
@@ -207,7 +207,7 @@ def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
     always = conditions_of(e, positive)
     regions, others = list[tuple[DomainCondition, ...]](), list[tuple[Conjunction, tuple[DomainCondition, ...]]]()
     for signed, conditions in by_signs(e, arguments_of(e), positive):
-        if is_zero(signed, positive):
+        if is_proved_zero(signed, positive):
             regions.append(conditions)
         else:
             others += [(g, conditions) for g in zero_set(signed, positive, _moving(signed))[0]]

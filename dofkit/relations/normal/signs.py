@@ -12,7 +12,7 @@ from typing import Any
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
@@ -35,7 +35,7 @@ def holds_on_a_region(e: Expr, positive: frozenset[Expr]) -> bool:
     arguments = arguments_of(e)
     if not arguments or len(arguments) > MAX_ARGUMENTS:
         return False
-    return any(is_zero(signed, positive) for signed, _ in by_signs(e, arguments, positive))
+    return any(is_proved_zero(signed, positive) for signed, _ in by_signs(e, arguments, positive))
 
 
 def by_signs(
