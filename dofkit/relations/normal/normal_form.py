@@ -24,7 +24,14 @@ from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
 from dofkit.relations.normal.quadratics import split_power, split_quadratic
-from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs, holds_on_a_region, squared
+from dofkit.relations.normal.signs import (
+    MAX_ARGUMENTS,
+    arguments_of,
+    by_signs,
+    holds_on_a_region,
+    squared,
+    with_absolute_values,
+)
 from dofkit.relations.normal.velocity_roots import in_one_rate, velocity_branches
 from dofkit.relations.normal.zero_set import zero_set
 
@@ -178,8 +185,9 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     if not written:
         return Normal(((Finite(e),),))
-    if holds_on_a_region(e, positive):
-        return _by_signs(e, positive)
+    folded = with_absolute_values(e, positive)
+    if holds_on_a_region(folded, positive):
+        return _by_signs(folded, positive)
     branches, notes = zero_set(e, positive, _moving(e))
     if branches == ((e,),):
         return _squared(e, positive)
