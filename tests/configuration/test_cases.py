@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dofkit
 from dofkit.configuration.cases import MAX_NODES, _linear
 from dofkit.configuration.local.initial_forms import InitialForms, have_no_common_zero
 from dofkit.expressions.text import Names, parse_expression
