@@ -76,13 +76,14 @@ class CountsBeside:
         return drawn_placement(self.system, self.setting.positive)
 
     def _dependent_sets(self) -> list[list[int]]:
-        """The constraints of minimal dependent sets of rows at the drawing; none that holds another."""
+        """The constraints of minimal dependent sets of rows at the drawing, of circuits too; none holds another."""
         sets: list[list[int]] = []
         for block, a in zip(self.outcome.blocks, self.outcome.answers, strict=True):
             if len(a.matrix) != len(block.rows):
                 continue
             for row, support in list(echelon(a.matrix, a.modulus, supports=True).supports.items())[:MOST_SETS]:
                 sets.append(sorted({block.rows[k].constraint for k in (row, *support)}))
+        sets += [sorted((i, *c)) for r in self.study.dependence.dependent for i, c in r.circuits.items()]
         unique = sorted(map(list, {tuple(s) for s in sets}))
         return [s for s in unique if not any(set(t) < set(s) for t in unique)]
 

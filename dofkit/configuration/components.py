@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import product as cartesian
 from math import prod
 from typing import NamedTuple
@@ -24,6 +25,7 @@ from dofkit.base.deadline import check
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration.cases import BoundedCase, cases_of
 from dofkit.configuration.generic_points import field_jacobian, on_variety
+from dofkit.configuration.reality import most_near
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows
@@ -42,7 +44,7 @@ MAX_RELATIONS, MAX_NODES, MAX_TOGETHER, MAX_PRODUCTS = 200, 200, 16, 2000
 LARGER = "over the complex numbers the set has a part of larger dimension, and it was not decided what of it is real"
 NO_CASE = "no configuration satisfies the relations together: each case ends in a relation that holds nowhere"
 NEAR = "the freedom is that of the part of the configuration space near the witness: a larger part was not excluded"
-
+OTHERS = "the point that was found lies on a part of the set of which it is not known whether others pass through it"
 
 _ELIMINATED: tuple[ReductionName, ...] = ("eliminations",)
 
@@ -61,12 +63,16 @@ class Explicit(NamedTuple):
     left: tuple[Expr, ...]
 
 
-def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variety]) -> Variety:
-    """What is known of the set, for its largest part; ``look`` finds generic points of the set of another chart."""
+def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variety], of_case: bool = False) -> Variety:
+    """What is known of the set, for its largest part; ``look`` finds generic points of the set of another chart.
+
+    ``of_case``: what was found is the set of a case, which is a part of this one.
+    """
     if found.dimension is None or not found.consistent:
         return found
+    near = partial(_near_its_point, chart) if of_case else _near
     if _in_regions(chart) or len(chart.relations) > MAX_RELATIONS:
-        return _near(found)
+        return near(found)
     if len(chart.relations) < 2:
         least = chart.coordinates - len(chart.relations)
         return _by(found, "one relation") if found.dimension >= least else _near(found)
@@ -74,7 +80,7 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
     parts = parts_of(left, [s for s in chart.symbols if s != ex.TIME])
     cases = [_cases(part, chart) for part in parts]
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
-        return _near(found)
+        return near(found)
     loose = chart.coordinates - len(given) - sum(len(part.unknowns) for part in parts)
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
     best, open_, regular = found, list[bool](), _is_regular(chart, found)
@@ -82,7 +88,7 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
         if loose + _most(choice) <= (best.dimension or 0):
             break
         if number == MAX_TOGETHER:
-            return _near(best)
+            return near(best) if best is found else _near_its_point(chart, best)
         larger = _found(chart, [*given, *(g for case in choice for g in case.relations)], look)
         if larger.consistent is False and larger.verdict == "proved":
             continue
@@ -92,7 +98,7 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
     if any(open_) and regular:
         return replace(best, dimension=None, verdict="undecided", reasons=[*best.reasons, LARGER])
     if open_:
-        return _near(best)
+        return near(best) if best is found else _near_its_point(chart, best)
     fibres = all(_is_fibre(part, chart.positive) for part in parts)
     best = _by(best, "graph" if not parts else "generic fibre" if fibres else "cases")
     exact = all(case.exact for c in cases for case in c or ())
@@ -141,6 +147,14 @@ def _by(found: Variety, argument: ArgumentKey) -> Variety:
 def _near(found: Variety) -> Variety:
     """What was found, told of its own part only."""
     return replace(found, about="component", reasons=[*found.reasons, NEAR])
+
+
+def _near_its_point(chart: Chart, case: Variety) -> Variety:
+    """The same of a case, a part of the set: near its point the rest of the set may be larger, unless the rank of all
+    relations there says that it is not."""
+    if case.dimension is not None and most_near(chart, case.real) == case.dimension:
+        return _near(case)
+    return replace(case, dimension=None, verdict="undecided", reasons=[*case.reasons, OTHERS])
 
 
 def _most(choice: Iterable[BoundedCase]) -> int:

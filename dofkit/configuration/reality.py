@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from flint import arb
+
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.generic_points import generators_of
 from dofkit.configuration.singular_points import numeric_local
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.points.balls import jacobian
 from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.ring.program import values
 from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -54,6 +59,19 @@ def with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
         found.verdict = weakest(found.verdict, "probable")
         found.reasons.append(ALLOWING)
     return found
+
+
+def most_near(chart: Chart, real: RealPoint | None) -> int | None:
+    """A bound of the set's dimension near a real point, by the rank of all relations there [ImplicitFunctions]."""
+    if real is None or not real.certified:
+        return None
+    columns = [i for s in chart.symbols if (i := chart.ring.var_index(s)) is not None]
+    try:
+        at = values(chart.ring, real.point)
+        part = ball_part(jacobian(chart.ring, at, real.point, chart.nodes, columns, arb(0)))
+    except (NoValueError, KeyError):
+        return None
+    return chart.coordinates - part.rank
 
 
 def _hangs_on_a_function(e: Expr) -> bool:

@@ -42,9 +42,10 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
     look = partial(_variety, pose={}, seed=seed)
-    if found.consistent is None and found.dimension is None and "field" in chart.engines:
+    by_case = found.consistent is None and found.dimension is None and "field" in chart.engines
+    if by_case:
         found = by_cases(chart, found, look)
-    return of_largest_part(chart, found, look)
+    return of_largest_part(chart, found, look, by_case)
 
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:

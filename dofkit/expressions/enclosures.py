@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -33,35 +33,46 @@ def has_call(e: Expr) -> bool:
 
 def interval_of(e: Expr, values: Mapping[Expr, Fraction] | None = None, bits: int = BITS) -> arb | None:
     """A ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
-    from flint import arb, ctx, fmpq
-
-    def ball(value: Fraction) -> arb:
-        return arb(fmpq(value.numerator, value.denominator))
+    from flint import ctx
 
     def go(node: Expr) -> arb:
-        if node.op == "num":
-            return ball(node.args[0])
-        if node.op == "const":
-            return arb.pi() if node.args[0] == "pi" else arb.const_e()
-        if node.op == "sym":
-            return ball((values or {})[node])
-        if node.op == "add":
-            return sum((go(part) for part in node.args), arb(0))
-        if node.op == "mul":
-            return math.prod((go(part) for part in node.args), start=arb(1))
-        if node.op == "pow":
-            base, exponent = node.args
-            return go(base).sqrt() if exponent == HALF else go(base) ** go(exponent)
-        if node.op == "fn":
-            return _function(node.args[0])(*(go(part) for part in node.args[1:]))
-        raise KeyError(node)
+        if node not in known:
+            parts = () if node.op in ("num", "const", "sym") else node.args[node.op == "fn" :]
+            known[node] = _combined(node, [go(part) for part in parts])
+        return known[node]
 
     with ctx.workprec(bits):
         try:
+            known = {symbol: _ball(value) for symbol, value in (values or {}).items()}
             found = go(e)
         except (KeyError, ZeroDivisionError, RecursionError, OverflowError):
             return None
     return found if found.is_finite() else None
+
+
+def _ball(value: Fraction) -> arb:
+    from flint import arb, fmpq
+
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+def _combined(node: Expr, parts: Sequence[arb]) -> arb:
+    """The value of a node from those of its parts. Raises KeyError where it has none."""
+    from flint import arb
+
+    if node.op == "num":
+        return _ball(node.args[0])
+    if node.op == "const":
+        return arb.pi() if node.args[0] == "pi" else arb.const_e()
+    if node.op == "add":
+        return sum(parts, arb(0))
+    if node.op == "mul":
+        return math.prod(parts, start=arb(1))
+    if node.op == "pow":
+        return parts[0].sqrt() if node.args[1] == HALF else parts[0] ** parts[1]
+    if node.op == "fn":
+        return _function(node.args[0])(*parts)
+    raise KeyError(node)
 
 
 def _function(name: str) -> Callable[..., arb]:

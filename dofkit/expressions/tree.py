@@ -125,8 +125,14 @@ ExprLike = Expr | int | Fraction
 
 def num(value: int | Fraction) -> Expr:
     """The exact number ``value``."""
-    return Expr("num", (Fraction(value),))
+    if value.denominator == 1 and value.numerator in _SMALL:
+        return _SMALL[value.numerator]
+    return Expr("num", (value if type(value) is Fraction else Fraction(value),))
 
+
+#: The numbers that occur most.
+_SMALL: dict[int, Expr] = {}
+_SMALL.update({n: num(n) for n in range(-16, 17)})
 
 ZERO, ONE, MINUS_ONE, TWO, HALF = (num(Fraction(v)) for v in (0, 1, -1, 2, Fraction(1, 2)))
 PI, E = Expr("const", ("pi",)), Expr("const", ("E",))
@@ -170,6 +176,9 @@ TIME = sym("time", "t")
 DT = sym("dt", "t")
 
 
+_ONCE: Fraction = ONE.args[0]
+
+
 def _split(term: Expr) -> tuple[Fraction, Expr]:
     """``term`` as number times rest."""
     if term.op == "num":
@@ -177,7 +186,7 @@ def _split(term: Expr) -> tuple[Fraction, Expr]:
     if term.op == "mul" and term.args[0].op == "num":
         rest = term.args[1:]
         return term.args[0].args[0], rest[0] if len(rest) == 1 else Expr("mul", rest)
-    return Fraction(1), term
+    return _ONCE, term
 
 
 def add(*terms: Expr) -> Expr:
@@ -186,7 +195,8 @@ def add(*terms: Expr) -> Expr:
     for term in terms:
         for part in term.args if term.op == "add" else (term,):
             factor, rest = _split(part)
-            collected[rest] = collected.get(rest, Fraction(0)) + factor
+            known = collected.get(rest)
+            collected[rest] = factor if known is None else known + factor
     parts = []
     for rest, factor in collected.items():
         if factor:
@@ -204,17 +214,17 @@ def _scaled(factor: Fraction, rest: Expr) -> Expr:
 
 def mul(*factors: Expr) -> Expr:
     """The product; numbers are folded and integer powers of equal factors collected."""
-    number = Fraction(1)
-    powers: dict[Expr, Fraction] = {}
+    number = _ONCE
+    powers: dict[Expr, int] = {}
     for factor in factors:
         for part in factor.args if factor.op == "mul" else (factor,):
             if part.op == "num":
-                number *= part.args[0]
+                number = part.args[0] if number is _ONCE else number * part.args[0]
                 continue
-            base, exponent = part, Fraction(1)
+            base, exponent = part, 1
             if part.op == "pow" and part.args[1].op == "num" and part.args[1].args[0].denominator == 1:
-                base, exponent = part.args[0], part.args[1].args[0]
-            powers[base] = powers.get(base, Fraction(0)) + exponent
+                base, exponent = part.args[0], part.args[1].args[0].numerator
+            powers[base] = powers.get(base, 0) + exponent
     if not number:
         return ZERO
     parts = [base if e == 1 else power(base, num(e)) for base, e in powers.items() if e]

@@ -16,7 +16,7 @@ from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import is_zero, zero_and_verdict
+from dofkit.exact.zero.identity import is_proved_zero, zero_and_verdict
 from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -194,7 +194,7 @@ def _of_time_alone(e: Expr) -> bool:
 def _homogeneous(e: Expr, radial: Expr) -> bool:
     """Euler's relation ``radial`` = v . de/dv = k e for some k, which is read off at a random point."""
     degree = _ratio(radial, e)
-    return degree is not None and is_zero(radial - ex.num(degree) * e, frozenset())
+    return degree is not None and is_proved_zero(radial - ex.num(degree) * e, frozenset())
 
 
 def _ratio(a: Expr, b: Expr) -> Fraction | None:

@@ -79,9 +79,16 @@ def special_facts(
     geometry = Geometry(system, placement, tolerance)
     found: list[str] = []
     for members in sets:
-        own = [system.connections[i] for i in members]
-        found += _facts_of_set(geometry, own)
+        found += _of_texts(geometry, members)
+        found += _facts_of_set(geometry, [system.connections[i] for i in members])
     return list(dict.fromkeys(found)) or [_OTHERWISE]
+
+
+def _of_texts(g: Geometry, members: Sequence[int]) -> Iterator[str]:
+    """Equations among joints and links: general position leaves them as they are, and they cease to fit."""
+    texts = [g.names[i] for i in members if g.system.constraints[i].facts.written]
+    if texts and len(texts) < len(members):
+        yield f"what {_listed(texts)} say{'s' * (len(texts) == 1)} fits the others at the drawing only"
 
 
 def _facts_of_set(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
@@ -269,7 +276,10 @@ def _classes(lines: Sequence[DrawnLine], same: Callable[[DrawnLine, DrawnLine], 
 
 
 def _names_of(lines: Sequence[DrawnLine]) -> str:
-    names = list(dict.fromkeys(line.name for line in lines))
+    return _listed(list(dict.fromkeys(line.name for line in lines)))
+
+
+def _listed(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 

@@ -307,6 +307,10 @@ def accompanied(rng: random.Random, case: Case) -> Case | None:
         given = scene.get("configuration", {})
         changed["configuration"] = {**given, **{name: str(value) for name, value in place.items()}}
     added = {"dof": dof, "velocity_dof": velocities, "instantaneous_dof": velocities, "redundant_equations": extra}
+    if extra and truth.get("redundant_equations") == 0:
+        # A count that is never below 0 may stand for one that would be: at a singular drawing more freedom is lost
+        # than there are rows.
+        del truth["redundant_equations"]
     if truth.get("consistent") is not False:
         truth = {key: value + added[key] if key in added else value for key, value in truth.items()}
         if "redundant" in truth and extra:

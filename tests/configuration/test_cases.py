@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dofkit
 from dofkit.configuration.cases import MAX_NODES, _linear
 from dofkit.configuration.local.initial_forms import InitialForms, have_no_common_zero
 from dofkit.expressions.text import Names, parse_expression
@@ -22,3 +23,18 @@ def test_a_coordinate_is_not_put_into_a_long_relation() -> None:
 
 def test_no_forms_at_all_are_no_forms_without_a_common_zero() -> None:
     assert not have_no_common_zero(InitialForms([[1, 0], [0, 1]], [], {}))
+
+
+def test_a_case_is_a_part_of_the_set_and_says_nothing_of_what_passes_through_its_point() -> None:
+    """x = 5, e = 0 and y = 0 leave u, v, w free. The case w = -26 of y (w + y^2 + 26) = 0 is a part of that."""
+    scene = {
+        "coordinates": ["x", "e", "y", "u1", "v1", "w1"],
+        "constraints": [
+            "y*(y^2 + x^2 + 1) = e",
+            "(sqrt(1 + (x - 5)) - 1)*v1 = y*w1 + e",
+            "(x - 5)^4 + e^6 + (e - x + 5)^2 = 0",
+            "(sqrt(1 + (x - 5)) - 1)*u1 = y*v1",
+        ],
+    }
+    report = dofkit.classify(scene)
+    assert report.dof in (None, 3)

@@ -62,3 +62,21 @@ def test_the_logarithm_of_a_product_of_powers_is_the_sum_of_the_arguments() -> N
             == sum((nmod(u, p) * k for u, k in zip(args, powers, strict=True)), nmod(0, p)) / root
         )
         assert exp.argument_of(value * 12345) is None
+
+
+@pytest.mark.parametrize("power", [-512, -511, -23, -1, 1, 2, 22, 23, 45, 68, 300, 512])
+def test_a_large_power_of_one_value(power: int) -> None:
+    """Small steps and large ones reach every power: 512 = 11 * 45 + 17."""
+    p = 2**61 - 1
+    exp = Character(p, {5: nmod(1234567, p)})
+    assert exp.argument_of(nmod(1234567, p) ** power) == 5 * power
+
+
+@pytest.mark.parametrize("powers", [(16, -16, 16), (-16, 5, 4), (0, 0, 13), (3, -2, -16)])
+def test_powers_of_three_values(powers: tuple[int, ...]) -> None:
+    p = 2**61 - 1
+    known = {3: nmod(987654321, p), 10: nmod(1111111, p), 77: nmod(424242, p)}
+    value, argument = nmod(1, p), 0
+    for (u, v), k in zip(known.items(), powers, strict=True):
+        value, argument = value * v**k, argument + u * k
+    assert Character(p, known).argument_of(value) == argument % p

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -10,7 +11,9 @@ import dofkit
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import identity
 from dofkit.exact.zero.constants import proved_zero
-from dofkit.exact.zero.independence import doubt
+from dofkit.exact.zero.identity import is_proved_zero, zero_and_verdict
+from dofkit.exact.zero.independence import doubt, independent_generators
+from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import coordinate
 
@@ -74,3 +77,43 @@ def test_roots_of_coprime_arguments_are_independent(texts: list[str], independen
     ring = Ring(relations)
     assert all(ring.node(e) is not None for e in relations)
     assert doubt(ring) == (None if independent else "functions")
+
+
+X = ex.coordinate("x")
+
+
+@pytest.mark.parametrize(
+    ("e", "independent"),
+    [
+        (ex.fn("exp", ex.num(1000)), True),  # one transcendental constant [Lindemann1882]
+        (ex.E, True),
+        (ex.fn("tanh", ex.num(1000)), True),
+        (ex.fn("exp", ex.num(Fraction(1, 3))) + ex.E, True),  # powers of e^(1/3)
+        (ex.fn("exp", ex.num(1000)) + ex.E, False),  # one is the other's 1000th power, which the ring does not know
+        (ex.fn("exp", X) + ex.fn("exp", X * 1000), False),
+        (ex.fn("exp", X * 1000), True),
+        (ex.fn("cos", ex.num(1)), True),
+        (ex.fn("cos", ex.num(1)) + ex.E, False),  # true by Lindemann and Weierstrass, but not looked at
+        (ex.PI, True),
+        (ex.PI + ex.E, False),  # nobody knows
+        (ex.fn("cos", ex.PI * Fraction(1, 7)), False),  # algebraic
+        (ex.fn("exp", X + 1), True),
+        (ex.fn("exp", ex.PI), False),
+        (ex.fn("exp", ex.sqrt(ex.num(2))), False),
+    ],
+)
+def test_one_transcendental_constant_is_independent(e: ex.Expr, independent: bool) -> None:
+    ring = Ring([e])
+    ring.node(e)
+    assert independent_generators(ring) is independent
+
+
+def test_a_number_that_no_ball_tells_from_0_is_no_identity() -> None:
+    """1 - tanh(1000) is 2/(e^2000 + 1): x + abs(x) is it nowhere, its negative at one place each side."""
+    tiny = ex.ONE - ex.fn("tanh", ex.num(1000))
+    assert zero_and_verdict(tiny, frozenset()) == (False, "proved")
+    hidden = tiny + ex.fn("asin", ex.num(Fraction(1, 3))) - ex.fn("asin", ex.num(Fraction(1, 3)))
+    assert not is_proved_zero(hidden, frozenset())
+    for text in ("x + abs(x) + 1 - tanh(1000) = 0", "x + abs(x) = 1 - tanh(1000)"):
+        report = dofkit.classify({"coordinates": ["x", "y"], "constraints": [text]})
+        assert report.dof is None or report.dof == 1

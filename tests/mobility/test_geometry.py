@@ -136,6 +136,29 @@ def test_general_position_beside_the_drawing(name: str, dof: int, redundant: int
         assert why in found.differs
 
 
+@pytest.mark.parametrize("bodies", [("ground", "A"), ("A", "B")])
+def test_two_slides_in_one_direction(bodies: tuple[str, str]) -> None:
+    """They say the same of the drawing; in general position each keeps two of three freedoms away."""
+    slide = {"type": "prismatic", "between": list(bodies), "axis": [1, 0]}
+    scene = {"dimension": 2, "bodies": [b for b in bodies if b != "ground"], "constraints": [slide, slide]}
+    report = dofkit.classify(dofkit.load(scene))
+    assert report.generic is not None
+    assert report.generic.differs is not None
+    assert report.generic.differs.endswith("; c1 and c2 slide in parallel directions")
+
+
+def test_an_equation_that_repeats_a_link_fits_at_the_drawing_only() -> None:
+    scene = {
+        "dimension": 2,
+        "particles": [{"name": "P", "at": [3, 4]}],
+        "constraints": [{"type": "link", "between": [[0, 0], "P"]}, "x_P^2 + y_P^2 = 25"],
+    }
+    report = dofkit.classify(dofkit.load(scene))
+    assert report.generic is not None
+    assert report.generic.differs is not None
+    assert report.generic.differs.endswith("; what c2 says fits the others at the drawing only")
+
+
 def test_points_in_one_plane_of_space() -> None:
     """A joint held by three links to the ground in one plane can move across it, to first order."""
     scene = {

@@ -263,3 +263,18 @@ def test_what_was_done_is_said() -> None:
     assert "it has no real value anywhere" in said("sqrt(-1 - x^2) y = 0")
     assert "solved for that" in said("exp(xdot) = 2")
     assert "infinitely many" in said("sin(xdot) = 0")
+
+
+@pytest.mark.parametrize(
+    ("text", "dof", "extra"),
+    [
+        ("sqrt(x^2 + 2 x y + y^2) = x + y", 2, 1),  # |x + y| = x + y, on a half plane
+        ("sqrt(x^2 - 2 x + 1) + x = 1", 2, 1),  # x <= 1
+        ("sqrt(x^2 - 2 x + 1)^3 = (x - 1)^3", 2, 1),  # x >= 1
+        ("sqrt(x^2 + 2 x y + y^2) = x + y + 1", 1, 0),  # x + y = -1/2
+        ("sqrt(x^2 + 2 x y + 2 y^2) = x + y", 1, 0),  # no square: y = 0, x >= 0
+    ],
+)
+def test_a_root_of_a_square_that_is_written_out_is_an_absolute_value(text: str, dof: int, extra: int) -> None:
+    report = dofkit.classify({"coordinates": ["x", "y"], "constraints": [text]})
+    assert (report.dof, report.redundant_equations, report.redundant) == (dof, extra, [])

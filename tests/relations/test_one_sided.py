@@ -23,7 +23,8 @@ def classified(*texts: str) -> Report:
 @pytest.mark.parametrize(
     "text",
     ["sin(x) >= 2", "x^2 + x + 1 <= 0", "abs(x) < 0", "exp(x) <= 0", "cos(x) > 1", "x^2 + y^2 < 0", "1/x^2 < 0",
-     "x < x", "xdot^2 < 0", "sin(x) + cos(x) >= 1.4143", "2 x^2 + 2 x y + y^2 + 1 <= 0"],
+     "x < x", "xdot^2 < 0", "sin(x) + cos(x) >= 1.4143", "2 x^2 + 2 x y + y^2 + 1 <= 0", "1 - tanh(x) <= 0",
+     "tanh(x) <= -1"],
 )  # fmt: skip
 def test_what_holds_nowhere_is_inconsistent(text: str) -> None:
     report = classified(text)

@@ -10,7 +10,7 @@ from itertools import product as cartesian
 from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero.identity import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
@@ -65,7 +65,7 @@ def _by_signs(e: Expr, arguments: Sequence[Expr], positive: frozenset[Expr]) -> 
     found: list[tuple[Piece, ...]] = []
     for signed, conditions in by_signs(e, arguments, positive):
         moving = frozenset(s for s in signed.symbols if s.args[0] in ("coordinate", "time"))
-        zeros = ((),) if is_zero(signed, positive) else zero_set(signed, positive, moving)[0]
+        zeros = ((),) if is_proved_zero(signed, positive) else zero_set(signed, positive, moving)[0]
         found += [(*map(Finite, conjunction), *conditions) for conjunction in zeros]
     return found
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import combinations
-from math import gcd, lcm, prod
+from math import gcd, isqrt, lcm, prod
 from typing import Any
 
 from flint import fmpz_mat, nmod, nmod_poly
@@ -22,6 +22,8 @@ MOST_REDUCED = 7
 SURENESS = 30
 #: Up to which powers products of one, two, three ... values are looked through, and up to which root of them.
 POWERS, MOST_ROOTS = (512, 512, 16, 16, 5, 5, 2, 2, 1, 1, 1, 1), 4
+#: Powers up to this one are looked through first.
+SMALL = 2
 #: A number that all of these roots divide.
 ROOTS = lcm(*range(1, MOST_ROOTS + 1))
 #: Roots are taken up to this degree.
@@ -66,25 +68,43 @@ class Character:
     def argument_of(self, value: Any) -> Any | None:
         """u where ``value`` is exp(u): a root of a product of powers of known values; None where none was found.
 
-        The products of one half of the values are listed, and those of the other half looked up among them.
+        The products of one half of the values are listed, and those of the other half looked up among them. Of an odd
+        number the last is divided between both: its powers are those of small steps and of large ones.
         """
-        known = [(nmod(u, self.p), v) for u, v in self.values.items()][: len(POWERS)]
-        half = (len(known) + 1) // 2
-        most = POWERS[max(len(known), 1) - 1]
-        listed, sought = self._products(known[:half], most), self._products(known[half:], most)
-        for root in range(1, MOST_ROOTS + 1):
-            wanted = value**root
-            for product, u in sought.items():
-                if wanted * product in listed:
-                    return (listed[wanted * product] - u) / root
+        known = [(u, int(v)) for u, v in self.values.items()][: len(POWERS)]
+        largest = POWERS[max(len(known), 1) - 1]
+        for most in sorted({min(SMALL, largest), largest}):
+            found = self._root_of_product(int(value), known, most)
+            if found is not None or not known:
+                return found
         return None
 
-    def _products(self, known: Sequence[tuple[Any, Any]], most: int) -> dict[Any, Any]:
-        """Products of powers of known values, each with its argument."""
-        found = {nmod(1, self.p): nmod(0, self.p)}
-        for u, v in known:
-            powers = [(k * u, v**k) for k in range(-most, most + 1)]
-            found = {w * power: at + times for w, at in found.items() for times, power in powers}
+    def _root_of_product(self, value: int, known: Sequence[tuple[int, int]], most: int) -> Any | None:
+        """The same with powers up to ``most``."""
+        low, step = isqrt(most), 2 * isqrt(most) + 1
+        steps = [(u, v, most) for u, v in known]
+        if len(known) % 2:
+            u, v, _ = steps.pop()
+            steps = [(u, v, low), *steps, (step * u, pow(v, step, self.p), (most + low) // step)]
+        half = len(steps) // 2
+        listed, sought = self._products(steps[:half]), self._products(steps[half:])
+        for root in range(1, MOST_ROOTS + 1):
+            wanted = pow(value, root, self.p)
+            for product, u in sought.items():
+                at = listed.get(wanted * product % self.p)
+                if at is not None:
+                    return nmod(at - u, self.p) / root
+        return None
+
+    def _products(self, steps: Sequence[tuple[int, int, int]]) -> dict[int, int]:
+        """Products of powers, each with its argument: of every (u, exp(u)) from minus to plus so many times."""
+        found = {1: 0}
+        for u, v, most in steps:
+            powers, power = [], pow(v, -most, self.p)
+            for k in range(-most, most + 1):
+                powers.append((k * u, power))
+                power = power * v % self.p
+            found = {w * power % self.p: at + times for w, at in found.items() for times, power in powers}
         return found
 
     def _related(self, u: int) -> Any | None:

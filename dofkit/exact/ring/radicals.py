@@ -44,7 +44,7 @@ def _root_of_sum(ring: Builder, radicand: Expr, degree: int) -> int:
     undone = _undone(radicand, degree)
     if undone is not None:
         return ring.node(undone)
-    base = _square_root(ring, radicand) if degree == 2 else None
+    base = square_root(ring, radicand) if degree == 2 else None
     if base is not None:
         return ring.product(sign(ring, base), ring.node(base))
     return _new_root(ring, (sorted_sum(radicand), degree), radicand, ring.node(radicand))
@@ -234,7 +234,7 @@ def _rational_zeros(coefficients: list[Fraction]) -> list[Fraction]:
 # -- squares of sums -------------------------------------------------------------------------------
 
 
-def _square_root(ring: Builder, radicand: Expr) -> Expr | None:
+def square_root(ring: Builder, radicand: Expr) -> Expr | None:
     """f where the radicand is f^2: a polynomial in symbols and functions, in the square roots of positive symbols."""
     terms = linear_terms(radicand)
     if not 3 <= len(terms) <= MAX_SQUARE:

@@ -70,7 +70,7 @@ class Ring(Instructions):
         alias: Mapping[Expr, Expr] | None = None,
     ) -> None:
         super().__init__()
-        self.related = False
+        self._bases: dict[Expr, Expr] = {}
         self.positive = positive
         self.alias = alias or {}
         given = [e for e in expressions if _has_functions(e)]
@@ -140,6 +140,19 @@ class Ring(Instructions):
             return self.product(self.total(up, minus), self.power_node(self.total(up, down), -1))
         return self.product(self.number(Fraction(1, 2)), self.total(up, down if name == "cosh" else minus))
 
+    @property
+    def related(self) -> bool:
+        """Are there functions of one argument and of so large a multiple of it that neither is told by the other?"""
+        found = {(v.kind, v.key[0]) for v in self.vars if v.kind in ("exp", "cos")}
+        bases = [(kind, self._bases.get(rest, rest)) for kind, rest in found]
+        return len(set(bases)) < len(bases)
+
+    def _large_multiple(self, rest: Expr, size: Fraction) -> Expr:
+        """A multiple that is an argument of its own."""
+        multiple = Expr("mul", (ex.num(size), rest))
+        self._bases[multiple] = rest
+        return multiple
+
     def _exp(self, u: Expr) -> int:
         """exp of a sum as the product of powers of the basic exponentials; exp(r log x) = x^r."""
         u = over_primes(substitute(u, self.alias))
@@ -150,9 +163,7 @@ class Ring(Instructions):
                 continue
             denominator = self._denominators.get(("exp", rest), factor.denominator)
             if abs(factor * denominator) > MAX_MULTIPLE:
-                self.related = True
-                size = abs(factor)
-                rest, factor, denominator = Expr("mul", (ex.num(size), rest)), factor / size, 1
+                rest, factor, denominator = self._large_multiple(rest, abs(factor)), factor / abs(factor), 1
             basic = ex.num(Fraction(1, denominator)) * rest
             generator = self.generator("exp", (rest, denominator), Expr("fn", ("exp", basic)), (self.node(basic),))
             parts.append(self.power_node(generator, int(factor * denominator)))
@@ -174,9 +185,7 @@ class Ring(Instructions):
     def _basic_angle(self, rest: Expr, factor: Fraction) -> tuple[int, int, int]:
         denominator = self._denominators.get(("cis", rest), factor.denominator)
         if abs(factor * denominator) > MAX_MULTIPLE:
-            self.related = True
-            size = abs(factor)
-            rest, factor, denominator = Expr("mul", (ex.num(size), rest)), factor / size, 1
+            rest, factor, denominator = self._large_multiple(rest, abs(factor)), factor / abs(factor), 1
         if denominator == 1 and rest.op == "fn" and rest.args[0] in ("asin", "acos", "atan", "atan2"):
             return (*of_inverse(self, rest), int(factor))
         basic = ex.num(Fraction(1, denominator)) * rest

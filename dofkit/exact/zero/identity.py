@@ -29,6 +29,11 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
     return bool(zero_and_verdict(e, positive)[0])
 
 
+def is_proved_zero(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Is the expression proved to be zero identically?"""
+    return zero_and_verdict(e, positive) == (True, "proved")
+
+
 def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
     """(zero?, how sure); None only where one engine alone cannot tell.
 

@@ -35,21 +35,38 @@ def independent_generators(ring: Ring) -> bool:
     """True where the generators are algebraically independent up to the relations that the ring knows.
 
     Symbols, sines, cosines and exponentials of different terms are [Ax1971], and so are unknown functions, square
-    roots of different primes and one root of what is linear in a symbol, so no power itself. False says that a
-    relation may have been missed: other roots, inverse functions, logarithms, transcendental constants.
+    roots of different primes and one root of what is linear in a symbol, so no power itself, and one transcendental
+    constant. False says that a relation may have been missed: other roots, inverse functions, logarithms, constants.
     """
     roots = 0
     for var in ring.vars:
-        if var.kind in (*INVERSE, "log", "sign", "pi"):
+        if var.kind in (*INVERSE, "log", "sign"):
             return False
-        constant = not ring.var_expr[var.index].symbols
         if _root_of_more(var):
             roots += 1
             if not _linear_somewhere(ring.var_expr[var.index].args[0]):
                 return False
-        elif constant and var.kind in ("cos", "sin", "exp") and var.key[0] != ex.PI:
-            return False
-    return roots < 2 and not ring.related and all(_independent_arguments(ring, kind) for kind in ("cos", "exp"))
+    independent = all(_independent_arguments(ring, kind) for kind in ("cos", "exp"))
+    return roots < 2 and not ring.related and independent and _one_constant(ring)
+
+
+def _one_constant(ring: Ring) -> bool:
+    """Is there at most one transcendental constant: pi, or the exponential or angle of one rational number?
+
+    These are transcendental [Lindemann1882]; of two of them it is not known, or they are related as e and e^1000 are.
+    """
+    constants = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
+    found = {
+        ("pi", ex.PI) if v.kind == "pi" else (v.kind.replace("sin", "cos"), v.key[0])
+        for v in constants
+        if v.kind in ("pi", "cos", "sin", "exp")
+    }
+    return len(found) < 2 and all(kind == "pi" or _is_rational(e) for kind, e in found)
+
+
+def _is_rational(e: Expr) -> bool:
+    """A product of numbers that are not 0, as written."""
+    return all(part.op == "num" and not part.is_zero for part in (e.args if e.op == "mul" else (e,)))
 
 
 def independent_on_set(ring: Ring, relations: Sequence[object]) -> bool:

@@ -15,7 +15,7 @@ from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon, lowest_terms
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
@@ -131,4 +131,4 @@ def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
     value = values(ring, point)[node]
     if not value.contains(0):
         return 1 if value > 0 else -1
-    return 0 if zero_and_verdict(e, positive)[0] else None
+    return 0 if is_proved_zero(e, positive) else None

@@ -14,7 +14,7 @@ from fractions import Fraction
 from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero.identity import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
@@ -24,7 +24,14 @@ from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
 from dofkit.relations.normal.quadratics import split_power, split_quadratic
-from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs, holds_on_a_region, squared
+from dofkit.relations.normal.signs import (
+    MAX_ARGUMENTS,
+    arguments_of,
+    by_signs,
+    holds_on_a_region,
+    squared,
+    with_absolute_values,
+)
 from dofkit.relations.normal.velocity_roots import in_one_rate, velocity_branches
 from dofkit.relations.normal.zero_set import zero_set
 
@@ -178,8 +185,9 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     if not written:
         return Normal(((Finite(e),),))
-    if holds_on_a_region(e, positive):
-        return _by_signs(e, positive)
+    folded = with_absolute_values(e, positive)
+    if holds_on_a_region(folded, positive):
+        return _by_signs(folded, positive)
     branches, notes = zero_set(e, positive, _moving(e))
     if branches == ((e,),):
         return _squared(e, positive)
@@ -207,7 +215,7 @@ def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
     always = conditions_of(e, positive)
     regions, others = list[tuple[DomainCondition, ...]](), list[tuple[Conjunction, tuple[DomainCondition, ...]]]()
     for signed, conditions in by_signs(e, arguments_of(e), positive):
-        if is_zero(signed, positive):
+        if is_proved_zero(signed, positive):
             regions.append(conditions)
         else:
             others += [(g, conditions) for g in zero_set(signed, positive, _moving(signed))[0]]

@@ -14,7 +14,7 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
@@ -78,7 +78,7 @@ def _holds_at(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
         value = interval_of(there)
         if value is None:
             return False
-        return bool(value > 0) or (not strict and is_zero(there, frozenset()))
+        return bool(value > 0) or (not strict and is_proved_zero(there, frozenset()))
     except (NoValueError, ArithmeticError, ValueError):
         return False
 

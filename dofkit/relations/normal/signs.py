@@ -11,8 +11,9 @@ from typing import Any
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.radicals import square_root
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
@@ -30,12 +31,36 @@ def arguments_of(e: Expr) -> list[Expr]:
     return list(dict.fromkeys(found))
 
 
+def with_absolute_values(e: Expr, positive: frozenset[Expr]) -> Expr:
+    """``e`` with roots of squares that are written out as absolute values: sqrt(x^2 + 2 x y + y^2) is abs(x + y)."""
+    if not any(_root_of_sum(node) for node in ex.nodes(e)):
+        return e
+    ring = Ring((), positive)
+
+    def folded(node: Expr) -> Expr:
+        parts = ex.children(node)
+        base = square_root(ring, node.args[0]) if _root_of_sum(node) else None
+        if base is not None:
+            return ex.power(ex.fn("abs", base), ex.num(2 * node.args[1].args[0]))
+        return ex.rebuild(node, tuple(map(folded, parts))) if parts else node
+
+    return folded(e)
+
+
+def _root_of_sum(node: Expr) -> bool:
+    return node.op == "pow" and node.args[0].op == "add" and _is_half(node.args[1])
+
+
+def _is_half(exponent: Expr) -> bool:
+    return exponent.op == "num" and exponent.args[0].denominator == 2
+
+
 def holds_on_a_region(e: Expr, positive: frozenset[Expr]) -> bool:
     """Is ``e`` identically 0 for some signs of the arguments of its absolute values (x + abs(x) for x <= 0)?"""
     arguments = arguments_of(e)
     if not arguments or len(arguments) > MAX_ARGUMENTS:
         return False
-    return any(is_zero(signed, positive) for signed, _ in by_signs(e, arguments, positive))
+    return any(is_proved_zero(signed, positive) for signed, _ in by_signs(e, arguments, positive))
 
 
 def by_signs(
@@ -83,7 +108,7 @@ def _lowered(exponents: Sequence[int], place: int) -> tuple[int, ...]:
 
 def _root_of_square(node: Expr) -> bool:
     """sqrt(u^2) and the like."""
-    if node.op != "pow" or node.args[1].op != "num" or node.args[1].args[0].denominator != 2:
+    if node.op != "pow" or not _is_half(node.args[1]):
         return False
     inner = node.args[0]
     return bool(inner.op == "pow" and inner.args[1].op == "num" and inner.args[1].args[0] == 2)

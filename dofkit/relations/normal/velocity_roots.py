@@ -15,7 +15,7 @@ from fractions import Fraction
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
@@ -86,7 +86,7 @@ def _in_one_rate(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, Expr] | None
         own = _coefficients(part)
         if set(own) != set(first):
             return None
-        if any(not is_zero(own[s] * first[v] - own[v] * c, positive) for s, c in first.items()):
+        if any(not is_proved_zero(own[s] * first[v] - own[v] * c, positive) for s, c in first.items()):
             return None
         mapping[part] = own[v] * RATE + substitute(part, dict.fromkeys(rates(part), ex.ZERO))
     return _replaced(e, mapping), combination
