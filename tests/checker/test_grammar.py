@@ -6,6 +6,7 @@ import random
 from fractions import Fraction
 
 import pytest
+from checker.values import of_engine, of_tree
 
 from dofkit.base.errors import TextError
 from dofkit.checker.derivatives import derivative, symbols_in
@@ -16,7 +17,6 @@ from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, p
 from dofkit.checker.words import EULER, PI, KnownNames
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import num, parameter
-from tests.checker.values import of_engine, of_tree
 
 FUNCTIONS_OF_ONE = [name for name in HEADS if name != "atan2"]
 COORDINATES = frozenset({"x", "y", "theta", "phi", "s", "x_A", "x1"})

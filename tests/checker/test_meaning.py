@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from checker.values import of_engine, of_tree, rows_of_engine, rows_of_trees
+from shared.known_scenes import SCENES, few, scene_of, stem
 
 from dofkit.checker.derivatives import symbols_in
 from dofkit.checker.problem import Problem, document_of, read_problem
@@ -17,8 +19,6 @@ from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.tree import Expr, coordinate, parameter, sym, velocity
 from dofkit.scene.lowering import lower
 from dofkit.system import Constraint, System
-from tests.checker.values import of_engine, of_tree, rows_of_engine, rows_of_trees
-from shared.known_scenes import SCENES, few, scene_of, stem
 
 #: Scenes that the checker does not read, and why.
 UNREAD: dict[str, str] = {}

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from checker.values import of_tree, rows_of_trees
+from shared.known_scenes import SCENES, few, scene_of, stem
 
 import dofkit
 from dofkit.checker.document import canonical, document_of, exact_document, sha256_of
@@ -19,8 +21,6 @@ from dofkit.checker.grammar import parse
 from dofkit.checker.problem import Problem, read_problem
 from dofkit.checker.trees import number
 from dofkit.checker.words import KnownNames
-from tests.checker.values import of_tree, rows_of_trees
-from shared.known_scenes import SCENES, few, scene_of, stem
 
 
 def read(text: str, *cayley: str) -> Problem:

@@ -18,8 +18,8 @@ from dofkit.configuration.local.criteria import CRITERIA
 
 PACKAGE = Path(dofkit.__file__).parent
 TABLE = PACKAGE / "THEOREMS.md"
-#: A key in a comment or a docstring: a name in brackets that is no subscript.
-KEY = re.compile(r"(?<![\w\]])\[([A-Z][A-Za-z]+\d{0,4})\]")
+#: A key in a comment or a docstring: a name in brackets that is no subscript, and no word in capitals for a field.
+KEY = re.compile(r"(?<![\w\]])\[([A-Z][A-Za-z]+\d{1,4}|[A-Z]+[a-z][A-Za-z]*)\]")
 ROW = re.compile(r"^\| `(\w+)` \| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]*) ?\|$", re.MULTILINE)
 
 

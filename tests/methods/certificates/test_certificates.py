@@ -6,13 +6,13 @@ import json
 from typing import Any
 
 import pytest
+from shared.known_scenes import CATALOG, few, report_of, scene_of
 
 import dofkit
 from dofkit.checker import verify
 from dofkit.methods.certificates.certificate import made
 from dofkit.methods.certificates.lowering import document_of_scene, with_certificate
 from dofkit.report import Report
-from tests.shared.known_scenes import CATALOG, few, report_of, scene_of
 
 FOUR_BAR = "four-bar-linkage"
 SKATE = {"name": "skate", "coordinates": ["x", "y", "theta"], "constraints": ["sin(theta) dx - cos(theta) dy = 0"]}
