@@ -288,7 +288,7 @@ def turned_by_angles(phi: float, theta: float, psi: float) -> np.ndarray[Any, An
     return about_z(phi) @ about_x @ about_z(psi)
 
 
-@pytest.mark.parametrize("path", few("charts", SPATIAL, 6), ids=stem)
+@pytest.mark.parametrize("path", few("charts", SPATIAL, 12), ids=stem)
 def test_both_charts_of_a_body_say_the_same(path: Path) -> None:
     """Constraint by constraint: zeros of the Cayley reading are zeros of the one in angles, with as many directions.
 
