@@ -101,7 +101,7 @@ def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset
 def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, tuple[str, ...], dict[str, Tree]]:
     """The names, points and bodies of a scene; its coordinates; the values that its configuration gives."""
     d = scene.get("dimension", 3)
-    refuse(d not in ROLES, "a world has 1, 2 or 3 dimensions")
+    refuse(type(d) is not int or d not in ROLES, "a world has 1, 2 or 3 dimensions")
     world = Surroundings(d, {"ground": ground(d)})
     particles, bodies = _owners(scene, "particles", ROLES[d][:d]), _owners(scene, "bodies", ROLES[d])
     refuse(not cayley <= bodies.keys() or (cayley and d != 3), "Cayley parameters are of bodies of space")
