@@ -120,7 +120,9 @@ def canonical(document: Mapping[str, Any]) -> dict[str, Any]:
 
 def _canonical(value: Any, key: str) -> Any:
     if key == "parameters" and isinstance(value, (str, list)):
-        value = dict.fromkeys([value] if isinstance(value, str) else value)
+        names = [value] if isinstance(value, str) else value
+        refuse(not all(isinstance(name, str) for name in names), "a parameter's name is a text")
+        value = dict.fromkeys(names)
     if isinstance(value, dict) and key == "parameters":
         return {name: "real" if given is None else value_text(given) for name, given in value.items()}
     if isinstance(value, dict):
