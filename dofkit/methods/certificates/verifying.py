@@ -13,7 +13,8 @@ from dofkit.checker import Verification
 from dofkit.checker import verify as rechecked
 from dofkit.checker.document import exact_document
 from dofkit.methods.certificates.lowering import document_of_scene
-from dofkit.scene.reading import SceneLike, find
+from dofkit.scene.found_files import find
+from dofkit.scene.reading import SceneLike
 from dofkit.scene.scene import Scene
 
 Given = Mapping[str, Any] | str | bytes | os.PathLike[str]
