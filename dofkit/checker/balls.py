@@ -11,10 +11,8 @@ from typing import Any
 from flint import arb, arb_mat, ctx, fmpq
 
 from dofkit.checker.derivatives import derivative, rebuilt, substituted, symbols_in
-from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.ring import repeated
-from dofkit.checker.trees import ONE, Tree
+from dofkit.checker.trees import ONE, CheckError, Effort, Tree, refuse
 
 #: Bits of every ball.
 PRECISION = 320

@@ -6,8 +6,7 @@ from collections.abc import Callable, Collection, Mapping
 from fractions import Fraction
 from typing import TypeVar
 
-from dofkit.checker.errors import refuse
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, difference, negative, number, power, symbol, times
+from dofkit.checker.trees import ONE, ZERO, Tree, add, call, difference, negative, number, power, refuse, symbol, times
 
 TIME_RATE = "tdot"
 TWO = number(2)

@@ -11,10 +11,10 @@ from flint import fmpq, fmpq_mat
 
 from dofkit.checker.balls import CheckedPoint, excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.errors import refuse
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import Told, admissible, family, independent, involutive, of_word, span
 from dofkit.checker.texts import heads_in
+from dofkit.checker.trees import refuse
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:

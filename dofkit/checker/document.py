@@ -18,7 +18,7 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent, MappingEndEvent, ScalarEvent
 
-from dofkit.checker.errors import CheckError, refuse
+from dofkit.checker.trees import CheckError, refuse
 from dofkit.checker.words import decimal_value
 
 MOST_CHARACTERS, MOST_BITS, DEEPEST = 2_000_000, 4000, 40

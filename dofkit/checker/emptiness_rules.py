@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from dofkit.checker.balls import CheckedPoint
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.dimension_rules import names_told
-from dofkit.checker.errors import refuse
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import Told
-from dofkit.checker.trees import ONE, ZERO, add, times
+from dofkit.checker.trees import ONE, ZERO, add, refuse, times
 
 
 def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:

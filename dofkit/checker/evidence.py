@@ -8,9 +8,8 @@ from typing import Any, NamedTuple
 
 from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, krawczyk, regular
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
-from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.relations import FAULTS, CheckedRelations, told, total_derivative
-from dofkit.checker.trees import ONE, ZERO, Tree, symbol
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
 
 __all__ = ["FAULTS", "CheckedEvidence", "CheckedMinor", "told"]
 

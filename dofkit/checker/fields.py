@@ -11,11 +11,10 @@ from typing import Any
 
 from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, regular
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
-from dofkit.checker.errors import refuse
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.relations import Consequence
 from dofkit.checker.texts import nodes_of
-from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, symbol, times
+from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse, symbol, times
 
 LARGEST_CRAMER, LONGEST_WORD, MOST_FIELDS, LARGEST_FIELD = 5, 12, 40, 20_000
 VelocityField = dict[str, Tree]

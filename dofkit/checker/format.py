@@ -168,7 +168,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from dofkit.checker.errors import CheckError, refuse
+from dofkit.checker.trees import CheckError, refuse
 
 LARGEST_TEXT, MOST_ENTRIES = 20_000_000, 20_000
 PARTS = ("relations", "points", "minors", "fields", "covers")

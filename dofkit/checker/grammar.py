@@ -9,8 +9,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.checker.derivatives import derivative, folded, over_time, symbols_in
-from dofkit.checker.errors import refuse
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
+from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
 from dofkit.checker.words import EULER, MOST_ORDERS, KnownNames, Lexeme, tokens_of
 
 DEEPEST, LARGEST_EXPONENT, MOST_BITS = 60, 64, 8192

@@ -8,11 +8,10 @@ from typing import Any
 from dofkit.checker.balls import CheckedPoint, excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.dimension_rules import told_integral
-from dofkit.checker.errors import refuse
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import Told, admissible, involutive, of_word
 from dofkit.checker.relations import total_derivative
-from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, symbol, times
+from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse, symbol, times
 
 Form = dict[str, Tree]
 

@@ -16,11 +16,10 @@ from typing import Any, Literal
 from dofkit.checker.constraints import TYPES
 from dofkit.checker.derivatives import TIME_RATE, symbols_in
 from dofkit.checker.document import canonical, document_of
-from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
 from dofkit.checker.grammar import Sided
 from dofkit.checker.surroundings import Entry, Surroundings, known_fields
-from dofkit.checker.trees import ONE, ZERO, Tree, symbol
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
 from dofkit.checker.words import BUILT_IN, KnownNames, spelled_out
 
 __all__ = ["CheckedRelation", "Problem", "document_of", "read_problem"]

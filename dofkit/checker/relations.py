@@ -16,11 +16,9 @@ from flint import arb
 
 from dofkit.checker.balls import CheckedPoint, excludes_zero
 from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.problem import Problem
 from dofkit.checker.texts import CheckedTexts
-from dofkit.checker.trees import Tree, add, number, power, symbol, times
+from dofkit.checker.trees import CheckError, Effort, Tree, add, number, power, refuse, symbol, times
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)

@@ -16,9 +16,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from flint import fmpq, fmpq_mpoly_ctx, fmpz
 
-from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.trees import Tree
+from dofkit.checker.trees import CheckError, Effort, Tree, refuse
 
 LARGEST_POWER, LARGEST_FORM, MOST_GENERATORS = 128, 60_000, 1000
 LARGEST_MULTIPLE, FINEST, MOST_KNOWN = 64, 24, 20_000

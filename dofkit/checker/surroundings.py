@@ -9,11 +9,9 @@ from typing import Any
 
 from dofkit.checker.balls import evaluated, excludes_zero
 from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.effort import Effort
-from dofkit.checker.errors import refuse
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector
 from dofkit.checker.grammar import Sided, parse, parse_relations
-from dofkit.checker.trees import ONE, ZERO, Tree, negative, symbol
+from dofkit.checker.trees import ONE, ZERO, Effort, Tree, negative, refuse, symbol
 from dofkit.checker.words import KnownNames
 
 Entry = Mapping[str, Any]

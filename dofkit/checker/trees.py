@@ -1,4 +1,4 @@
-"""Expression trees: what a text says, node by node, with exact numbers.
+"""Expression trees: what a text says, node by node, with exact numbers; what is refused, and what work may cost.
 
 Heads: ``number`` (``value`` a Fraction), ``symbol`` (``value`` its name), ``sum``, ``product``, ``power`` (base and
 exponent), the name of an elementary function (``sin``, ``atan2``, ...), and ``apply`` (``value`` the name of a declared
@@ -11,15 +11,35 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import prod
 
-from dofkit.checker.errors import refuse
-
-FUNCTIONS = (
-    *("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh"),
-    *("exp", "log", "sqrt", "abs"),
-)
+_NAMES = "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh exp log sqrt abs"
+FUNCTIONS = tuple(_NAMES.split())
 
 #: Nodes of a tree as it is written, and bits of a number.
 MOST_NODES, MOST_BITS = 50_000, 32_768
+#: Units of work of a whole certificate: about products of terms of polynomials, or nodes evaluated.
+MOST_WORK = 60_000_000
+
+
+class CheckError(ValueError):
+    """A text, a scene or a certificate that cannot be read: nothing about it is verified."""
+
+
+def refuse(when: object, why: str) -> None:
+    """`CheckError` where something is so that must not be."""
+    if when:
+        raise CheckError(why)
+
+
+class Effort:
+    """A purse of units of work, the same on every machine: who has spent them all is refused."""
+
+    def __init__(self, units: int = MOST_WORK) -> None:
+        self.left = units
+
+    def spend(self, units: int) -> None:
+        """Take units out of the purse."""
+        self.left -= units
+        refuse(self.left < 0, "the work that a certificate may cost is used up")
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,12 +54,10 @@ class Tree:
 
     def __post_init__(self) -> None:
         """Parts may be shared, so that a short text writes a huge tree, and a few products a huge number."""
-        size = 1 + sum(part.size for part in self.below)
-        refuse(size > MOST_NODES, f"an expression of more than {MOST_NODES} terms and factors is not read")
-        if isinstance(self.value, Fraction):
-            bits = max(self.value.numerator.bit_length(), self.value.denominator.bit_length())
-            refuse(bits > MOST_BITS, f"a number of more than {MOST_BITS} bits is not read")
-        object.__setattr__(self, "size", size)
+        object.__setattr__(self, "size", 1 + sum(part.size for part in self.below))
+        refuse(self.size > MOST_NODES, f"an expression of more than {MOST_NODES} terms and factors is not read")
+        parts = self.value.as_integer_ratio() if isinstance(self.value, Fraction) else ()
+        refuse(any(part.bit_length() > MOST_BITS for part in parts), f"a number of more than {MOST_BITS} bits")
 
 
 ZERO = Tree("number", (), Fraction(0))

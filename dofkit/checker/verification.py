@@ -11,13 +11,12 @@ from dofkit.checker import dimension_rules as numbers
 from dofkit.checker import emptiness_rules as emptiness
 from dofkit.checker import label_rules as labels
 from dofkit.checker.document import document_of, sha256_of
-from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import take_cover
 from dofkit.checker.format import PARTS, certificate_of
 from dofkit.checker.problem import Problem, read_problem
 from dofkit.checker.relations import FAULTS, told
+from dofkit.checker.trees import CheckError, Effort, refuse
 
 Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
 #: The rules: paths of the report (fields of an entry, without ``/``), names of rules, and what looks at them.

@@ -9,8 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
-from dofkit.checker.errors import CheckError, refuse
-from dofkit.checker.trees import FUNCTIONS, ONE, Tree, call, number, symbol
+from dofkit.checker.trees import FUNCTIONS, ONE, CheckError, Tree, call, number, refuse, symbol
 
 MOST_CHARACTERS, LONGEST_NAME = 20_000, 64
 #: Digits of a number and of all numbers of a text, powers of ten counted.

@@ -10,10 +10,9 @@ from checker.values import of_engine, of_tree
 
 from dofkit.base.errors import TextError
 from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.errors import CheckError
 from dofkit.checker.grammar import parse, parse_relations
 from dofkit.checker.trees import FUNCTIONS as HEADS
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, call, negative, number, power, symbol, times
 from dofkit.checker.words import EULER, PI, KnownNames
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import num, parameter

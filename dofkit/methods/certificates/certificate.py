@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from dofkit.checker.document import canonical, sha256_of
-from dofkit.checker.errors import CheckError
 from dofkit.checker.format import PARTS
 from dofkit.checker.problem import Problem, read_problem
+from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates import emptiness, forms, freedom, labels
 from dofkit.methods.certificates.estimates import NoEstimateError
 from dofkit.methods.certificates.room import Room, Told

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates.elimination import echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.found_points import FoundPoint

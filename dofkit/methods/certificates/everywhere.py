@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates.rigid_fields import backing
 from dofkit.methods.certificates.room import Room, Told
 

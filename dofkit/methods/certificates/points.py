@@ -6,7 +6,7 @@ import random
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
-from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates.elimination import least_step
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.found_points import FoundPoint

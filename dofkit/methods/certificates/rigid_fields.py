@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.errors import CheckError
 from dofkit.checker.fields import field_named, on_row
+from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates
 from dofkit.methods.certificates.room import Room, Standing, Told

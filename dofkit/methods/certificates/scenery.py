@@ -9,11 +9,9 @@ from typing import Any
 
 from dofkit.checker.balls import with_functions
 from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import Problem
-from dofkit.checker.trees import Tree
+from dofkit.checker.trees import CheckError, Effort, Tree
 
 #: Units of the checker's work that looking for the evidence of one scene may cost.
 WORK = 12_000_000
