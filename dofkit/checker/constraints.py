@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import combinations, pairwise
 from typing import NamedTuple
 
-from dofkit.checker.derivatives import TWO, in_velocities, substituted
+from dofkit.checker.derivatives import in_velocities, substituted
 from dofkit.checker.geometry import (
     CheckedFrame,
     MaterialPoint,
@@ -22,7 +22,7 @@ from dofkit.checker.geometry import (
 )
 from dofkit.checker.grammar import Sided, parse_relations
 from dofkit.checker.surroundings import Entry, Surroundings
-from dofkit.checker.trees import ZERO, Tree, add, call, difference, number, power, refuse, symbol, times
+from dofkit.checker.trees import TWO, ZERO, Tree, add, call, difference, number, power, refuse, symbol, times
 from dofkit.checker.words import PI
 
 Read = Callable[[Surroundings, Entry], Iterator[Tree | Sided]]

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
 from typing import TypeVar
 
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, difference, negative, number, power, refuse, symbol, times
+from dofkit.checker.trees import ONE, TWO, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
 
 TIME_RATE = "tdot"
-TWO = number(2)
 Made = TypeVar("Made")
+#: A choice for a declared function: its arguments, and a text of them.
+Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
 
 
 def symbols_in(tree: Tree) -> frozenset[str]:
@@ -39,23 +40,27 @@ def folded(tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made]) -> Made:
     return read(tree)
 
 
-def substituted(tree: Tree, values: Mapping[str, Tree]) -> Tree:
-    """A tree with trees in the place of symbols, all at once."""
+def substituted(tree: Tree, values: Mapping[str, Tree], functions: Choices | None = None) -> Tree:
+    """A tree with trees in the place of symbols, all at once, and texts in the place of declared functions."""
 
     def put_in(node: Tree, below: tuple[Tree, ...]) -> Tree:
-        if below:
-            return rebuilt(node, below)
-        return values.get(str(node.value), node) if node.head == "symbol" else node
+        if node.head == "apply" and functions and node.value in functions:
+            arguments, text = functions[str(node.value)]
+            return substituted(slope_of(text, arguments, node.orders), dict(zip(arguments, below, strict=True)))
+        if below == node.below:
+            return values.get(str(node.value), node) if node.head == "symbol" else node
+        makers: dict[str, Callable[..., Tree]] = {"sum": add, "product": times, "power": power}
+        return makers[node.head](*below) if node.head in makers else Tree(node.head, below, node.value, node.orders)
 
     return folded(tree, put_in)
 
 
-def rebuilt(node: Tree, below: tuple[Tree, ...]) -> Tree:
-    """The node with other parts below it."""
-    if below == node.below:
-        return node
-    makers: dict[str, Callable[..., Tree]] = {"sum": add, "product": times, "power": power}
-    return makers[node.head](*below) if node.head in makers else Tree(node.head, below, node.value, node.orders)
+def slope_of(text: Tree, arguments: Sequence[str], orders: Sequence[int]) -> Tree:
+    """A text differentiated so often by each of its arguments."""
+    for argument, order in zip(arguments, orders, strict=True):
+        for _ in range(order):
+            text = derivative(text, argument)
+    return text
 
 
 def derivative(tree: Tree, name: str) -> Tree:
@@ -64,45 +69,38 @@ def derivative(tree: Tree, name: str) -> Tree:
     def by(node: Tree, inner: tuple[Tree, ...]) -> Tree:
         if not inner:
             return ONE if node.head == "symbol" and node.value == name else ZERO
-        return ZERO if all(part == ZERO for part in inner) else _chain(node, inner)
+        return add(*(times(_partial(node, i), part) for i, part in enumerate(inner) if part != ZERO))
 
     return folded(tree, by)
 
 
-def _chain(node: Tree, inner: tuple[Tree, ...]) -> Tree:
-    """The chain rule at one node, whose parts have the derivatives ``inner``."""
-    below = node.below
-    if node.head == "sum":
-        return add(*inner)
-    if node.head == "product":
-        return add(*(times(*below[:i], part, *below[i + 1 :]) for i, part in enumerate(inner) if part != ZERO))
-    if node.head == "power":
-        (base, exponent), (slope, growth) = below, inner
-        falling = times(exponent, power(base, add(exponent, number(-1))), slope)
-        return falling if growth == ZERO else add(falling, times(node, call("log", base), growth))
-    if node.head == "apply":
-        orders = [tuple(k + (i == j) for j, k in enumerate(node.orders)) for i in range(len(below))]
-        return add(*(times(Tree("apply", below, node.value, k), part) for k, part in zip(orders, inner, strict=True)))
-    if node.head == "atan2":
-        (y, x), (dy, dx) = below, inner
-        return times(difference(times(x, dy), times(y, dx)), power(add(power(x, TWO), power(y, TWO)), number(-1)))
-    refuse(node.head not in _SLOPES, f"`{node.head}` has no derivative here")
-    return times(substituted(_SLOPES[node.head], {"u": below[0]}), inner[0])
+def _partial(node: Tree, place: int) -> Tree:
+    """The derivative of a node by what stands at one place below it."""
+    below, head = node.below, node.head
+    if head == "sum":
+        return ONE
+    if head == "product":
+        return times(*below[:place], *below[place + 1 :])
+    if head == "power":
+        base, exponent = below
+        falling = times(exponent, power(base, add(exponent, MINUS)))
+        return falling if place == 0 else times(node, call("log", base))
+    if head == "apply":
+        return Tree(head, below, node.value, tuple(k + (i == place) for i, k in enumerate(node.orders)))
+    if head == "atan2":
+        size = add(power(below[0], TWO), power(below[1], TWO))
+        return times(MINUS if place else ONE, below[1 - place], power(size, MINUS))
+    refuse(head not in _SLOPES, f"`{head}` has no derivative here")
+    return _SLOPES[head](below[0])
 
 
-def _of(name: str, exponent: int = 1) -> Tree:
-    return power(call(name, _U), number(exponent))
-
-
-_U = symbol("u")
-_ROOT = power(call("sqrt", difference(ONE, power(_U, TWO))), number(-1))
-_SLOPES = {
-    "sin": _of("cos"), "cos": negative(_of("sin")), "tan": _of("cos", -2), "cot": negative(_of("sin", -2)),
-    "sec": times(_of("sec"), _of("tan")), "csc": times(number(-1), _of("csc"), _of("cot")), "sinh": _of("cosh"),
-    "cosh": _of("sinh"), "tanh": _of("cosh", -2), "asin": _ROOT, "acos": negative(_ROOT), "exp": _of("exp"),
-    "atan": power(add(ONE, power(_U, TWO)), number(-1)), "log": power(_U, number(-1)),
-    "sqrt": times(number(Fraction(1, 2)), _of("sqrt", -1)), "abs": times(_U, _of("abs", -1)),
-}  # fmt: skip
+MINUS = number(-1)
+_SLOPES: dict[str, Callable[[Tree], Tree]] = {
+    "sin": lambda u: call("cos", u),
+    "cos": lambda u: negative(call("sin", u)),
+    "exp": lambda u: call("exp", u),
+    "log": lambda u: power(u, MINUS),
+}
 
 
 def linear_parts(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree] | None:
@@ -121,8 +119,8 @@ def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
         known = [degree for degree in below if degree is not None]
         if not below or len(known) < len(below):
             return None if below else Fraction(node.head == "symbol" and node.value in names)
-        exponent = Fraction(1, 2) if node.head == "sqrt" else node.below[-1].value
-        if node.head in ("power", "sqrt") and isinstance(exponent, Fraction):
+        exponent = node.below[-1].value
+        if node.head == "power" and isinstance(exponent, Fraction):
             return known[0] * exponent
         if node.head == "product":
             return sum(known, Fraction(0))

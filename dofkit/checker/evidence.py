@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, krawczyk, regular
+from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, interval_newton, regular
 from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.relations import FAULTS, CheckedRelations, told, total_derivative
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
@@ -72,7 +72,7 @@ class CheckedEvidence(CheckedRelations):
             radius = evaluated(self.text(given["radius"]), {}, self.effort)
             refuse(not radius > 0, "the radius of a box is positive")
             equations, centre = [self.relation(name).left for name in rows], {name: balls[name] for name in columns}
-            point.balls |= krawczyk(equations, centre, radius.mid(), point.value_with)
+            point.balls |= interval_newton(equations, centre, radius.mid(), point.value_with)
         for name, sign in self.problem.parameters.items():
             wrong = name in balls and not (balls[name] > 0 or (sign != "positive" and excludes_zero(balls[name])))
             refuse(wrong and sign in ("positive", "nonzero"), f"the parameter `{name}` is declared {sign}")

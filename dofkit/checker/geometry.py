@@ -11,8 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from dofkit.checker.derivatives import TWO
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, difference, negative, number, power, symbol, times
+from dofkit.checker.trees import ONE, TWO, ZERO, Tree, add, call, difference, negative, number, power, symbol, times
 
 Vector = tuple[Tree, ...]
 Matrix = tuple[Vector, ...]

@@ -7,6 +7,7 @@ function, ``orders`` how often it is differentiated by each argument). ``pi`` is
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import prod
@@ -112,5 +113,23 @@ def power(base: Tree, exponent: Tree) -> Tree:
 
 
 def call(name: str, *arguments: Tree) -> Tree:
-    """An elementary function of ``arguments``."""
-    return Tree(name, arguments)
+    """An elementary function, told by sines, cosines, exponentials, logarithms, powers and ``atan2``."""
+    return _MEANINGS[name](*arguments) if name in _MEANINGS else Tree(name, arguments)
+
+
+TWO, _HALF, _INVERSE = number(2), number(Fraction(1, 2)), number(-1)
+#: Each is the same real number, and has a value and is smooth at the same places.
+_MEANINGS: dict[str, Callable[..., Tree]] = {
+    "tan": lambda u: times(call("sin", u), call("sec", u)),
+    "cot": lambda u: times(call("cos", u), call("csc", u)),
+    "sec": lambda u: power(call("cos", u), _INVERSE),
+    "csc": lambda u: power(call("sin", u), _INVERSE),
+    "sqrt": lambda u: power(u, _HALF),
+    "abs": lambda u: power(power(u, TWO), _HALF),
+    "asin": lambda u: call("atan2", u, call("sqrt", difference(ONE, power(u, TWO)))),
+    "acos": lambda u: call("atan2", call("sqrt", difference(ONE, power(u, TWO))), u),
+    "atan": lambda u: call("atan2", u, ONE),
+    "sinh": lambda u: times(_HALF, difference(call("exp", u), call("exp", negative(u)))),
+    "cosh": lambda u: times(_HALF, add(call("exp", u), call("exp", negative(u)))),
+    "tanh": lambda u: times(call("sinh", u), power(call("cosh", u), _INVERSE)),
+}

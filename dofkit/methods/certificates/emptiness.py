@@ -78,7 +78,7 @@ def polynomials(room: Room, trees: Sequence[Tree]) -> tuple[list[Polynomial], li
     found = []
     for normal in normals:
         under = normal.below.leading_coefficient()
-        terms = {key: value / under for key, value in normal.above.to_dict().items()}
+        terms = {key[::-1]: value / under for key, value in normal.above.to_dict().items()}
         found.append({key: Fraction(int(value.p), int(value.q)) for key, value in terms.items()})
     return found, list(trees)
 

@@ -7,8 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from dofkit.checker.balls import with_functions
-from dofkit.checker.derivatives import symbols_in
+from dofkit.checker.derivatives import substituted, symbols_in
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import Problem
 from dofkit.checker.trees import CheckError, Effort, Tree
@@ -88,7 +87,7 @@ class Scenery:
             name: (tuple(f["arguments"]), self.evidence.text(f["text"], f["arguments"]))
             for name, f in self.functions.items()
         }
-        return with_functions(tree, made)
+        return substituted(tree, {}, made)
 
     def add_step(self, step: dict[str, Any]) -> None:
         """A further step, if it stands up; `CheckError` where it does not."""
