@@ -20,10 +20,9 @@ from dofkit.checker.geometry import (
     scaled,
     square,
 )
-from dofkit.checker.grammar import Sided, parse_relations
+from dofkit.checker.grammar import PI, Sided, parse_relations
 from dofkit.checker.surroundings import Entry, Surroundings
 from dofkit.checker.trees import TWO, ZERO, Tree, add, call, difference, number, power, refuse, symbol, times
-from dofkit.checker.words import PI
 
 Read = Callable[[Surroundings, Entry], Iterator[Tree | Sided]]
 

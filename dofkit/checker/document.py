@@ -18,14 +18,14 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent, MappingEndEvent, ScalarEvent
 
+from dofkit.checker.grammar import DECIMAL
 from dofkit.checker.trees import CheckError, refuse
-from dofkit.checker.words import decimal_value
 
 MOST_CHARACTERS, MOST_BITS, DEEPEST = 2_000_000, 4000, 40
 _WORDS = {"": None, "~": None, **dict.fromkeys(("null", "Null", "NULL"))} | {
     form(word): word == "true" for word in ("true", "false") for form in (str.lower, str.upper, str.title)
 }
-_VALUE = re.compile(r"\s*([-+]?)((?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,6})?)(?:\s*/\s*(\d{1,400}))?\s*", re.ASCII)
+_VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d{{1,400}}))?\s*", re.ASCII)
 #: Keys that say nothing of the mathematics, texts that are no values, and entries that are as good as left out.
 _SILENT = ("name", "title", "source", "notes", "expect")
 _TEXTS = ("name", "text", "surface", "curve", "drive")
@@ -80,9 +80,9 @@ def _plain(text: str) -> Any:
 def value_text(value: object) -> Any:
     """A text that writes a number as that number: ``0.50`` is ``1/2``; others are left as they are."""
     match = _VALUE.fullmatch(value) if isinstance(value, str) and len(value) <= 400 else None
-    if match is None or (match[3] and not int(match[3])):
+    if match is None or not int(match[2] or 1):
         return value
-    return _shown(decimal_value(match[2]) / int(match[3] or 1) * (-1 if match[1] == "-" else 1))
+    return _shown(Fraction(match[1]) / int(match[2] or 1))
 
 
 def _shown(value: Fraction | int) -> int | str:

@@ -17,10 +17,9 @@ from dofkit.checker.constraints import TYPES
 from dofkit.checker.derivatives import TIME_RATE, symbols_in
 from dofkit.checker.document import canonical, document_of
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
-from dofkit.checker.grammar import Sided
+from dofkit.checker.grammar import BUILT_IN, KnownNames, Sided, spelled_out
 from dofkit.checker.surroundings import Entry, Surroundings, known_fields
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
-from dofkit.checker.words import BUILT_IN, KnownNames, spelled_out
 
 __all__ = ["CheckedRelation", "Problem", "document_of", "read_problem"]
 

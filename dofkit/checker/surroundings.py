@@ -10,9 +10,8 @@ from typing import Any
 from dofkit.checker.balls import evaluated, excludes_zero
 from dofkit.checker.derivatives import symbols_in
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector
-from dofkit.checker.grammar import Sided, parse, parse_relations
+from dofkit.checker.grammar import KnownNames, Sided, parse, parse_relations
 from dofkit.checker.trees import ONE, ZERO, Effort, Tree, negative, refuse, symbol
-from dofkit.checker.words import KnownNames
 
 Entry = Mapping[str, Any]
 

@@ -8,12 +8,11 @@ from typing import Any
 
 from dofkit.checker.balls import evaluated, excludes_zero
 from dofkit.checker.derivatives import substituted, symbols_in
-from dofkit.checker.grammar import parse
+from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import Problem
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import Effort, Tree, add, negative, power, refuse, symbol, times
 from dofkit.checker.trees import number as numeral
-from dofkit.checker.words import KnownNames
 
 LONGEST_TEXT = 40_000
 _PLAIN = frozenset(("symbol", "sum", "product", "sin", "cos", "exp", "sinh", "cosh", "tanh", "atan", "apply"))

@@ -7,6 +7,7 @@ function, ``orders`` how often it is differentiated by each argument). ``pi`` is
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -15,8 +16,8 @@ from math import prod
 _NAMES = "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh exp log sqrt abs"
 FUNCTIONS = tuple(_NAMES.split())
 
-#: Nodes of a tree as it is written, and bits of a number.
-MOST_NODES, MOST_BITS = 50_000, 32_768
+#: The size of a tree: its nodes, each as often as powers repeat it, and 64 bits of a number for one; that of a number.
+LARGEST, LARGEST_NUMBER = 50_000, 512
 #: Units of work of a whole certificate: about products of terms of polynomials, or nodes evaluated.
 MOST_WORK = 60_000_000
 
@@ -54,11 +55,13 @@ class Tree:
     size: int = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Parts may be shared, so that a short text writes a huge tree, and a few products a huge number."""
-        object.__setattr__(self, "size", 1 + sum(part.size for part in self.below))
-        refuse(self.size > MOST_NODES, f"an expression of more than {MOST_NODES} terms and factors is not read")
-        parts = self.value.as_integer_ratio() if isinstance(self.value, Fraction) else ()
-        refuse(any(part.bit_length() > MOST_BITS for part in parts), f"a number of more than {MOST_BITS} bits")
+        """Parts may be shared, so that a short text writes a huge tree, and powers of powers a huge number."""
+        exponent = self.below[1].value if self.head == "power" else 1
+        often = max(1, abs(exponent)) if isinstance(exponent, Fraction) else 1
+        digits = self.value.as_integer_ratio() if isinstance(self.value, Fraction) else (0,)
+        own = 1 + max(map(int.bit_length, digits)) // 64
+        object.__setattr__(self, "size", own + int(often * sum(part.size for part in self.below)))
+        refuse(self.size > LARGEST or own > LARGEST_NUMBER, "an expression or a number is too large")
 
 
 ZERO = Tree("number", (), Fraction(0))
@@ -75,19 +78,24 @@ def symbol(name: str) -> Tree:
     return Tree("symbol", (), name)
 
 
+def _split(parts: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
+    """The numbers among terms or factors, and the others."""
+    refuse(sum(p.size - 1 for p in parts if p.head == "number") > LARGEST_NUMBER, "a number is too large")
+    return [p.value for p in parts if isinstance(p.value, Fraction)], [p for p in parts if p.head != "number"]
+
+
 def add(*terms: Tree) -> Tree:
     """A sum; numbers are added up and 0 is left out."""
-    constant = sum((t.value for t in terms if isinstance(t.value, Fraction)), Fraction(0))
-    rest = [t for t in terms if t.head != "number"]
-    if constant:
+    numbers, rest = _split(terms)
+    if constant := sum(numbers, Fraction(0)):
         rest.append(number(constant))
     return rest[0] if len(rest) == 1 else Tree("sum", tuple(rest)) if rest else ZERO
 
 
 def times(*factors: Tree) -> Tree:
     """A product; numbers are multiplied and 1 is left out, 0 is 0."""
-    constant = prod((f.value for f in factors if isinstance(f.value, Fraction)), start=Fraction(1))
-    rest = [f for f in factors if f.head != "number"]
+    numbers, rest = _split(factors)
+    constant = prod(numbers, start=Fraction(1))
     if constant == 0:
         return ZERO
     if constant != 1 or not rest:

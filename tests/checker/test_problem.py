@@ -16,10 +16,9 @@ from shared.known_scenes import SCENES, few, scene_of, stem
 
 import dofkit
 from dofkit.checker.document import canonical, document_of, exact_document, sha256_of
-from dofkit.checker.grammar import parse
+from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import Problem, read_problem
 from dofkit.checker.trees import CheckError, number
-from dofkit.checker.words import KnownNames
 
 
 def read(text: str, *cayley: str) -> Problem:
