@@ -100,13 +100,15 @@ path                                    rule           fields
 /dof, /velocity_dof                     squeeze        most, least (above); about
 /dof, /velocity_dof                     regular        minor; about (most and least in one, all rows of one kind)
 /velocity_dof                           count          equals /dof: no velocity relations
-/dof everywhere                         everywhere     order [[ID, coordinate]]: each gives its coordinate (a number
-                                                       times it and what is free or given before); blocks [ID]:
-                                                       single analytic relations; generic [[ID, symbol]]: each with
-                                                       a symbol of its own; every finite relation in one place;
-                                                       blocks and generic share no free coordinate. Where there are
-                                                       any: minor, whose rows account for all; as many rows as
-                                                       relations, or one cover of all in ``covers``, without blocks
+/dof, /velocity_dof                     everywhere     order [[ID, coordinate]]: each gives its coordinate, or its
+                                                       velocity, with a factor of numbers and parameters; those
+                                                       before do not hold it. One may give t instead. blocks [ID]:
+                                                       single analytic relations, or a single form; generic [[ID,
+                                                       symbol]]: each with a symbol of its own; every relation, or
+                                                       (dof) every finite one, in one place; blocks and generic
+                                                       share no free coordinate. minor of these, which accounts for
+                                                       all; as many rows as relations, or one cover of all in
+                                                       ``covers``. dof beside forms: most, least as for squeeze
 /instantaneous_dof                      rank           at: the reference. Rational rows: nothing more. Else minor,
                                                        of all relations
 /singular                               compare        (of verified /instantaneous_dof and /velocity_dof)

@@ -25,7 +25,7 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/consistent", "nullstellensatz", emptiness.inconsistent),
     ("/conflicting", "conflict", emptiness.conflict),
     ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds),
-    ("/dof", "everywhere", numbers.everywhere),
+    ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
     ("/velocity_dof, /holonomic, /scleronomic, /redundant_equations, /redundancies", "count", numbers.counted),
     ("/singular", "compare", numbers.counted),
     ("/instantaneous_dof", "rank", numbers.instantaneous),

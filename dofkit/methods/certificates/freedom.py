@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from dofkit.methods.certificates.emptiness import inconsistent
-from dofkit.methods.certificates.everywhere import everywhere
+from dofkit.methods.certificates.everywhere import everywhere, velocities_everywhere
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, orbit
 from dofkit.methods.certificates.integrals import integral_of_text
 from dofkit.methods.certificates.rigid_fields import backing
@@ -64,6 +64,8 @@ def velocity_dof(room: Room) -> Iterator[Told]:
     if not room.scenery.evidence.moving:
         yield {"rule": "count"}
         return
+    if room.report.verdicts["velocity_dof"].about == "everywhere":
+        yield from velocities_everywhere(room)
     standing = room.standing
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "regular", "minor": room.minor(standing), "about": room.about, **backed}
