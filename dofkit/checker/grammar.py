@@ -133,11 +133,12 @@ class KnownNames:
         return found[0]
 
 
-def tokens_of(text: str, names: KnownNames) -> list[Lexeme]:
+def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
     """The tokens of a text, closed by one of kind ``end``."""
-    refuse(not isinstance(text, str) or len(text) > MOST_CHARACTERS, "a text of bounded length is needed")
+    bad = not isinstance(text, (str, int)) or len(str(text)) > MOST_CHARACTERS
+    refuse(bad, "a text of bounded length, or a whole number, is needed")
     found: list[Lexeme] = []
-    for match in _TOKEN.finditer(text.strip().translate(_PLAIN)):
+    for match in _TOKEN.finditer(str(text).strip().translate(_PLAIN)):
         kind = str(match.lastgroup)
         word, touching = match[kind], not match[1]
         if kind == "word":
@@ -154,12 +155,12 @@ def tokens_of(text: str, names: KnownNames) -> list[Lexeme]:
     return [*found, Lexeme("end")]
 
 
-def parse(text: str, names: KnownNames) -> Tree:
+def parse(text: object, names: KnownNames) -> Tree:
     """The value that a text writes."""
     return parse_relations(text, names, signs=False)[0].tree
 
 
-def parse_relations(text: str, names: KnownNames, signs: bool = True) -> list[Sided]:
+def parse_relations(text: object, names: KnownNames, signs: bool = True) -> list[Sided]:
     """The relations of a text, left less right side; a text without a sign is ``= 0``, a chain is several."""
     reader = _Reader(text, names)
     left, found = reader.sum(), []
@@ -175,7 +176,7 @@ def parse_relations(text: str, names: KnownNames, signs: bool = True) -> list[Si
 class _Reader:
     """One text, read from left to right."""
 
-    def __init__(self, text: str, names: KnownNames) -> None:
+    def __init__(self, text: object, names: KnownNames) -> None:
         self.names, self.tokens = names, tokens_of(text, names)
         self.at = self.depth = 0
 

@@ -15,13 +15,11 @@ from typing import Any, Literal
 
 from dofkit.checker.constraints import TYPES
 from dofkit.checker.derivatives import TIME_RATE, symbols_in
-from dofkit.checker.document import canonical, document_of
+from dofkit.checker.document import canonical
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
 from dofkit.checker.grammar import BUILT_IN, KnownNames, Sided, spelled_out
 from dofkit.checker.surroundings import Entry, Surroundings, known_fields
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
-
-__all__ = ["CheckedRelation", "Problem", "document_of", "read_problem"]
 
 MOST_RELATIONS = 20_000
 SIGNS = ("real", "positive", "nonzero")
@@ -114,6 +112,7 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
     every = KnownNames(frozenset([*written, *coordinates]), values, functions)
     twice = any(len({*names}) < len(names) for names in ([*own, *BUILT_IN, TIME_RATE], coordinates))
     plain = all(re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and not every.moved(name) for name in own)
+    plain = plain and all(isinstance(given, list) for given in scene.get("functions", {}).values())
     refuse(twice or not plain, "a name is taken, or not made of letters and digits")
     given = {q: world.expression(value) for q, value in scene.get("configuration", {}).items()}
     refuse(not given.keys() <= {*written}, "the configuration mentions what is no coordinate")

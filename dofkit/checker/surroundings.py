@@ -38,7 +38,7 @@ class Surroundings:
 
     def expression(self, value: object, *allowed: str) -> Tree:
         """A number or text that mentions parameters, and what is ``allowed`` besides."""
-        found = parse(str(value), self.names)
+        found = parse(value, self.names)
         refuse(not symbols_in(found) <= {*self.signs, *allowed}, f"`{value}` mentions what cannot stand there")
         return found
 
@@ -94,6 +94,7 @@ class Surroundings:
 
     def on_places(self, texts: Sequence[str]) -> list[Sided]:
         """Relations in which x, y, z are the coordinates of a point; no velocity occurs."""
+        refuse(not isinstance(texts, list), "a curve is a list of texts")
         letters = set("xyz"[: self.dimension])
         values = {name: tree for name, tree in self.names.values.items() if name not in letters}
         functions = {name: own for name, own in self.names.functions.items() if name not in letters}

@@ -15,7 +15,7 @@ from shared.known_scenes import CATALOG, few, report_of, scene_of, stem, swept
 from shared.tampering import put
 
 from dofkit.checker import CheckError, verify
-from dofkit.checker.document import document_of, exact_document, sha256_of
+from dofkit.checker.document import canonical, document_of, sha256_of
 from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
@@ -242,7 +242,7 @@ def _places(value: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]
 @pytest.mark.parametrize("path", few("odd values", CATALOG, 24), ids=stem)
 def test_an_odd_value_in_any_place_is_a_fault_and_no_crash(path: Any) -> None:
     scene, rng = scene_of(path), random.Random(path.stem)
-    document = dict(exact_document(document_of_scene(scene)))
+    document = canonical(document_of_scene(scene))
     given = json.loads(json.dumps(certificate_of(document, report_of(path))))
     inside, outside = list(_places(given)), list(_places(document))
     for _ in range(40):

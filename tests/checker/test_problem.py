@@ -15,7 +15,7 @@ from checker.values import of_tree, rows_of_trees
 from shared.known_scenes import SCENES, few, scene_of, stem
 
 import dofkit
-from dofkit.checker.document import canonical, document_of, exact_document, sha256_of
+from dofkit.checker.document import canonical, document_of, sha256_of
 from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import Problem, read_problem
 from dofkit.checker.trees import CheckError, number
@@ -107,7 +107,7 @@ particles: [{name: A, at: [0, 3]}, {name: B, at: [4, 0]}]
 constraints:
 - {type: string, along: [A, [0, 0], B]}
 - {type: string, along: [A, B], length: L - t}
-- {type: "on", members: [A, B], curve: "y = x^2 + t"}
+- {type: "on", members: [A, B], curve: ["y = x^2 + t"]}
 - {type: fixed, point: A}
 - {type: coincident, between: [A, B]}
 """)
@@ -211,6 +211,8 @@ MISTAKEN: dict[str, str] = {
     "no mapping": "[1, 2]",
     "deep": "[" * 1000,
     "deep json": '{"a":' * 100_000,
+    "letters for arguments": "coordinates: [x, y]\nfunctions: {h: xy}",
+    "letters for texts": "coordinates: [x]\nconstraints: [{type: 'on', members: [[0, 0, 0]], curve: xy}]",
     "planar in the plane": "dimension: 2\nbodies: [A]\nconstraints: [{type: planar, between: [ground, A]}]",
 }
 
@@ -229,10 +231,11 @@ def test_a_text_that_mentions_an_angle_refuses_the_cayley_chart() -> None:
 
 
 def test_numbers_are_exact_and_words_are_words() -> None:
-    found = document_of('y: [0.5, 1e-6, 017, "0.5", on, yes, ~, true, -3., 2.0]')
-    assert found == {"y": ["1/2", "1/1000000", 17, "0.5", "on", "yes", None, True, -3, 2]}
-    assert exact_document({"a": 0.1, "b": Fraction(4, 2)}) == {"a": "1/10", "b": 2}
-    assert document_of('{"y": [0.5, 1e-6, "on"]}') == {"y": ["1/2", "1/1000000", "on"]}
+    found = canonical(document_of('{name: 0.5, y: [0.5, 1e-6, 017, "0.5", "6 / 4", on, yes, ~, "~", true, -3., 2.0]}'))
+    assert found == {"y": ["1/2", "1/1000000", 17, "1/2", "3/2", "on", "yes", None, "~", "true", -3, 2]}
+    assert canonical({"a": 0.1, "b": Fraction(4, 2), "c": True}) == {"a": "1/10", "b": 2, "c": True}
+    assert canonical(document_of('{"y": [0.5, 1e-6, "on"]}')) == {"y": ["1/2", "1/1000000", "on"]}
+    assert canonical({"bodies": [{"name": "1.0"}]}) == {"bodies": [{"name": "1.0"}]}
 
 
 def test_one_scene_has_one_hash() -> None:
