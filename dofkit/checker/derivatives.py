@@ -2,30 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TypeVar
 
 from dofkit.checker.trees import ONE, TWO, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
 
-TIME_RATE = "tdot"
+TIME_RATE, MINUS = "tdot", number(-1)
 Made = TypeVar("Made")
 #: A choice for a declared function: its arguments, and a text of them.
 Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
 
 
-def symbols_in(tree: Tree) -> frozenset[str]:
-    """The names of the symbols of a tree."""
-    found: set[str] = set()
+def nodes_of(tree: Tree) -> Iterator[Tree]:
+    """All nodes of a tree, each once."""
     stack, seen = [tree], set()
     while stack:
         node = stack.pop()
         if id(node) not in seen:
             seen.add(id(node))
-            stack.extend(node.below)
-            if node.head == "symbol":
-                found.add(str(node.value))
-    return frozenset(found)
+            stack += node.below
+            yield node
+
+
+def symbols_in(tree: Tree) -> frozenset[str]:
+    """The names of the symbols of a tree."""
+    return frozenset(str(node.value) for node in nodes_of(tree) if node.head == "symbol")
+
+
+def heads_in(tree: Tree) -> set[str]:
+    """The kinds of nodes that occur in a tree."""
+    return {node.head for node in nodes_of(tree)}
 
 
 def folded(tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made]) -> Made:
@@ -77,30 +84,25 @@ def derivative(tree: Tree, name: str) -> Tree:
 def _partial(node: Tree, place: int) -> Tree:
     """The derivative of a node by what stands at one place below it."""
     below, head = node.below, node.head
-    if head == "sum":
-        return ONE
     if head == "product":
         return times(*below[:place], *below[place + 1 :])
     if head == "power":
-        base, exponent = below
-        falling = times(exponent, power(base, add(exponent, MINUS)))
-        return falling if place == 0 else times(node, call("log", base))
+        falling = times(below[1], power(below[0], add(below[1], MINUS)))
+        return times(node, call("log", below[0])) if place else falling
     if head == "apply":
         return Tree(head, below, node.value, tuple(k + (i == place) for i, k in enumerate(node.orders)))
     if head == "atan2":
         size = add(power(below[0], TWO), power(below[1], TWO))
         return times(MINUS if place else ONE, below[1 - place], power(size, MINUS))
-    refuse(head not in _SLOPES, f"`{head}` has no derivative here")
-    return _SLOPES[head](below[0])
+    slopes = {"sum": ONE, "exp": node, "log": power(below[0], MINUS)}
+    slopes |= {"sin": call("cos", below[0]), "cos": negative(call("sin", below[0]))}
+    return slopes[head]
 
 
-MINUS = number(-1)
-_SLOPES: dict[str, Callable[[Tree], Tree]] = {
-    "sin": lambda u: call("cos", u),
-    "cos": lambda u: negative(call("sin", u)),
-    "exp": lambda u: call("exp", u),
-    "log": lambda u: power(u, MINUS),
-}
+def along(field: Mapping[str, Tree], tree: Tree) -> Tree:
+    """The derivative of a tree along a field."""
+    held = symbols_in(tree)
+    return add(*(times(value, derivative(tree, name)) for name, value in field.items() if name in held))
 
 
 def linear_parts(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree] | None:
@@ -116,10 +118,11 @@ def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
     """The degree in symbols in which every term of a tree is homogeneous; None where there is none."""
 
     def of(node: Tree, below: tuple[Fraction | None, ...]) -> Fraction | None:
-        known = [degree for degree in below if degree is not None]
-        if not below or len(known) < len(below):
-            return None if below else Fraction(node.head == "symbol" and node.value in names)
-        exponent = node.below[-1].value
+        if not below:
+            return Fraction(node.head == "symbol" and node.value in names)
+        known, exponent = [degree for degree in below if degree is not None], node.below[-1].value
+        if len(known) < len(below):
+            return None
         if node.head == "power" and isinstance(exponent, Fraction):
             return known[0] * exponent
         if node.head == "product":
@@ -129,39 +132,29 @@ def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
     return folded(tree, of)
 
 
-def differentials(tree: Tree, coordinates: Collection[str]) -> dict[str, Tree]:
-    """The differentials in a tree, and the velocities that belong to them."""
+def _differentials(tree: Tree, coordinates: Collection[str]) -> dict[str, Tree]:
+    """The differentials in a tree, and what they are over dt."""
     found = {name for name in symbols_in(tree) if name == "dt" or (name[0] == "d" and name[1:] in coordinates)}
-    return {name: symbol(f"{name[1:]}dot") for name in found}
+    return {name: ONE if name == "dt" else symbol(f"{name[1:]}dot") for name in found}
 
 
 def over_time(tree: Tree, coordinates: Collection[str]) -> Tree:
     """A tree over dt: ``dx/dt`` is the velocity."""
-    moved = differentials(tree, coordinates)
-    if homogeneous_degree(tree, moved) == 1:
-        return substituted(tree, {**moved, "dt": ONE})
-    return times(tree, power(symbol("dt"), number(-1)))
+    moved = _differentials(tree, coordinates)
+    linear = homogeneous_degree(tree, moved) == 1
+    return substituted(tree, moved) if linear else times(tree, power(symbol("dt"), MINUS))
 
 
 def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
-    """A relation with velocities in the place of differentials.
+    """A relation with velocities in the place of differentials: over the power of dt in which it is homogeneous.
 
-    What is linear in velocities becomes a form, its terms without one times ``tdot``. Other relations that are
-    homogeneous in differentials are divided by a power of dt.
+    What is linear in velocities becomes a form, its terms without one times ``tdot``.
     """
-    moved = differentials(tree, coordinates)
-    if moved:
-        refuse(homogeneous_degree(tree, moved) is None, "differentials and finite terms are added together")
-        tree = substituted(tree, moved)
-    rates = [
-        name for name in symbols_in(tree) if name == TIME_RATE or (name[-3:] == "dot" and name[:-3] in coordinates)
-    ]
-    parts = linear_parts(tree, rates)
-    if moved and (parts is None or parts[1] != ZERO):
-        tree = substituted(tree, {TIME_RATE: ONE})
-        parts = linear_parts(tree, rates)
-    if parts is None or parts[1] == ZERO:
+    moved = _differentials(tree, coordinates)
+    refuse(moved and homogeneous_degree(tree, moved) is None, "differentials and finite terms are added together")
+    tree = substituted(tree, moved)
+    parts = linear_parts(tree, [f"{q}dot" for q in coordinates])
+    if parts is None:
         return tree
-    slopes, rest = parts
-    form = [times(slope, symbol(rate)) for rate, slope in slopes.items()]
-    return add(*form, times(rest, symbol(TIME_RATE))) if slopes else rest
+    form = [times(slope, symbol(rate)) for rate, slope in parts[0].items()]
+    return add(*form, times(parts[1], symbol(TIME_RATE))) if form or moved else parts[1]

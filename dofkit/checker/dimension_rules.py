@@ -11,10 +11,9 @@ from typing import Any
 from flint import fmpq, fmpq_mat
 
 from dofkit.checker.balls import CheckedPoint, excludes_zero
-from dofkit.checker.derivatives import derivative, symbols_in
+from dofkit.checker.derivatives import derivative, heads_in, symbols_in
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.fields import Told, admissible, family, independent, involutive, of_word, span
-from dofkit.checker.texts import heads_in
+from dofkit.checker.fields import Told, admissible, independent, involutive, of_word, span
 from dofkit.checker.trees import Tree, refuse
 
 
@@ -31,9 +30,9 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         other = evidence.accounts(evidence.minor(least["minor"]), evidence.equations)
         point, found = other.point, size - len(other.rows)
     else:
-        refuse(least["rule"] not in ("span", "family"), "a lower bound is `regular`, `span` or `family`")
+        refuse(least["rule"] != "span", "a lower bound is `regular` or `span`")
         given, longest = {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12
-        point, found = span(evidence, given, longest) if least["rule"] == "span" else family(evidence, given)
+        point, found = span(evidence, given, longest)
     above = size - len(minor.rows)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
     evidence.is_about(claim["about"], point)

@@ -17,7 +17,7 @@ def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     point, places = moves(evidence, claim, evidence.equations), claim.get("inequalities", {})
     sided = [one for one in evidence.problem.relations if one.kind == "inequality"]
     together = claim["path"] == "/feasible"
-    fast = any(evidence.has_velocities(one.left) for one in sided)
+    fast = any(evidence.met_by(one.left) for one in sided)
     refuse(together and (fast or not sided), "there are no inequalities, or such between velocities")
     for one in sided:
         name = places.get(one.name, places.get(one.owner))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
+from contextlib import suppress
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -28,11 +29,6 @@ class CheckedEvidence(CheckedRelations):
     """The points and minors of a certificate, each looked at when it is used, and once."""
 
     @cached_property
-    def seen(self) -> dict[Any, Any]:
-        """What was looked at: points and minors by their ids, relations that hold by names and points."""
-        return {}
-
-    @cached_property
     def index(self) -> dict[str, dict[str, dict[str, Any]]]:
         """The entries of every part by their ids."""
         return {part: {str(one.get("id")): one for one in entries} for part, entries in self.parts.items()}
@@ -45,9 +41,7 @@ class CheckedEvidence(CheckedRelations):
 
     def point(self, name: Any) -> CheckedPoint:
         """A point by its id: exact, or certified by interval Newton."""
-        if ("points", name) not in self.seen:
-            self.seen["points", name] = self._point(self.named("points", name))
-        found: CheckedPoint = self.seen["points", name]
+        found: CheckedPoint = self.once(("points", name), lambda: self._point(self.named("points", name)))
         return found
 
     def _point(self, given: dict[str, Any]) -> CheckedPoint:
@@ -80,49 +74,38 @@ class CheckedEvidence(CheckedRelations):
 
     def holds(self, name: str, point: CheckedPoint) -> bool:
         """Whether a relation is 0 at a point, exactly."""
-        left, key = self.relation(name).left, ("holds", name, point.name)
-        if key not in self.seen:
-            near = bool(point.value(left).contains(0))
-            self.seen[key] = near and (name in point.rows or self.ring.vanishes(point.prepared(left)))
-        return bool(self.seen[key])
+        left = self.relation(name).left
+        return bool(self.once(("holds", name, point.name), lambda: self._is_zero(left, point)))
+
+    def _is_zero(self, left: Tree, point: CheckedPoint) -> bool:
+        """Whether a tree is 0 at a point: of a row of its box, or in the ring; and its ball holds 0."""
+        row = any(self.known[name].left == left for name in point.rows)
+        return bool(point.value(left).contains(0)) and (row or self.ring.vanishes(point.prepared(left)))
 
     def on_set(self, point: CheckedPoint, names: Iterable[str]) -> None:
-        """`CheckError` unless the relations hold at a point, but for integrals; forms are smooth there."""
+        """`CheckError` unless the relations hold at a point, but for integrals; forms are smooth there.
+
+        A nonlinear relation speaks of a state: all velocity relations and all rates hold at its velocities.
+        """
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
         finite = {one.name for one in wanted if one.kind == "finite"}
-        held = {*point.rows, *(name for name in finite if self.holds(name, point))}
-        self.follow(finite, held, point, f"what is shown to hold at `{point.name}`")
+        self.follow(finite, {*point.rows, *(name for name in finite if self.holds(name, point))}, point, "what holds")
+        states = not all(self.is_linear(one.name) for one in wanted)
         for one in wanted:
-            smooth = [one.left] if one.kind == "finite" else [derivative(one.left, v) for v in self.met_by(one.left)]
+            still = one.name in finite
+            smooth = [one.left] if still else [self.slope(one.name, v[:-3]) for v in self.met_by(one.left)]
             values = [point.value(tree) for tree in smooth]
-            wrong = one.kind == "finite" and excludes_zero(values[0])
-            refuse(wrong, f"`{one.name}` does not hold at the point `{point.name}`")
-        if not all(self.is_linear(one.name) for one in wanted):
-            self._is_state(point, [one.name for one in wanted])
+            wrong = still and excludes_zero(values[0])
+            if states:
+                wrong |= not self._is_zero(total_derivative(one.left, self.variables) if still else one.left, point)
+            refuse(wrong, f"`{one.name}` does not hold at the point `{point.name}`, or not for its velocities")
 
-    def met_by(self, tree: Tree) -> list[str]:
-        """The velocities that occur."""
-        return sorted(self.velocities & symbols_in(tree))
-
-    def _is_state(self, point: CheckedPoint, names: Iterable[str]) -> None:
-        """A nonlinear relation speaks of a state: all velocity relations and all rates hold at its velocities."""
-        for name in names:
-            one = self.relation(name)
-            left = one.left if one.kind == "velocity" else total_derivative(one.left, self.variables)
-            newton = any(self.known[row].left == left for row in point.rows)
-            refuse(
-                not point.value(left).contains(0) or not (newton or self.ring.vanishes(point.prepared(left))),
-                f"`{name}` is not shown to hold for the velocities of `{point.name}`",
-            )
-
-    def minor(self, given: Any, allowed: Iterable[str] | None = None) -> CheckedMinor:
+    def minor(self, given: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
         """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""
-        if isinstance(given, str) and allowed is None:
-            if ("minors", given) not in self.seen:
-                self.seen["minors", given] = self.minor(self.named("minors", given))
-            found: CheckedMinor = self.seen["minors", given]
+        if isinstance(given, str):
+            key = ("minors", given, None if allowed is None else frozenset(allowed))
+            found: CheckedMinor = self.once(key, lambda: self.minor(self.named("minors", given), allowed))
             return found
-        given = self.named("minors", given) if isinstance(given, str) else given
         point, rows, columns = self.point(given["at"]), tuple(given["rows"]), tuple(given["columns"])
         square = len({*rows}) == len(rows) == len(columns) == len({*columns}) <= LARGEST_MINOR
         refuse(not square, "a minor has as many rows as columns, each once, and not too many")
@@ -194,11 +177,7 @@ class CheckedEvidence(CheckedRelations):
     def _is_off(self, point: CheckedPoint) -> bool:
         """Whether the scene's configuration is shown not to meet its relations."""
         for name in self.finite:
-            try:
-                places = {q: point.value(tree) for q, tree in self.problem.reference.items()}
-                zero = point.value_with(ZERO, {})
-                if excludes_zero(point.value_with(self.relation(name).left, {**places, "t": zero})):
+            with suppress(CheckError):
+                if excludes_zero(point.value(self.at_reference(self.relation(name).left))):
                     return True
-            except CheckError:
-                continue
         return False

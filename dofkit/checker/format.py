@@ -7,7 +7,7 @@ says ``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``field
 (``c4``, ``c4.1``) or a step. Steps, points, minors and fields are looked at only where a claim uses them.
 
 STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of the scene and of steps before it).
-"Needs" is asked at the point of the claim that uses the step, or of the reason ``nonzero``, where that is given.
+"Needs" is asked at the point of the claim that uses the step.
 
 =========== =============================================== ==================================================
 by          fields                                          meaning (identities in the ring of `ring.py`)
@@ -26,8 +26,7 @@ integral    function (f), h, c {ID: TEXT}                   h * (df/dt) = sum c[
 =========== =============================================== ==================================================
 
 ``h`` is 1 where left out. Not 0 by itself is a product of powers of numbers and of parameters declared nonzero or
-positive; else ``nonzero``: ``{"sos": [[c, a], ...], "plus": c}`` (the factor, or h, is that sum or the negative of it;
-c > 0, plus > 0, the a have a value everywhere). All texts of a step need a value at the point, as they are written.
+positive. All texts of a step need a value at the point, as they are written.
 
 POINTS ``{"id", "values": {symbol: TEXT}, "functions": {h: {"arguments": [s], "text": TEXT}}}``: coordinates, ``t``,
 parameters, generic lengths, velocities ``qdot`` (``tdot`` is 1), each a TEXT of numbers and of parameters given before
@@ -63,10 +62,6 @@ frobenius   minor, fields [id], columns [coordinate       most n - rows of dof: 
                                                           occurs in the rows, less rows), is involutive
 regular     minor                                         least n - rows: all relations are rows or follow from rows
                                                           by steps (implied, branch, sos, factor, square)
-family      at, parameters [u], values {u: TEXT},         least the number of u: q(u) meets all relations identically
-            q {coordinate: TEXT}, columns [coordinate]    (also in parameters, generic lengths and functions) and is
-                                                          the point at ``values``; minor of dq/du. No velocity
-                                                          relations
 span        at, fields [id], rows [ID], words [WORD],     least the words (less 1 where a field moves t): fields
             columns [coordinate or t]                     tangent to rows identically, rows account for all
                                                           relations, all at the point; the words' columns are

@@ -170,7 +170,7 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         elif not catastatic:
             evidence.identity(derivative(one.left, "tdot"), ZERO, f"the dt term of `{name}`")
             evidence.identity(derivative(one.left, "t"), ZERO, f"the derivative of `{name}` by t")
-            fast = one.kind == "inequality" and evidence.has_velocities(one.left)
+            fast = one.kind == "inequality" and evidence.met_by(one.left)
             refuse(fast, "an inequality between velocities")
             if not evidence.is_linear(name):
                 degree = evidence.text(claim["degree"][name])
@@ -220,12 +220,12 @@ def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
         factor = evidence.text(claim["value"])
         scaled = {name: times(factor, tree) for name, tree in _only_form(evidence, claim).items()}
         _closed(evidence, {**dict.fromkeys(symbols_in(factor) & set(evidence.variables), ZERO), **scaled})
-    refuse(evidence.has_velocities(factor) or not excludes_zero(point.value(factor)), "the factor may be 0")
+    refuse(evidence.met_by(factor) or not excludes_zero(point.value(factor)), "the factor may be 0")
     if claim["field"] == "integrating_factor":
         return claim["value"]
     function = evidence.text(told_integral(evidence, claim["value"]))
     moves = any(excludes_zero(point.value(derivative(function, v))) for v in evidence.variables)
-    refuse(evidence.has_velocities(function) or not moves, "the integral may be constant near the point")
+    refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
     if "step" in claim:
         evidence.identity(evidence.relation(claim["step"]).left, function, "the integral of the step")
         integrable(evidence, {**claim, "integrals": [claim["step"]]}, verified)

@@ -13,23 +13,22 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import reduce
-from math import lcm
 from typing import Any, NamedTuple, TypeVar
 
 from flint import fmpq, fmpq_mpoly_ctx, fmpz
 
-from dofkit.checker.trees import CheckError, Effort, Tree, add, call, negative, number, power, refuse, times
+from dofkit.checker.trees import Effort, Tree, add, call, negative, number, refuse, times
 
 LARGEST_POWER, LARGEST_FORM, MOST_GENERATORS = 128, 60_000, 1000
-LARGEST_MULTIPLE, FINEST, MOST_KNOWN = 64, 24, 20_000
+LARGEST_MULTIPLE, MOST_KNOWN = 64, 20_000
 Factor = TypeVar("Factor")
 _SIX, _TWO = (times(number(Fraction(1, 4)), call("sqrt", number(k))) for k in (6, 2))
 #: Cosine and sine of pi / 12.
-TWELFTH = add(_SIX, _TWO), add(_SIX, negative(_TWO))
+PI, TWELFTH = Tree("pi"), (add(_SIX, _TWO), add(_SIX, negative(_TWO)))
 
 
 class _AgainError(Exception):
-    """More generators, or a finer division of an argument: what was read is forgotten, and all is read again."""
+    """More generators: what was read is forgotten, and all is read again."""
 
 
 class Quotient(NamedTuple):
@@ -62,7 +61,6 @@ class QuotientRing:
         self.context = fmpq_mpoly_ctx.get([f"g{i}" for i in range(slots)], "lex")
         self.generators, self.one = self.context.gens()[::-1], self.context.constant(1)
         self.rules: dict[int, tuple[int, Any]] = {}
-        self.inverses: dict[Any, Tree] = {}
         self.memory: dict[int, tuple[Tree, Quotient]] = {}
 
     def constant(self, value: Fraction | int) -> Quotient:
@@ -111,9 +109,7 @@ class QuotientRing:
         (a, b), (c, d) = first, second
         if b == d:
             return self._reduced(a + c, b)
-        common = b.gcd(d) if len(b) + len(d) < 400 else self.one
-        left, right = d / common, b / common
-        return self._reduced(self._product(a, left) + self._product(c, right), self._product(b, left))
+        return self._reduced(self._product(a, d) + self._product(c, b), self._product(b, d))
 
     def minus(self, first: Quotient, second: Quotient) -> Quotient:
         """A difference."""
@@ -181,10 +177,6 @@ class QuotientRing:
 class CheckedRing(QuotientRing):
     """The ring that grows with what is read into it."""
 
-    def __init__(self, effort: Effort) -> None:
-        super().__init__(effort)
-        self.levels: dict[Any, int] = {}
-
     def vanishes(self, tree: Tree) -> bool:
         """Whether the normal form is 0: then the tree is 0 wherever it has a value."""
         return bool(self.normal(tree).above == 0)
@@ -196,14 +188,12 @@ class CheckedRing(QuotientRing):
 
     def normal(self, tree: Tree) -> Quotient:
         """The normal form of a tree."""
-        for _ in range(200):
-            try:
-                if len(self.memory) > MOST_KNOWN:
-                    self.memory.clear()
-                return self.read(tree)
-            except _AgainError:
-                self.memory.clear()
-        raise CheckError("arguments are divided too finely")
+        if len(self.memory) > MOST_KNOWN:
+            self.memory.clear()
+        try:
+            return self.read(tree)
+        except _AgainError:
+            return self.normal(tree)
 
     def read(self, tree: Tree) -> Quotient:
         """The normal form of one node, from those below it."""
@@ -228,38 +218,26 @@ class CheckedRing(QuotientRing):
         if head in ("sin", "cos"):
             return self._turned(below[0])[head == "sin"]
         if head == "exp":
-            return self._exponential(below[0])
+            powers = (self.to_power(self.generator(("exp", *one)), often) for *one, often in self._atoms(below[0]))
+            return reduce(self.times, powers, self.constant(1))
         values = [self.value_of(part) for part in below]
         if (head == "log" and values[0] == 1) or (head == "atan2" and values[0] == 0 and (values[1] or 0) > 0):
             return self.constant(0)
-        found = self.generator((head, tree.value, tree.orders, tuple(map(self.key, below))))
-        if head in ("log", "atan2", "pi"):
-            self.inverses[self.key(found)] = tree
-        return found
+        return self.generator((head, tree.value, tree.orders, tuple(map(self.key, below))))
 
-    def _atoms(self, kind: str, u: Quotient) -> Iterator[tuple[Any, int, int]]:
+    def _atoms(self, u: Quotient) -> Iterator[tuple[Any, int, int]]:
         """An argument as a sum of multiples of parts of atoms: an atom's key, in how many parts, how often."""
         lead, whole = u.above.leading_coefficient(), u.below.is_constant()
         parts = [(self.context.from_dict({e: 1}), c) for e, c in u.above.terms()] if whole else [(u.above / lead, lead)]
         for part, size in parts:
-            atom = Quotient(part, u.below)
-            finest = int(size.q)
-            if finest > FINEST:
-                atom, size, finest = Quotient(atom.above / finest, atom.below), size * finest, 1
-            key = self.key(atom)
-            level = self.levels.setdefault((kind, key), finest)
-            if level % finest:
-                self.levels[kind, key] = lcm(level, finest)
-                raise _AgainError
-            multiple = int((size * level).p)
-            refuse(abs(multiple) > LARGEST_MULTIPLE * level, "too large a multiple in an argument")
-            yield key, level, multiple
+            refuse(abs(size.p) > LARGEST_MULTIPLE, "too large a multiple in an argument")
+            yield self.key(Quotient(part, u.below)), int(size.q), int(size.p)
 
     def _turned(self, u: Quotient) -> tuple[Quotient, Quotient]:
         """Cosine and sine of an argument."""
         found = still = (self.constant(1), self.constant(0))
-        for key, level, multiple in self._atoms("angle", u):
-            cosine, sine = repeated(still, self._unit(key, level), abs(multiple), self._rotated)
+        for key, parts, multiple in self._atoms(u):
+            cosine, sine = repeated(still, self._unit(key, parts), abs(multiple), self._rotated)
             found = self._rotated(found, (cosine, sine if multiple > 0 else self.minus(still[1], sine)))
         return found
 
@@ -267,26 +245,10 @@ class CheckedRing(QuotientRing):
         (c, s), (d, r) = one, by
         return self.minus(self.times(c, d), self.times(s, r)), self.plus(self.times(s, d), self.times(c, r))
 
-    def _unit(self, key: Any, level: int) -> tuple[Quotient, Quotient]:
-        """Cosine and sine of an atom divided by its level."""
-        inverse = self.inverses.get(key, number(0))
-        if inverse.head == "pi" and 12 % level == 0:
-            return repeated(self._turned(self.constant(0)), self._pair(TWELFTH), 12 // level, self._rotated)
-        if inverse.head == "atan2" and level == 1:
-            y, x = inverse.below
-            size = power(add(power(x, number(2)), power(y, number(2))), number(Fraction(-1, 2)))
-            return self._pair((times(x, size), times(y, size)))
-        cosine = self.generator(("cos", level, key))
-        return cosine, self.generator(("sin", level, key), 2, 1 - cosine.above**2)
-
-    def _pair(self, trees: tuple[Tree, Tree]) -> tuple[Quotient, Quotient]:
-        return self.read(trees[0]), self.read(trees[1])
-
-    def _exponential(self, u: Quotient) -> Quotient:
-        found = self.constant(1)
-        for key, level, multiple in self._atoms("exponent", u):
-            inverse = self.inverses.get(key, number(0))
-            known = inverse.head == "log" and level == 1
-            base = self.read(inverse.below[0]) if known else self.generator(("exp", level, key))
-            found = self.times(found, self.to_power(base, multiple))
-        return found
+    def _unit(self, key: Any, parts: int) -> tuple[Quotient, Quotient]:
+        """Cosine and sine of a part of an atom."""
+        if 12 % parts == 0 and key == self.key(self.read(PI)):
+            cosine, sine = map(self.read, TWELFTH)
+            return repeated(self._turned(self.constant(0)), (cosine, sine), 12 // parts, self._rotated)
+        cosine = self.generator(("cos", key, parts))
+        return cosine, self.generator(("sin", key, parts), 2, 1 - cosine.above**2)

@@ -7,8 +7,7 @@ function, ``orders`` how often it is differentiated by each argument). ``pi`` is
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import prod

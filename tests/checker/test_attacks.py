@@ -50,8 +50,6 @@ def along_y(most: Any) -> dict[str, Any]:
 BOTH = {"id": "m", "at": "P", "rows": ["c1", "k"], "columns": ["x", "y"]}
 IN_Y = {"id": "m", "at": "P", "rows": ["c1"], "columns": ["y"]}
 FACTOR_X = {"id": "k", "by": "factor", "of": "c1", "factor": "x", "rest": "y"}
-#: The whole family of y, at one moment.
-FAMILY = {"rule": "family", "at": "P", "parameters": ["u"], "values": {"u": "0"}, "q": {"y": "u"}, "columns": ["y"]}
 #: x = 0 leaves y free.
 A_LINE: dict[str, Attack] = {
     "a cofactor y/x at x = 0": (
@@ -154,11 +152,6 @@ NO_MOTION: dict[str, Attack] = {
             "covers": [{"id": "v", "minor": "m", "blocks": [{"rows": ["c1", "c2"], "fields": [], "columns": []}]}],
         },
     ),
-    "a family at one moment": (
-        plane("x = 0", "x = t"),
-        [dof(1, "squeeze", most={"rule": "minor", "minor": "m"}, least=FAMILY)],
-        {"points": [START], "minors": [MINOR]},
-    ),
     "a field at one moment": (
         plane("x = 0", "x = t"),
         [along_y("m")],
@@ -198,6 +191,23 @@ NO_MOTION: dict[str, Attack] = {
     ),
 }
 NOT_AT_THE_POINT: dict[str, Attack] = {
+    "a box across the cut of atan2": (
+        # no angle is 3.2; the branch that goes on through y = 0 has this value at y = 0.0584..
+        plane("x = -1", "atan2(y, x) = 16/5"),
+        [regular(0)],
+        {
+            "points": [
+                {
+                    "id": "P",
+                    "values": {"x": "-1", "y": "1/1000000"},
+                    "rows": ["c2"],
+                    "columns": ["y"],
+                    "radius": "1/10",
+                }
+            ],
+            "minors": [{"id": "m", "at": "P", "rows": ["c1", "c2"], "columns": ["x", "y"]}],
+        },
+    ),
     "fields along a row that does not hold": (
         # near (1, 0, 0) the set is the axis of x
         space("x*(y^2 + z^2) = 0", configuration={"x": 1, "y": 0, "z": 0}),

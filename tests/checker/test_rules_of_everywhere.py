@@ -279,8 +279,7 @@ def test_at_a_single_moment_there_is_no_freedom():
         "fields": [{"id": "X", "components": {"x": "1"}}],
     }
     span = {"rule": "span", "at": "P", "fields": ["X"], "rows": ["c1"], "words": [["X"]], "columns": ["x"]}
-    family = {"rule": "family", "at": "P", "parameters": ["u"], "values": {"u": "0"}, "q": {"x": "u"}, "columns": ["x"]}
-    for least in (span, family, {"rule": "regular", "minor": "0"}):
+    for least in (span, {"rule": "regular", "minor": "0"}):
         most = {"rule": "minor", "minor": "0"}
         claim = {"path": "/dof", "value": 1, "rule": "squeeze", "most": most, "least": least, "about": "component"}
         assert not accepted(scene, [claim], **parts)

@@ -172,29 +172,11 @@ def test_time():
     parts = {
         "points": [{"id": "P", "values": {"x": "2", "y": "3", "z": "0", "t": "1", "v": "1", **state}}],
         "relations": [
-            {
-                "id": "f",
-                "by": "branch",
-                "of": "c3",
-                "factors": ["1+t^2", "xdot+ydot"],
-                "chosen": 1,
-                "nonzero": {"sos": [["1", "t"]], "plus": "1"},
-            },
             {"id": "g", "by": "branch", "of": "c3", "factors": ["1+t^2", "xdot+ydot"], "chosen": 1},
-            {
-                "id": "h",
-                "by": "branch",
-                "of": "c8",
-                "factors": ["2+x^2+t^2", "x-y"],
-                "chosen": 1,
-                "nonzero": {"sos": [["1", "x"], ["1", "t"]], "plus": "2"},
-            },
         ],
     }
     on = {**parts, "points": [{"id": "P", "values": {**parts["points"][0]["values"], "x": "1", "y": "1"}}]}
     good = [
-        about("c3", "scleronomic", True, "timeless", steps=["f"]),
-        about("c8", "scleronomic", True, "timeless", steps=["h"]),
         about("c4", "scleronomic", True, "timeless", degree={"c4": "7"}),
         about("c2", "scleronomic", False, "turns", relation="c2", at="P"),
         about("c2", "catastatic", False, "turns", relation="c2", at="P"),

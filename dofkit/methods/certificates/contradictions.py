@@ -11,9 +11,9 @@ from copy import copy
 from typing import Any, NamedTuple
 
 from dofkit.checker.balls import excludes_zero
-from dofkit.checker.derivatives import derivative
+from dofkit.checker.derivatives import along, derivative
 from dofkit.checker.emptiness_rules import moves
-from dofkit.checker.fields import admissible, along, field_named, span
+from dofkit.checker.fields import admissible, field_named, span
 from dofkit.checker.trees import CheckError, add, negative, number, times
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.everywhere import graph_order

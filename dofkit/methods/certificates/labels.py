@@ -99,10 +99,7 @@ def integral_step(room: Room, entry: ConstraintEntry, name: str) -> str | None:
     try:
         room.scenery.add_step({"id": ids[0], "by": "integral", "function": function, "c": {name: factor}})
         room.scenery.add_step({"id": ids[1], "by": "rate", "of": ids[0]})
-        follows = {"id": ids[2], "by": "implied", "of": name, "h": factor, "c": {ids[1]: "1"}}
-        if factor.lstrip("-").isdigit():
-            follows["nonzero"] = {"number": True}
-        room.scenery.add_step(follows)
+        room.scenery.add_step({"id": ids[2], "by": "implied", "of": name, "h": factor, "c": {ids[1]: "1"}})
     except CheckError:
         return None
     return ids[0]
