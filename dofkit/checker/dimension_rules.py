@@ -5,16 +5,16 @@ A rule looks at the evidence of a claim and gives the value that it shows.
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Any
 
 from flint import fmpq, fmpq_mat
 
 from dofkit.checker.balls import CheckedPoint, excludes_zero
-from dofkit.checker.derivatives import derivative, heads_in, symbols_in
+from dofkit.checker.curves import crossing, isolated
+from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import Told, admissible, independent, involutive, of_word, span
-from dofkit.checker.trees import Tree, refuse
+from dofkit.checker.trees import refuse
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -22,18 +22,21 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     path, size = claim["path"], len(evidence.problem.coordinates)
     one = {"minor": claim.get("minor")}
     most, least = claim.get("most", {**one, "rule": "minor"}), claim.get("least", {**one, "rule": "regular"})
-    refuse(most["rule"] not in ("minor", "frobenius"), "an upper bound is `minor` or `frobenius`")
-    minor = involutive(evidence, most) if most["rule"] == "frobenius" else evidence.minor(most["minor"])
+    ways = {"frobenius": involutive, "isolated": isolated, "crossing": crossing} if path == "/dof" else {}
+    refuse(most["rule"] not in ("minor", *ways), "an upper bound is `minor`, `frobenius`, `isolated` or `crossing`")
+    minor = ways[most["rule"]](evidence, most) if most["rule"] in ways else evidence.minor(most["minor"])
+    above = size - len(minor.rows) - (most["rule"] in ("isolated", "crossing"))
     if most["rule"] == "minor" and path == "/dof":
         _finite_rows(evidence, minor)
-    if least["rule"] == "regular":
+    if least["rule"] == "crossing":
+        point, found = crossing(evidence, least).point, above
+    elif least["rule"] == "regular":
         other = evidence.accounts(evidence.minor(least["minor"]), evidence.equations)
         point, found = other.point, size - len(other.rows)
     else:
-        refuse(least["rule"] != "span", "a lower bound is `regular` or `span`")
+        refuse(least["rule"] != "span", "a lower bound is `regular`, `span` or `crossing`")
         given, longest = {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12
         point, found = span(evidence, given, longest)
-    above = size - len(minor.rows)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
     evidence.is_about(claim["about"], point)
     verified[f"{path} at"] = "reference" if claim["about"] == "reference" else point.name
@@ -43,97 +46,6 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
 def _finite_rows(evidence: CheckedEvidence, minor: CheckedMinor) -> None:
     moving = any(evidence.relation(row).kind != "finite" for row in minor.rows)
     refuse(moving, "a row of velocities does not reduce dof by itself")
-
-
-def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """The largest number over all parts of the set, from relations of three kinds.
-
-    ``order``: each relation gives a coordinate, or its velocity, with a factor of numbers and parameters, and those
-    before do not hold it: the finite ones are a graph, and all have constant rank. Instead of a coordinate one may give
-    t, of which almost all values are then regular, where nothing else is told (Sard 1942).
-    ``blocks``: a single analytic relation that is not 0 everywhere has zeros of dimension n - 1 at most; a single form,
-    of which all finite relations are a graph, has rank 1 but on such a part.
-    ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
-    these the set is a manifold, of the rank that a cover of all shows (Sard 1942, Federer 3.4.3). Blocks, and the
-    generic relations together, share no free coordinate.
-
-    dof, where there are forms: that near a point (``most``, ``least``). None is larger where the finite relations allow
-    no more, or where all relations are named here and analytic: then orbits have the dimension that the brackets span,
-    which is largest almost everywhere at once (Nagano 1966).
-    """
-    order, blocks, generic = claim.get("order", []), claim.get("blocks", []), dict(claim.get("generic", []))
-    names, size = [*(name for name, _ in order), *blocks, *generic], len(evidence.problem.coordinates)
-    whole, rank = sorted(names) == sorted(evidence.equations), len(names)
-    refuse(claim.get("about") != "everywhere", "the rule is about everywhere")
-    refuse(not whole and sorted(names) != sorted(evidence.finite), "each relation stands in one place")
-    refuse(not all(map(evidence.is_linear, names)), "a relation is not linear in the velocities")
-    forms = [name for name in names if evidence.relation(name).kind != "finite"]
-    refuse(forms and (generic or (blocks and not blocks == forms == names[-1:])), "forms stand in the order, or alone")
-    minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
-    free, rank = _free(evidence, order, minor and minor.point), len(minor.rows if minor else names)
-    groups = [_coordinates(evidence, name, free) for name in blocks]
-    groups.append(frozenset().union(*(_coordinates(evidence, name, free) for name in generic)))
-    refuse(sum(map(len, groups)) != len(frozenset().union(*groups)), "two blocks share a coordinate")
-    if minor:
-        evidence.is_about("here", minor.point)
-    for name, letter in generic.items():
-        refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
-    smooth = all(_is_analytic(evidence, name, not minor or name in dict(order)) for name in names)
-    timely = any(q == "t" for _, q in order)
-    refuse(not minor and (blocks or generic or timely), "a point is needed")
-    refuse(timely and (blocks or generic or evidence.moving), "where t is given, nothing else is told")
-    refuse((blocks or rank < len(names) or not minor) and not smooth, "a relation is not analytic")
-    if rank < len(names):
-        rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
-        refuse(blocks or order or sorted(rows) != sorted(names), "one cover of all finite relations is needed")
-    if not evidence.moving or claim["path"] == "/velocity_dof":
-        refuse(not whole, "each relation stands in one place")
-        return size - rank
-    found = bounds(evidence, {**claim, "about": "here"}, verified)
-    refuse(found != size - rank + len(forms) and not (whole and smooth), "another part may be larger")
-    return found
-
-
-def _is_analytic(evidence: CheckedEvidence, name: str, given: bool) -> bool:
-    """Whether a relation is analytic at all places; a form, and what gives no coordinate, up to a denominator."""
-    one = evidence.relation(name)
-    whole = given and one.kind == "finite"
-    plain = evidence.has_value_everywhere(one.left) if whole else _is_meromorphic(evidence, one.left)
-    return plain and "apply" not in heads_in(one.left)
-
-
-def _is_meromorphic(evidence: CheckedEvidence, tree: Tree) -> bool:
-    """Whether a tree is a quotient of expressions that are analytic everywhere."""
-    below, exponent = tree.below, tree.below[-1].value if tree.head == "power" else None
-    if isinstance(exponent, Fraction) and exponent.denominator == 1:
-        return _is_meromorphic(evidence, below[0])
-    if tree.head in ("tan", "cot", "sec", "csc"):
-        return evidence.has_value_everywhere(below[0])
-    parts = tree.head in ("sum", "product") and all(_is_meromorphic(evidence, part) for part in below)
-    return parts or evidence.has_value_everywhere(tree)
-
-
-def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:
-    """On which coordinates those that are given depend."""
-    later, found = [q for _, q in order], dict[str, frozenset[str]]()
-    own = len(set(later)) == len(later) and set(later) <= set(evidence.variables)
-    refuse(not own, "each relation gives a coordinate of its own")
-    for i, (name, q) in enumerate(order):
-        one, slope, dot = evidence.relation(name), evidence.slope(name, q), "dot"
-        dot = dot if one.kind == "velocity" else ""
-        plain = symbols_in(slope) <= evidence.chosen and evidence.has_value_everywhere(slope)
-        sure = evidence.ring.rational(slope) or evidence.is_nowhere_zero(slope)
-        gives = sure or (plain and point and excludes_zero(point.value(slope)))
-        refuse(not gives or q + dot == "tdot", f"`{name}` does not give `{q}` everywhere")
-        refuse(not symbols_in(one.left).isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
-        if not dot:
-            found[q] = _coordinates(evidence, name, found) - {q}
-    return found
-
-
-def _coordinates(evidence: CheckedEvidence, name: str, given: dict[str, frozenset[str]]) -> frozenset[str]:
-    held = symbols_in(evidence.relation(name).left) & set(evidence.problem.coordinates)
-    return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))
 
 
 def instantaneous(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -232,26 +144,43 @@ def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]
 
 
 def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """How many equations a constraint adds to those of the constraints before it; or how many finite ones there are."""
+    """How many equations a constraint adds to those of the constraints before it; or how many finite ones there are.
+
+    Of the last constraint: by how much the dimension falls, from a manifold to a dof that was verified there.
+    """
     minor, order = evidence.minor(claim["minor"]), owners(evidence)
     evidence.is_about("here", minor.point)
     if claim["path"] == "/count/independent":
         return _rank(evidence, minor, evidence.finite)
     place, own = order.index(claim["owner"]), len(evidence.owned(claim["owner"]))
     refuse(not own, "the constraint has no equations")
-    ranks = [_rank(evidence, minor, relations_of(evidence, order[:k])) for k in (place, place + 1)]
-    return min(own, ranks[1] - ranks[0])
+    before, upto = (relations_of(evidence, order[:k]) for k in (place, place + 1))
+    last = "last" in claim and "/dof at" in verified and not evidence.moving and set(upto) == set(evidence.finite)
+    after = _same_place(evidence, minor.point, verified) if last else _rank(evidence, minor, upto)
+    return min(own, after - _rank(evidence, minor, before))
 
 
 def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
     """The constraints named follow from the others near the point, and no more could be dropped.
 
     No more: of E equations with r independent rows E - r can be spared at most, where what depends does so by numbers,
-    or is a single relation that depends with cofactors none of which is 0.
+    or is a single relation that depends with cofactors none of which is 0. None is named where ``without`` any the rows
+    of the others are independent, and leave more than the dof that was verified there.
     """
-    minor, dropped = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations), names_told(claim)
+    dropped, every = names_told(claim), set(evidence.equations)
+    order = [owner for owner in owners(evidence) if evidence.owned(owner)]
+    if "without" in claim:
+        minors = {name: evidence.minor(claim["without"][name]) for name in order}
+        others = {name: every.difference(evidence.owned(name)) for name in order}
+        ranks = {_same_place(evidence, minor.point, verified) - len(minor.rows) for minor in minors.values()}
+        whole = all(set(minor.rows) == others[name] for name, minor in minors.items())
+        refuse(
+            evidence.moving or min(ranks, default=0) <= 0 or not whole or "/dof at" not in verified,
+            "without a constraint the others are no manifold, or as large",
+        )
+        return []
+    minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     evidence.is_about("here", minor.point)
-    order, every = [owner for owner in owners(evidence) if evidence.owned(owner)], set(evidence.equations)
     refuse(not set(dropped) <= set(order) or not set(minor.rows) <= every, "no constraints, or rows of no relations")
     kept = relations_of(evidence, [owner for owner in order if owner not in dropped])
     evidence.follow(relations_of(evidence, dropped), kept, minor.point, "what is kept")
@@ -291,12 +220,14 @@ def _same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) 
 
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
     """All other coordinates are functions of these near the point, whose number is dof there."""
-    minor = involutive(evidence, claim) if "fields" in claim else evidence.minor(claim["minor"])
-    if "fields" not in claim:
+    way = {"isolated": isolated, "frobenius": involutive}.get(claim["rule"])
+    minor = way(evidence, claim) if way else evidence.minor(claim["minor"])
+    if claim["rule"] != "frobenius":
         _finite_rows(evidence, minor)
-    others = set(evidence.problem.coordinates) - set(minor.columns)
-    refuse(set(names_told(claim)) != others, "the columns of the minor are not all the other coordinates")
-    refuse(_same_place(evidence, minor.point, verified) != len(minor.rows), "their number is not a verified dof")
+    columns = {*minor.columns, *([claim["free"]] if claim["rule"] == "isolated" else [])}
+    others = {*evidence.problem.coordinates}.difference(names_told(claim))
+    refuse(columns != others, "the columns of the minor are not all the other coordinates")
+    refuse(_same_place(evidence, minor.point, verified) != len(columns), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names_told(claim)
 

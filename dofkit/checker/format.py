@@ -68,6 +68,15 @@ span        at, fields [id], rows [ID], words [WORD],     least the words (less 
                                                           independent. Where finite relations hold parameters: minor
                                                           (that of ``most`` does) whose rows account for them. Where
                                                           t or tdot occurs a field's t is not 0 at the point
+isolated    minor, zero ID, free coordinate, fields [id],  most the number of fields (of dof): finite rows without t;
+            pins [coordinate], order (2 to 8)             columns, free and pins are all coordinates; the fields are
+                                                          tangent to rows and zero, pins a minor of them; while pins
+                                                          rest and free has the speed 1, rows stay 0 and the derivative
+                                                          of zero of that order is not 0
+crossing    minor, zero ID, speeds [{coordinate: TEXT}]   most and least n - rows - 1 (of dof): rows and zero are
+                                                          finite, without t, all follow from them; the second
+                                                          derivative of zero is positive for the first speeds,
+                                                          negative for the second
 =========== ============================================= ======================================================
 
 CLAIMS ``{"path", "value", "rule", ..., "about", "cayley"}``. ``about`` (dof, velocity_dof): ``reference`` (the point
@@ -117,15 +126,16 @@ path                                    rule           fields
                                                        the texts of the basis, in order; /dof verified before at the
                                                        same point. Nothing more where the basis is null
 /count/independent                      independent    minor: finite rows, all finite relations follow
-/generalized_coordinates                minor          minor (rows finite or integrals): columns are all the other
-                                                       coordinates; /dof verified before, at the same point. With
-                                                       fields, columns: frobenius as above, rows of velocities too
+/generalized_coordinates                minor,         as above, minor: rows finite or integrals; the columns (and
+                                        frobenius,     free) are all the other coordinates; /dof verified before, at
+                                        isolated       the same point
 /growth_vector                          span           spans: for each entry {"words", "columns"}; at, fields, rows,
                                                        minor (regular: all rows). Upper bounds: Witt, and /dof
                                                        verified before, at the same point
 /redundant                              cofactors      minor: rows are relations of the scene, all others follow from
                                                        them with numbers (or one, with cofactors not 0 at the
-                                                       point; or all are linear or have generic lengths, by covers)
+                                                       point; or all are linear or have generic lengths, by covers).
+                                                       []: without {NAME: minor}, of all rows but NAME's; /dof before
 /constraints/NAME/holonomic             finite, inequality
 /constraints/NAME/holonomic_alone       the same       of the constraint's own relations only (``alone`` is implied)
 .../holonomic true                      integral       at; integrals [ID of integral steps]: NAME's relations follow
@@ -152,7 +162,7 @@ path                                    rule           fields
                                                        the constraint's own}
 .../independent                         independent    minor: rows of constraints up to this; those before follow from
                                                        rows before, and its own from all rows; at most as many as
-                                                       it has equations
+                                                       it has equations. last: of the last one, /dof before
 ======================================= ============== ==========================================================
 
 Local claims (holonomic, circuit, independent, ...) are made at the scene's configuration (with t = 0), where one is

@@ -10,6 +10,7 @@ from typing import Any
 from dofkit.checker import dimension_rules as numbers
 from dofkit.checker import emptiness_rules as emptiness
 from dofkit.checker import label_rules as labels
+from dofkit.checker import whole_rules as whole
 from dofkit.checker.document import document_of, sha256_of
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import take_cover
@@ -25,14 +26,14 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/consistent", "nullstellensatz", emptiness.inconsistent),
     ("/conflicting", "conflict", emptiness.conflict),
     ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds),
-    ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
+    ("/dof, /velocity_dof", "everywhere", whole.everywhere),
     ("/velocity_dof, /holonomic, /scleronomic, /redundant_equations, /redundancies", "count", numbers.counted),
     ("/singular", "compare", numbers.counted),
     ("/instantaneous_dof", "rank", numbers.instantaneous),
     ("/redundant", "cofactors", numbers.redundant),
     ("/count/independent, independent", "independent", numbers.independence),
     ("/integrable_part", "integrals", numbers.integrable_part),
-    ("/generalized_coordinates", "minor", numbers.generalized_coordinates),
+    ("/generalized_coordinates", "minor, frobenius, isolated", numbers.generalized_coordinates),
     ("/growth_vector", "span", numbers.growth),
     ("circuit", "cofactors", numbers.circuit),
     ("holonomic, holonomic_alone", "finite", labels.finite),

@@ -12,6 +12,7 @@ from dofkit.methods.certificates.forms import integrable_names, involutive_rows,
 from dofkit.methods.certificates.integrals import integral_of_text
 from dofkit.methods.certificates.rigid_fields import backing
 from dofkit.methods.certificates.room import Room, Told
+from dofkit.methods.certificates.stationary import isolations, stationary
 from dofkit.report import ConstraintEntry
 
 
@@ -57,6 +58,7 @@ def _near(room: Room) -> Iterator[Told]:
     standing = room.standing
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "regular", "minor": room.minor(standing), "about": room.about, **backed}
+    yield from stationary(room)
 
 
 def velocity_dof(room: Room) -> Iterator[Told]:
@@ -99,6 +101,19 @@ def redundant(room: Room) -> Iterator[Told]:
     standing = room.accounted(names)
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "cofactors", "minor": room.minor(standing), **backed}
+    elif not dropped:
+        yield from _needed(room)
+
+
+def _needed(room: Room) -> Iterator[Told]:
+    """For every constraint a minor of all rows of the others."""
+    minors = {}
+    for owner in dict.fromkeys(map(room.owner, room.equations)):
+        standing = room.standing_of([name for name in room.equations if room.owner(name) != owner])
+        if standing is None or standing.dependent:
+            return
+        minors[owner] = room.minor(standing)
+    yield {"rule": "cofactors", "without": minors}
 
 
 def generalized_coordinates(room: Room) -> Iterator[Told]:
@@ -112,7 +127,10 @@ def generalized_coordinates(room: Room) -> Iterator[Told]:
         yield {"rule": "minor", "minor": room.minor(solving)}
     if room.scenery.evidence.moving:
         for found in involutive_rows(room, integrable_names(room), others):
-            yield {**found, "rule": "minor"}
+            yield found
+    for found in isolations(room):
+        if set(found["pins"]) == set(chosen):
+            yield found
 
 
 def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -132,6 +150,8 @@ def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told
     upto.accounted = standing.accounted or not dependent
     if (backed := backing(room, upto)) is not None:
         yield {"rule": "independent", "minor": room.minor(upto), **backed}
+    if last == len(owners) - 1:
+        yield {"rule": "independent", "minor": room.minor(upto), "last": True}
 
 
 def circuit(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
