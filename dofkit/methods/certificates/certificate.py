@@ -137,7 +137,8 @@ class Certifying:
                 outcome = self.trial.outcome(claim) if self.trial else "open"
                 if outcome == "shown":
                     return claim
-                if outcome == "contradicted" and self.trial and self._counts(room, claim):
+                counts = outcome == "contradicted" and (self._counts(room, claim) or is_decisive(room, claim))
+                if counts and self.trial:
                     contradicted = contradicted or self.trial.reasons[path]
         if contradicted:
             self.contradictions[path] = contradicted

@@ -12,12 +12,12 @@ from typing import Any, NamedTuple
 
 from dofkit.checker.balls import excludes_zero
 from dofkit.checker.derivatives import along, derivative
-from dofkit.checker.emptiness_rules import moves
-from dofkit.checker.fields import admissible, field_named, span
+from dofkit.checker.emptiness_rules import consistent, moves
+from dofkit.checker.fields import admissible, field_named, involutive, span
 from dofkit.checker.trees import CheckError, add, negative, number, times
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.everywhere import graph_order
-from dofkit.methods.certificates.forms import Words, tangent_fields, words_of
+from dofkit.methods.certificates.forms import Words, involutive_rows, tangent_fields, words_of
 from dofkit.methods.certificates.labels import integral_text
 from dofkit.methods.certificates.room import Room, Standing
 from dofkit.report import ConstraintEntry, Report
@@ -110,13 +110,16 @@ def is_one_part(room: Room) -> bool:
     """Whether all is analytic, and the finite relations leave a graph: over free coordinates, or as lengths over all.
 
     Relations that each give a generic symbol of their own are a graph over all coordinates: nearly all lengths have
-    fibres of the largest rank alone (Sard).
+    fibres of the largest rank alone (Sard). Linear relations with rational coefficients leave an affine space.
     """
     evidence = room.scenery.evidence
     analytic = all(evidence.has_value_everywhere(evidence.relation(one).left) for one in evidence.equations)
     if not analytic or room.problem.functions:
         return False
-    return all(map(evidence.own_symbol, evidence.finite)) or not graph_order(room, list(evidence.finite))[1]
+    slopes = (evidence.slope(one, q) for one in evidence.finite for q in room.problem.coordinates)
+    if all(map(evidence.own_symbol, evidence.finite)) or all(evidence.ring.rational(s) is not None for s in slopes):
+        return True
+    return not graph_order(room, list(evidence.finite))[1]
 
 
 def exclusions(room: Room, report: Report, path: str, value: Any) -> Iterator[Contradiction]:
@@ -125,6 +128,8 @@ def exclusions(room: Room, report: Report, path: str, value: Any) -> Iterator[Co
     entry = next((one for one in report.constraints if one.name == name), None)
     if field == "conflicting":
         yield from _met_together(room, value)
+    elif field == "consistent" and value is False:
+        yield from _held_at_edges(room)
     elif field == "integrating_factor" and entry is not None:
         yield from _no_factor(room, entry)
     elif speaks_for_all(room):
@@ -163,6 +168,10 @@ def _spanned(room: Room, standing: Standing, words: Words, count: int, longest: 
 
 def _dof(room: Room, value: int) -> Iterator[Contradiction]:
     yield from _at_most(room, room.finite_standing, value)
+    for given in involutive_rows(room, room.equations) if room.scenery.evidence.moving else ():
+        most = len(room.problem.coordinates) - len(involutive(room.scenery.evidence, given).rows)
+        if most < value:
+            yield Contradiction(f"the evidence gives at most {most}, not {value}")
     found = _words(room, len(room.problem.coordinates) + 1)
     if found is not None and len(found[1].words) > value:
         least = _spanned(room, *found, len(found[1].words), 12)
@@ -182,9 +191,10 @@ def _instantaneous(room: Room, value: int) -> Iterator[Contradiction]:
 def _growth(room: Room, value: Sequence[int]) -> Iterator[Contradiction]:
     """A vector whose entries are smaller than what words of that length span, where time is no direction."""
     found = None if room.scenery.evidence.timed else _words(room, len(room.problem.coordinates) + 1)
-    if found is None:
+    if found is None or not value:
         return
-    for step, (told, count) in enumerate(zip(value, found[1].levels, strict=False), 1):
+    for step, count in enumerate(found[1].levels, 1):
+        told = value[min(step, len(value)) - 1]
         if count > told and _spanned(room, *found, count, step) > told:
             yield Contradiction(f"the evidence gives at least {count} in entry {step}, not {told}")
 
@@ -265,6 +275,22 @@ def _no_factor(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
             curl = add(derivative(scaled[v], u), negative(derivative(scaled[u], v)))
             if room.differs(curl, point) and excludes_zero(evidence.point(point.name).value(curl)):
                 yield Contradiction(f"the evidence gives a curl in {u}, {v} that is not 0")
+
+
+def _held_at_edges(room: Room) -> Iterator[Contradiction]:
+    """A motion, and for each inequality a point at which it holds, as an equality where no other was found."""
+    if room.point is None:
+        return
+    places = {}
+    for one in room.problem.relations:
+        if one.kind == "inequality":
+            place = room.search.meeting(one.name) or room.search.touching(one.name, 70)
+            if place is None:
+                return
+            places[one.name] = room.add_point(place)
+    claim = {"path": "/consistent", "rule": "point", "at": room.point.name, "inequalities": places}
+    if consistent(room.scenery.evidence, claim, {}):
+        yield Contradiction("the evidence gives True, not False", True)
 
 
 def _met_together(room: Room, names: Sequence[str]) -> Iterator[Contradiction]:
