@@ -13,12 +13,11 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any, Literal
 
-from dofkit.checker.constraints import TYPES
+from dofkit.checker.constraints import TYPES, Entry, Surroundings, known_fields
 from dofkit.checker.derivatives import TIME_RATE, symbols_in
 from dofkit.checker.document import canonical
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
 from dofkit.checker.grammar import BUILT_IN, KnownNames, Sided, spelled_out
-from dofkit.checker.surroundings import Entry, Surroundings, known_fields
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
 
 MOST_RELATIONS = 20_000

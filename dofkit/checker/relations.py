@@ -15,6 +15,7 @@ from typing import Any
 from flint import arb
 
 from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero
+from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.derivatives import along, derivative, heads_in, linear_parts, substituted, symbols_in
 from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import Problem
@@ -86,15 +87,7 @@ class CheckedTexts:
 
     def is_nowhere_zero(self, tree: Tree, positive: bool = False) -> bool:
         """Whether a tree is a product of powers of numbers and parameters that are not 0, or are positive."""
-        if not symbols_in(tree):
-            ball = evaluated(tree, {}, self.effort)
-            return bool(ball > 0) if positive else excludes_zero(ball)
-        if tree.head == "product":
-            return all(self.is_nowhere_zero(part, positive) for part in tree.below)
-        if tree.head == "power":
-            return self.is_nowhere_zero(tree.below[0], positive) and not symbols_in(tree.below[1])
-        sign = self.problem.parameters.get(str(tree.value)) if tree.head == "symbol" else ""
-        return sign == "positive" or (sign == "nonzero" and not positive)
+        return nowhere_zero(tree, self.problem.parameters, self.effort, positive)
 
     def has_value_everywhere(self, tree: Tree) -> bool:
         """Whether a tree is smooth (analytic, but for declared functions) at all real values of its symbols."""
