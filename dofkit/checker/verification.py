@@ -11,11 +11,10 @@ from dofkit.checker import dimension_rules as numbers
 from dofkit.checker import emptiness_rules as emptiness
 from dofkit.checker import label_rules as labels
 from dofkit.checker import whole_rules as whole
-from dofkit.checker.document import document_of, sha256_of
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import take_cover
 from dofkit.checker.format import PARTS, certificate_of
-from dofkit.checker.problem import Problem, read_problem
+from dofkit.checker.problem import Problem, canonical, document_of, read_problem, sha256_of
 from dofkit.checker.relations import FAULTS, told
 from dofkit.checker.trees import CheckError, Effort, refuse
 
@@ -87,7 +86,7 @@ class Verifier:
         other = given["scene"].get("sha256") != sha256_of(document)
         refuse(other, "the certificate is of another scene, or of this one before it was edited")
         self.problem = problem or read_problem(document)
-        refuse(self.problem.tolerance is not None, "what is measured up to a tolerance is not proved")
+        refuse("tolerance" in canonical(document), "what is measured up to a tolerance is not proved")
         self.evidences: dict[bool, CheckedEvidence] = {}
         self.verified: dict[str, Any] = {}
 
@@ -112,7 +111,7 @@ class Verifier:
             except FAULTS as error:
                 failed.append({"path": path, "rule": rule, "why": told(error)})
             seen.add(path)
-        name, count = str(self.given["scene"].get("name", self.problem.name))[:200], len(self.given["claims"])
+        name, count = str(self.given["scene"].get("name", self.document.get("name")))[:200], len(self.given["claims"])
         return Verification(name, count, count - len(failed), failed, list(self.given["uncovered"]))
 
     def check(self, claim: dict[str, Any]) -> None:

@@ -15,7 +15,7 @@ from shared.known_scenes import CATALOG, few, report_of, scene_of, stem, swept
 from shared.tampering import put
 
 from dofkit.checker import CheckError, verify
-from dofkit.checker.document import canonical, document_of, sha256_of
+from dofkit.checker.problem import canonical, document_of, sha256_of
 from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 

@@ -15,9 +15,8 @@ from checker.values import of_tree, rows_of_trees
 from shared.known_scenes import SCENES, few, scene_of, stem
 
 import dofkit
-from dofkit.checker.document import canonical, document_of, sha256_of
 from dofkit.checker.grammar import KnownNames, parse
-from dofkit.checker.problem import Problem, read_problem
+from dofkit.checker.problem import Problem, canonical, document_of, read_problem, sha256_of
 from dofkit.checker.trees import CheckError, number
 
 
@@ -32,7 +31,8 @@ def said(problem: Problem) -> dict[str, str]:
 def agrees(problem: Problem, name: str, text: str, factor: float = 1) -> None:
     """The relation is ``text`` times a number, at random places."""
     (relation,) = (relation for relation in problem.relations if relation.name == name)
-    names = [*problem.coordinates, *problem.rates, *problem.parameters, *problem.generic, "t", "tdot"]
+    rates = [f"{q}dot" for q in problem.coordinates]
+    names = [*problem.coordinates, *rates, *problem.parameters, *problem.generic, "t", "tdot"]
     known = KnownNames(frozenset(names) - {"t"})
     for seed in range(4):
         values = {q: random.Random(f"{q} {seed}").uniform(0.2, 1.2) for q in names}

@@ -5,12 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeVar
 
-from dofkit.checker.document import canonical, sha256_of
 from dofkit.checker.format import PARTS
-from dofkit.checker.problem import Problem, read_problem
+from dofkit.checker.problem import Problem, canonical, read_problem, sha256_of
 from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates import emptiness, forms, freedom, labels
-from dofkit.methods.certificates.contradictions import Contradiction, as_if, exclusions, is_decisive, other_reports
+from dofkit.methods.certificates.contradictions import (
+    Contradiction,
+    as_if,
+    exclusions,
+    is_decisive,
+    is_told_of_less,
+    other_reports,
+)
 from dofkit.methods.certificates.estimates import NoEstimateError
 from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.scenery import Scenery
@@ -151,7 +157,7 @@ class Certifying:
         vanishes at the configuration may be told of what it was reduced to.
         """
         path = claim["path"]
-        if room.scenery.reduced_from or (path == "/instantaneous_dof" and room.has_empty_row):
+        if is_told_of_less(room, path[1:]) or (path == "/instantaneous_dof" and room.has_empty_row):
             return False
         if path == "/dof" and self.trial and not room.problem.reference:
             number = self.trial.reasons[path].removeprefix("the evidence gives ").partition(",")[0]

@@ -133,7 +133,7 @@ class Room(RoomParts):
             return None
         found = self._reference or self._searched()
         if found is not None and self._squared and not self.scenery.timed:
-            found.values |= dict.fromkeys(self.problem.rates, "0")
+            found.values |= dict.fromkeys((f"{q}dot" for q in self.problem.coordinates), "0")
         if found is not None:
             found.name = f"{self.scenery.label}{found.name}"
             self.scenery.parts["points"].append(found.entry())
@@ -146,7 +146,7 @@ class Room(RoomParts):
         if self.nonlinear:
             names += [name for name in self.equations if name not in names]
             names += [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
-            unknowns += problem.rates
+            unknowns += [f"{q}dot" for q in problem.coordinates]
         finite = not self.scenery.evidence.moving and self.report.dof is not None
         rank = len(problem.coordinates) - (self.report.dof or 0) if finite else None
         return self.search.somewhere(names, unknowns, rank=rank)
