@@ -29,29 +29,24 @@ def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 
 
 def moves(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> CheckedPoint:
-    """A point through which a motion meets equations: a regular one, or one of rest or of a motion that is told."""
+    """A point through which a motion meets equations: a regular one, or one at which all may rest."""
     if given["rule"] == "regular":
         return evidence.accounts(evidence.minor(given["minor"]), wanted).point
     refuse(given["rule"] != "point", "what can be met is shown by `regular` or `point`")
-    point, path = evidence.point(given["at"]), {q: evidence.text(text) for q, text in given.get("q", {}).items()}
-    coordinates = evidence.problem.coordinates
-    known = frozenset().union(*map(symbols_in, path.values())) <= {"t", *evidence.problem.parameters}
-    refuse(not known or not path.keys() <= set(coordinates), "a motion gives coordinates by time and parameters")
-    rates = {q + "dot": derivative(path.get(q, ZERO), "t") for q in coordinates} | {"tdot": ONE}
-    still = [name for name in wanted if evidence.relation(name).kind == "finite" and not path]
+    point, still = evidence.point(given["at"]), [name for name in wanted if evidence.relation(name).kind == "finite"]
     evidence.on_set(point, still)
     evidence.settled(point, still, given)
-    chosen = any(evidence.is_open(evidence.relation(name).left) for name in (wanted if path else still))
-    balls = {name: point.value(tree) for name, tree in (path | rates).items()}
-    values = {name: tree for name, tree in point.exact.items() if name != "t" and not chosen and name not in path}
+    chosen = any(evidence.is_open(evidence.relation(name).left) for name in still)
+    exact = {} if chosen else {name: tree for name, tree in point.exact.items() if name != "t"}
+    rest = {**dict.fromkeys(evidence.velocities, ZERO), "tdot": ONE}
+    balls = {rate: point.value(tree) for rate, tree in rest.items()}
     for name in wanted:
-        one = evidence.relation(name)
-        if name in still and "t" not in symbols_in(one.left):
-            continue
-        for tree in (one.left, *(derivative(one.left, v) for v in evidence.met_by(one.left))):
-            point.value_with(tree, balls)
-        put_in = {**({} if evidence.is_open(one.left) else values), **path, **rates}
-        evidence.identity(substituted(one.left, put_in), ZERO, f"`{name}` along the motion")
+        left = evidence.relation(name).left
+        if name not in still or "t" in symbols_in(left):
+            for tree in (left, *(derivative(left, v) for v in evidence.met_by(left))):
+                point.value_with(tree, balls)
+            put_in = substituted(left, {**({} if evidence.is_open(left) else exact), **rest})
+            evidence.identity(put_in, ZERO, f"`{name}` at rest")
     return point
 
 
@@ -61,10 +56,8 @@ def refuted(evidence: CheckedEvidence, given: Told, allowed: Sequence[str]) -> b
     An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974).
     """
     refuse(given["rule"] != "nullstellensatz", "what cannot be met is shown by `nullstellensatz`")
-    held, total = (
-        evidence.closure(allowed, None),
-        [evidence.text(given["number"]), evidence.squares(given.get("sos", []))],
-    )
+    held = evidence.closure(allowed, None)
+    total = [evidence.text(given["number"]), evidence.squares(given.get("sos", []))]
     refuse(not evidence.is_nowhere_zero(total[0], True), "the number that is left over is not positive")
     sided = {name: evidence.squares(terms) for name, terms in given.get("inequality", {}).items()}
     factors = {name: evidence.text(text) for name, text in given.get("c", {}).items()}

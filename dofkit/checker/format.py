@@ -86,10 +86,9 @@ NAME is a constraint's name, with ``~1`` for ``/`` and ``~0`` for ``~``.
 ======================================= ============== ==========================================================
 path                                    rule           fields
 ======================================= ============== ==========================================================
-/consistent true                        point          at; all relations hold; at rest, for all t. ``q``
-                                                       {coordinate: TEXT in t and parameters}: a motion that meets
-                                                       them identically. ``inequalities`` {NAME or ID: POINT}: each
-                                                       holds at a point by itself. Where parameters or functions
+/consistent true                        point          at; all relations hold; at rest, for all t.
+                                                       ``inequalities`` {NAME or ID: POINT}: each holds at a point by
+                                                       itself. Where parameters or functions
                                                        occur in finite relations (but for a generic symbol of its
                                                        own): minor as well, whose rows account for these, and rest
                                                        is identical in the coordinates
@@ -141,14 +140,13 @@ path                                    rule           fields
 .../holonomic true                      integral       at; integrals [ID of integral steps]: NAME's relations follow
                                                        from their rates, finite relations and theirs
 .../holonomic true                      frobenius      minor, fields, columns: NAME's relations are rows or follow
-.../holonomic false                     bracket        at, fields, rows, combination [[c, WORD]], pairs ID: the
+.../holonomic false                     bracket        at, fields, rows, word WORD, pairs ID: the
                                                        relation ID of NAME is not 0 there; minor as for ``span``
 .../holonomic_alone true, false         wedge          true: omega ^ d(omega) = 0 (one form); false: at, triple [x, y,
                                                        z] (``t`` for time)
-.../scleronomic, .../catastatic true    timeless       steps [ID of factor steps]: t, tdot do not occur in what is
-                                                       left; degree {ID: k}: of a nonlinear relation, homogeneous
-.../scleronomic false                   turns          at, relation ID; pair [x, y] for a form without tdot; euler
-                                                       true: a nonlinear relation that is no cone at the state ``at``
+.../scleronomic, .../catastatic true    timeless       t, tdot do not occur; degree {ID: k}: of a nonlinear
+                                                       relation, which is homogeneous
+.../scleronomic false                   turns          at, relation ID; pair [x, y] for a form without tdot
 .../catastatic false                    turns          at, relation ID: the coefficient of tdot is not 0
 .../exact true                          exact          closed
 .../exact false                         not exact      at, pair [x, y]; relation ID where there are several forms

@@ -184,10 +184,6 @@ def test_what_is_feasible_together():
 def test_motions_through_time():
     scene = {"coordinates": ["x", "y"], "constraints": ["x = sin(t)", "xdot = cos(t) + y*0"]}
     at = [{"id": "P", "values": {"x": "0", "y": "0", "t": "0"}}]
-    claim = {"path": "/consistent", "value": True, "rule": "point", "q": {"x": "sin(t)", "y": "0"}, "at": "P"}
-    assert faults(scene, [claim], points=at) == {}
-    assert not accepted(scene, [{**claim, "q": {"x": "t", "y": "0"}}], points=at)
-    assert not accepted(scene, [{**claim, "q": {"y": "0"}}], points=at)
     assert not accepted(scene, [{"path": "/consistent", "value": True, "rule": "point", "at": "P"}], points=at)
     moment = {"coordinates": ["x"], "constraints": ["x*t = 0", "x = 0", "t = 0"]}
     start = [{"id": "P", "values": {"x": "0", "t": "0"}}]

@@ -72,7 +72,7 @@ def _reached(room: Room, owner: str, alone: bool) -> Told | None:
     for name in evidence.owned(owner, ("velocity",)):
         for word, vector in zip(words.words, words.vectors, strict=True):
             if len(word) > 1 and abs(pairing(room, name, standing.point, vector)) > FAR:
-                used = {"fields": words.fields, "rows": words.rows, "combination": [["1", word]], "pairs": name}
+                used = {"fields": words.fields, "rows": words.rows, "word": word, "pairs": name}
                 if any(map(evidence.is_open, (evidence.relation(one).left for one in evidence.finite))):
                     used["minor"] = room.minor(standing)
                 return {"rule": "bracket", "at": standing.point.name, **used}
