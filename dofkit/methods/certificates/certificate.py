@@ -14,6 +14,7 @@ from dofkit.methods.certificates.contradictions import (
     as_if,
     exclusions,
     is_decisive,
+    is_of_largest_part,
     is_told_of_less,
     other_reports,
 )
@@ -159,12 +160,14 @@ class Certifying:
         path = claim["path"]
         if is_told_of_less(room, path[1:]) or (path == "/instantaneous_dof" and room.has_empty_row):
             return False
-        if path == "/dof" and self.trial and not room.problem.reference:
+        told = self.report.verdicts.get(path[1:])
+        whole = told is not None and told.about == "everywhere"
+        if path == "/dof" and whole and self.trial and not room.problem.reference:
             number = self.trial.reasons[path].removeprefix("the evidence gives ").partition(",")[0]
             if number.isdigit() and int(number) > claim["value"]:
                 return True
         pointed = any(key in claim for key in ("minor", "at", "most")) and path.rpartition("/")[2] in OF_A_POINT
-        return not pointed or room.at_reference or claim.get("about") == "everywhere"
+        return not pointed or room.at_reference or is_of_largest_part(room, claim)
 
     def _compare_about(self, path: str, claim: Told) -> None:
         """A number shown near a point only, that is told of everywhere, is uncovered in that."""

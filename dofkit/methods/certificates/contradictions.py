@@ -82,11 +82,22 @@ def _other_values(field: str, value: Any, coordinates: int, report: Report) -> I
 def is_decisive(room: Room, claim: dict[str, Any]) -> bool:
     """Whether what shows another value speaks of the points that the claim is told of."""
     field = claim["path"].rpartition("/")[2]
-    if room.scenery.reduced_from:
+    if is_told_of_less(room, field):
         return False
-    if claim["rule"] in OF_ALL or field in OF_ANY_POINT or claim.get("about") == "everywhere":
+    if claim["rule"] in OF_ALL or field in OF_ANY_POINT or is_of_largest_part(room, claim):
         return True
     return speaks_for_all(room)
+
+
+def is_of_largest_part(room: Room, claim: dict[str, Any]) -> bool:
+    """Whether evidence is of the whole set, and so is the number that is told, not of a part that may be smaller."""
+    verdict = room.report.verdicts.get(claim["path"][1:])
+    return claim.get("about") == "everywhere" and verdict is not None and verdict.about == "everywhere"
+
+
+def is_told_of_less(room: Room, field: str) -> bool:
+    """Whether a report may be of what relations were reduced to: bases of squares, forms without a factor of time."""
+    return bool(room.scenery.reduced_from) or (field == "growth_vector" and room.scenery.evidence.timed)
 
 
 def speaks_for_all(room: Room) -> bool:
@@ -189,8 +200,9 @@ def _instantaneous(room: Room, value: int) -> Iterator[Contradiction]:
 
 
 def _growth(room: Room, value: Sequence[int]) -> Iterator[Contradiction]:
-    """A vector whose entries are smaller than what words of that length span, where time is no direction."""
-    found = None if room.scenery.evidence.timed else _words(room, len(room.problem.coordinates) + 1)
+    """A vector whose entries are smaller than what words of that length span."""
+    told_of_less = is_told_of_less(room, "growth_vector")
+    found = None if told_of_less else _words(room, len(room.problem.coordinates) + 1)
     if found is None or not value:
         return
     for step, count in enumerate(found[1].levels, 1):
