@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from contextlib import suppress
-from functools import cached_property
 from typing import Any, NamedTuple
 
 from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, interval_newton, regular
@@ -28,21 +27,16 @@ class CheckedMinor(NamedTuple):
 class CheckedEvidence(CheckedRelations):
     """The points and minors of a certificate, each looked at when it is used, and once."""
 
-    @cached_property
-    def index(self) -> dict[str, dict[str, dict[str, Any]]]:
-        """The entries of every part by their ids."""
-        return {part: {str(one.get("id")): one for one in entries} for part, entries in self.parts.items()}
-
     def named(self, part: str, name: Any) -> dict[str, Any]:
         """A point, minor, field or cover by its id."""
-        if not isinstance(name, str) or name not in self.index[part]:
-            raise CheckError(f"no such entry of `{part}`: {str(name)[:60]!r}")
-        return self.index[part][name]
+        self.effort.spend(len(self.parts[part]))
+        found = [one for one in self.parts[part] if one["id"] == name]
+        refuse(not found, f"no such entry of `{part}`: {str(name)[:60]!r}")
+        return found[0]
 
     def point(self, name: Any) -> CheckedPoint:
         """A point by its id: exact, or certified by interval Newton."""
-        found: CheckedPoint = self.once(("points", name), lambda: self._point(self.named("points", name)))
-        return found
+        return self.once(("points", name), lambda: self._point(self.named("points", name)))
 
     def _point(self, given: dict[str, Any]) -> CheckedPoint:
         values, columns, rows = dict[str, Tree](), given.get("columns", []), given.get("rows", [])
@@ -52,20 +46,19 @@ class CheckedEvidence(CheckedRelations):
         refuse(not square, "a box has as many rows as columns, each once, and not too many")
         for name, text in given["values"].items():
             values[name] = substituted(self.text(text), values)
-        functions = {
-            name: (tuple(f["arguments"]), self.text(f["text"], f["arguments"]))
-            for name, f in given.get("functions", {}).items()
-        }
-        for name, (arguments, text) in functions.items():
+        functions = dict[str, tuple[tuple[str, ...], Tree]]()
+        for name, choice in given.get("functions", {}).items():
+            arguments, text = tuple(choice["arguments"]), self.text(choice["text"], choice["arguments"])
             fits = len(set(arguments)) == self.problem.functions.get(name) and symbols_in(text) <= set(arguments)
             refuse(not fits, f"the choice for `{name}` is no function of its arguments")
+            functions[name] = arguments, text
         balls = {name: evaluated(tree, {}, self.effort) for name, tree in values.items()}
         exact = {name: tree for name, tree in values.items() if name not in columns}
         point = CheckedPoint(given["id"], exact, functions, self.effort, balls, frozenset(rows))
         if columns:
+            equations, centre = [self.relation(name).left for name in rows], {name: balls[name] for name in columns}
             radius = evaluated(self.text(given["radius"]), {}, self.effort)
             refuse(not radius > 0, "the radius of a box is positive")
-            equations, centre = [self.relation(name).left for name in rows], {name: balls[name] for name in columns}
             point.balls |= interval_newton(equations, centre, radius.mid(), point.value_with)
         for name, sign in self.problem.parameters.items():
             wrong = name in balls and not (balls[name] > 0 or (sign != "positive" and excludes_zero(balls[name])))
@@ -75,7 +68,7 @@ class CheckedEvidence(CheckedRelations):
     def holds(self, name: str, point: CheckedPoint) -> bool:
         """Whether a relation is 0 at a point, exactly."""
         left = self.relation(name).left
-        return bool(self.once(("holds", name, point.name), lambda: self._is_zero(left, point)))
+        return self.once(("holds", name, point.name), lambda: self._is_zero(left, point))
 
     def _is_zero(self, left: Tree, point: CheckedPoint) -> bool:
         """Whether a tree is 0 at a point: of a row of its box, or in the ring; and its ball holds 0."""
@@ -104,8 +97,7 @@ class CheckedEvidence(CheckedRelations):
         """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""
         if isinstance(given, str):
             key = ("minors", given, None if allowed is None else frozenset(allowed))
-            found: CheckedMinor = self.once(key, lambda: self.minor(self.named("minors", given), allowed))
-            return found
+            return self.once(key, lambda: self.minor(self.named("minors", given), allowed))
         point, rows, columns = self.point(given["at"]), tuple(given["rows"]), tuple(given["columns"])
         square = len({*rows}) == len(rows) == len(columns) == len({*columns}) <= LARGEST_MINOR
         refuse(not square, "a minor has as many rows as columns, each once, and not too many")
@@ -165,14 +157,13 @@ class CheckedEvidence(CheckedRelations):
             return
         refuse(about not in ("reference", "here"), "a claim is about `reference`, `component` or `everywhere`")
         refuse(not self.problem.reference, "the scene has no configuration")
-        places = {q: self.problem.reference[q] for q in self.problem.coordinates}
-        places |= {"t": ZERO} if "t" in point.balls else {}
-        for name, tree in places.items():
+        time = {"t": ZERO} if "t" in point.balls else {}
+        for name, tree in {**self.problem.reference, **time}.items():
             told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
-        for name in self.finite:
-            if self.is_open(self.relation(name).left):
-                self.identity(self.at_reference(self.relation(name).left), ZERO, f"`{name}` at the configuration")
+        for left in (self.relation(name).left for name in self.finite):
+            if self.is_open(left):
+                self.identity(self.at_reference(left), ZERO, "a relation at the configuration")
 
     def _is_off(self, point: CheckedPoint) -> bool:
         """Whether the scene's configuration is shown not to meet its relations."""

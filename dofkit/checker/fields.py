@@ -56,10 +56,9 @@ def of_word(evidence: CheckedEvidence, word: Any, allowed: Iterable[str], longes
     short = isinstance(word, list) and 1 <= len(word) <= longest and set(word) <= set(allowed)
     refuse(not short, "a word is a list of the fields, not too long")
     start, last = word[:-1], field_named(evidence, word[-1])
-    found: VelocityField = evidence.once(
+    return evidence.once(
         ("word", *word), lambda: paid(evidence, of_word(evidence, start, allowed), last) if start else last
     )
-    return found
 
 
 def paid(evidence: CheckedEvidence, first: VelocityField, second: VelocityField) -> VelocityField:

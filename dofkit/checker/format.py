@@ -17,9 +17,9 @@ branch      of, factors [TEXT], chosen (place), power       of = product of fact
                                                             other factors not 0
 sos         of, terms [[c, a]]                              of = sum c a^2 or its negative, all c > 0; ids ``id.1``,
                                                             ``id.2``, ... are the a, which have a value everywhere
-implied     of (or ``text``: a new relation), h, c {ID:     h * of = sum c[i] * i; id (and ``of``) follows from
-            TEXT}                                           the i. Needs h not 0, the c defined. The c of a
-                                                            velocity relation may hold velocities
+implied     of, h, c {ID: TEXT}                             h * of = sum c[i] * i: ``of`` follows from the i.
+                                                            Needs h not 0, the c defined. The c of a velocity
+                                                            relation may hold velocities
 rate        of (finite, or an integral)                                     its time derivative, with qdot and tdot
 integral    function (f), h, c {ID: TEXT}                   h * (df/dt) = sum c[i] * i: f keeps its value. Needs
                                                             h not 0, the c defined. A finite relation of the leaf

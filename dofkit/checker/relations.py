@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
 from flint import arb
 
@@ -25,6 +25,7 @@ from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, n
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
 LONGEST_TEXT = 40_000
+Looked = TypeVar("Looked")
 _PLAIN = frozenset(("symbol", "sum", "product", "sin", "cos", "exp", "apply"))
 
 
@@ -32,7 +33,8 @@ class CheckedTexts:
     """The texts that a certificate may write about a problem, their signs, and where they have a value."""
 
     def __init__(self, problem: Problem, effort: Effort) -> None:
-        self.problem, self.effort, self.ring = problem, effort, CheckedRing(effort)
+        self.problem, self.effort = problem, effort
+        self.ring = CheckedRing(effort, 2 * len(problem.coordinates) + len(problem.parameters) + len(problem.generic))
         self.seen: dict[Any, Any] = {}
         self.variables: tuple[str, ...] = (*problem.coordinates, "t")
         self.velocities = frozenset(name + "dot" for name in self.variables)
@@ -41,17 +43,17 @@ class CheckedTexts:
         taken = self.chosen.union(problem.coordinates)
         self.forms = {f"d{q}": symbol(f"{q}dot") for q in self.variables if f"d{q}" not in taken}
 
-    def once(self, key: Any, look: Callable[[], Any]) -> Any:
+    def once(self, key: Any, look: Callable[[], Looked]) -> Looked:
         """What was looked at under a key before, or is now."""
         if key not in self.seen:
             self.seen[key] = look()
-        return self.seen[key]
+        found: Looked = self.seen[key]
+        return found
 
     def text(self, text: Any, extra: Iterable[str] = ()) -> Tree:
         """The tree of a text; ``extra`` are further names it may mention."""
         refuse(not isinstance(text, str) or len(text) > LONGEST_TEXT, "an expression is a text of moderate length")
-        found: Tree = self.once(("text", text, *extra), lambda: self._read(text, tuple(extra)))
-        return found
+        return self.once(("text", text, *extra), lambda: self._read(text, tuple(extra)))
 
     def _read(self, text: str, extra: tuple[str, ...]) -> Tree:
         self.effort.spend(10 * len(text) + 1)
@@ -164,8 +166,8 @@ class CheckedRelations(CheckedTexts):
             except FAULTS as error:
                 self.faults[name] = f"step `{name[:60]}`: {told(error)}"
 
-    def _derived(self, name: str, left: Tree, leaf: bool = False) -> DerivedRelation:
-        return DerivedRelation(name, "velocity" if self.met_by(left) else "finite", left, leaf)
+    def _derived(self, name: str, left: Tree) -> DerivedRelation:
+        return DerivedRelation(name, "velocity" if self.met_by(left) else "finite", left)
 
     def _branch(self, step: dict[str, Any]) -> Made:
         """A product is 0 where a factor is, and where the others are not 0 only there; so is a power of the factor."""
@@ -191,13 +193,12 @@ class CheckedRelations(CheckedTexts):
         return new, [*(Consequence(name, (of.name,)) for name in names), Consequence(of.name, names)]
 
     def _implied(self, step: dict[str, Any]) -> Made:
-        """h g = sum c_i r_i: g is 0 where all r_i are and h is not; an integral with the rate g keeps its value.
+        """h g = sum c_i r_i: g is 0 where all r_i are and h is not; a function with the rate g keeps its value.
 
         Integrals: along every motion near a point where h is not 0.
         """
-        leaf, of = step["by"] == "integral", self.relation(step["of"]) if "of" in step else None
-        refuse(leaf and of, "an integral is a function of its own")
-        left = of.left if of else self.text(step["function" if leaf else "text"])
+        leaf = step["by"] == "integral"
+        left = self.text(step["function"]) if leaf else self.relation(step["of"]).left
         sources = [self.relation(name) for name in step["c"]]
         refuse(any(one.leaf or one.kind == "inequality" for one in sources), "an inequality or integral to start from")
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
@@ -205,10 +206,10 @@ class CheckedRelations(CheckedTexts):
         change = total_derivative(left, self.variables) if leaf else left
         total = add(*(times(c, one.left) for c, one in zip(cofactors, sources, strict=True)))
         self.identity(times(h, change), total, "the cofactors")
-        needs = () if self.is_nowhere_zero(h) else (h,)
-        new, defined = self._derived(step["id"], left, leaf), (h, *cofactors, *([] if of else [left]))
-        follows = Consequence(new.name, tuple(one.name for one in sources), needs, defined)
-        return [new], [follows, replace(follows, target=of.name)] if of else [follows]
+        needs, target = () if self.is_nowhere_zero(h) else (h,), step["id" if leaf else "of"]
+        defined = (h, *cofactors, left) if leaf else (h, *cofactors)
+        new = [DerivedRelation(target, "finite", left, True)] if leaf else []
+        return new, [Consequence(target, tuple(step["c"]), needs, defined)]
 
     def _rate(self, step: dict[str, Any]) -> Made:
         """What is constantly 0, or keeps its value, has the derivative 0."""
@@ -263,7 +264,7 @@ class CheckedRelations(CheckedTexts):
                 return False
             return one.at in (None, point.name) and all(map(excludes_zero, values[: len(one.nonzero)]))
 
-        return bool(self.once(("met", place, point.name), look))
+        return self.once(("met", place, point.name), look)
 
     def is_linear(self, name: str) -> bool:
         """Whether a relation is finite, or a linear form in the velocities (dt included)."""
@@ -273,14 +274,13 @@ class CheckedRelations(CheckedTexts):
             parts = linear_parts(one.left, self.velocities)
             return parts is not None and self.ring.vanishes(parts[1])
 
-        return one.kind != "velocity" or bool(self.once(("linear", name), look))
+        return one.kind != "velocity" or self.once(("linear", name), look)
 
     def slope(self, row: str, column: str) -> Tree:
         """The entry of a row: by a coordinate, or by its velocity."""
         one = self.relation(row)
         name = column if one.kind == "finite" else column + "dot"
-        found: Tree = self.once(("slope", row, column), lambda: derivative(one.left, name))
-        return found
+        return self.once(("slope", row, column), lambda: derivative(one.left, name))
 
 
 def told(error: Exception) -> str:

@@ -17,18 +17,13 @@ from typing import Any, NamedTuple, TypeVar
 
 from flint import fmpq, fmpq_mpoly_ctx, fmpz
 
-from dofkit.checker.trees import Effort, Tree, add, call, negative, number, refuse, times
+from dofkit.checker.trees import CheckError, Effort, Tree, add, call, negative, number, refuse, times
 
-LARGEST_POWER, LARGEST_FORM, MOST_GENERATORS = 128, 60_000, 1000
-LARGEST_MULTIPLE, MOST_KNOWN = 64, 20_000
+LARGEST_POWER, LARGEST_FORM, LARGEST_MULTIPLE, MOST_KNOWN = 128, 60_000, 64, 20_000
 Factor = TypeVar("Factor")
 _SIX, _TWO = (times(number(Fraction(1, 4)), call("sqrt", number(k))) for k in (6, 2))
 #: Cosine and sine of pi / 12.
 PI, TWELFTH = Tree("pi"), (add(_SIX, _TWO), add(_SIX, negative(_TWO)))
-
-
-class _AgainError(Exception):
-    """More generators: what was read is forgotten, and all is read again."""
 
 
 class Quotient(NamedTuple):
@@ -50,16 +45,11 @@ def repeated(one: Factor, base: Factor, exponent: int, product: Callable[[Factor
 class QuotientRing:
     """Arithmetic of quotients, reduced by rules."""
 
-    def __init__(self, effort: Effort) -> None:
+    def __init__(self, effort: Effort, symbols: int = 0) -> None:
         self.effort = effort
-        self.places: dict[Any, int] = {}
-        self._forget(64)
-
-    def _forget(self, slots: int) -> None:
-        """A ring with room for so many generators, in which nothing was read; known ones keep their places."""
-        self.slots = slots
-        self.context = fmpq_mpoly_ctx.get([f"g{i}" for i in range(slots)], "lex")
+        self.context = fmpq_mpoly_ctx.get([f"g{i}" for i in range(64 + symbols)], "lex")
         self.generators, self.one = self.context.gens()[::-1], self.context.constant(1)
+        self.places: dict[Any, int] = {}
         self.rules: dict[int, tuple[int, Any]] = {}
         self.memory: dict[int, tuple[Tree, Quotient]] = {}
 
@@ -69,13 +59,11 @@ class QuotientRing:
 
     def generator(self, key: Any, order: int = 0, rule: Any = None) -> Quotient:
         """The generator of a key, new or known; its power of an order is the polynomial ``rule``."""
-        if key not in self.places:
-            if len(self.places) == self.slots:
-                refuse(self.slots > MOST_GENERATORS, "too many functions and symbols")
-                self._forget(2 * self.slots)
-                raise _AgainError
-            self.places[key] = len(self.places)
-        place = self.places[key]
+        place = self.places.setdefault(key, len(self.places))
+        if place == len(self.generators):
+            for known in (self.places, self.rules, self.memory):
+                known.clear()
+            raise CheckError("too many functions and symbols")
         if order and place not in self.rules:
             self.rules[place] = order, self.generators[place] ** order - rule
         return Quotient(self.generators[place], self.one)
@@ -115,15 +103,11 @@ class QuotientRing:
         """A difference."""
         return self.plus(first, Quotient(-second.above, second.below))
 
-    def over(self, first: Quotient, second: Quotient) -> Quotient:
-        """A quotient of quotients."""
-        return self.times(first, Quotient(second.below, second.above))
-
     def to_power(self, base: Quotient, exponent: int) -> Quotient:
         """A whole power."""
         refuse(abs(exponent) > LARGEST_POWER, "a power is too large")
         found = repeated(self.constant(1), base, abs(exponent), self.times)
-        return self.over(self.constant(1), found) if exponent < 0 else found
+        return self._reduced(found.below, found.above) if exponent < 0 else found
 
     def _reduced(self, above: Any, below: Any) -> Quotient:
         """A quotient without common factors, where these are found at a moderate price."""
@@ -138,11 +122,9 @@ class QuotientRing:
         return Quotient(above / lead, below / lead)
 
     def key(self, quotient: Quotient) -> Any:
-        """A quotient as something that can be compared: the same key, the same quotient, in whatever slots."""
-        return tuple(
-            tuple(sorted((tuple(k for k in enumerate(e[::-1]) if k[1]), (int(c.p), int(c.q))) for e, c in part.terms()))
-            for part in quotient
-        )
+        """A quotient as something that can be compared: the same key, the same quotient."""
+        parts = [[(tuple(k for k in enumerate(e) if k[1]), int(c.p), int(c.q)) for e, c in p.terms()] for p in quotient]
+        return tuple(map(tuple, parts))
 
     def value_of(self, quotient: Quotient) -> Any:
         """The rational number that a quotient is, or None."""
@@ -190,10 +172,7 @@ class CheckedRing(QuotientRing):
         """The normal form of a tree."""
         if len(self.memory) > MOST_KNOWN:
             self.memory.clear()
-        try:
-            return self.read(tree)
-        except _AgainError:
-            return self.normal(tree)
+        return self.read(tree)
 
     def read(self, tree: Tree) -> Quotient:
         """The normal form of one node, from those below it."""

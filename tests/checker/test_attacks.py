@@ -53,21 +53,21 @@ FACTOR_X = {"id": "k", "by": "factor", "of": "c1", "factor": "x", "rest": "y"}
 #: x = 0 leaves y free.
 A_LINE: dict[str, Attack] = {
     "a cofactor y/x at x = 0": (
-        plane("x = 0"),
-        [regular(0)],
+        plane("x = 0", "y = 0"),
+        [regular(1)],
         {
-            "relations": [{"id": "k", "by": "implied", "text": "y", "c": {"c1": "y/x"}}],
+            "relations": [{"id": "k", "by": "implied", "of": "c2", "c": {"c1": "y/x"}}],
             "points": [POINT],
-            "minors": [BOTH],
+            "minors": [MINOR],
         },
     ),
     "a cofactor with a logarithm of 0": (
-        plane("x = 0"),
-        [regular(0)],
+        plane("x = 0", "y = 0"),
+        [regular(1)],
         {
-            "relations": [{"id": "k", "by": "implied", "text": "y", "c": {"c1": "y/x + 0*log(x)"}}],
+            "relations": [{"id": "k", "by": "implied", "of": "c2", "c": {"c1": "y/x + log(x) - log(x)"}}],
             "points": [POINT],
-            "minors": [BOTH],
+            "minors": [MINOR],
         },
     ),
     "a square of what is not real nearby": (
@@ -100,18 +100,18 @@ A_LINE: dict[str, Attack] = {
         plane("x + y = 0"),
         [regular(0)],
         {
-            "relations": [{"id": "k", "by": "implied", "text": "2*x + 2*y", "c": {"c1": "2"}}],
+            "relations": [{"id": "k", "by": "branch", "of": "c1", "factors": ["2*x + 2*y", "1/2"], "chosen": 0}],
             "points": [POINT],
             "minors": [BOTH],
         },
     ),
     "a row that follows from nothing": (
-        plane("x^2 = 2"),
-        [regular(0)],
+        plane("x^2 = 2", "y = 0"),
+        [regular(1)],
         {
-            "relations": [{"id": "k", "by": "implied", "text": "y", "h": "0*x", "c": {"c1": "0"}}],
+            "relations": [{"id": "k", "by": "implied", "of": "c2", "h": "0*x", "c": {"c1": "0"}}],
             "points": [{"id": "P", "values": {"x": "sqrt(2)", "y": "0"}}],
-            "minors": [BOTH],
+            "minors": [MINOR],
         },
     ),
     "a factor x that is said to be nowhere 0": (
@@ -306,7 +306,7 @@ TIME: dict[str, Attack] = {
         {
             "relations": [
                 {"id": "s", "by": "factor", "of": "c1", "factor": "x - t", "rest": "1"},
-                {"id": "s.1", "by": "implied", "text": "x - x", "c": {"c1": "0"}, "nonzero": {"number": True}},
+                {"id": "s.1", "by": "implied", "of": "c1", "c": {"c1": "0"}, "nonzero": {"number": True}},
             ]
         },
     ),

@@ -56,7 +56,7 @@ def moving_rows(room: Room) -> list[str]:
 def follows_from_integrals(room: Room, name: str, steps: Sequence[str]) -> bool:
     """Whether a step was found by which a form follows from integrals and finite relations."""
     step = f"{room.scenery.label}{name} from integrals"
-    if step in room.scenery.evidence.known:
+    if room.scenery.has_step(step):
         return True
     sources = [rate for one in (*steps, *room.scenery.evidence.finite) if (rate := rate_of(room.scenery, one))]
     found = cofactors(room, components(room, name), sources)

@@ -19,18 +19,6 @@ MOST_ROWS = 160
 _CHOICES = tuple(map(Fraction, ("2", "3", "3/2", "5/2", "4/3", "7/4", "5/3", "9/4", "7/3", "11/4")))
 
 
-class GrowingEvidence(CheckedEvidence):
-    """Evidence to whose parts further entries are added."""
-
-    def named(self, part: str, name: Any) -> dict[str, Any]:
-        """An entry by its id, looked for again where it is new."""
-        try:
-            return super().named(part, name)
-        except CheckError:
-            self.__dict__.pop("index", None)
-            return super().named(part, name)
-
-
 class Scenery:
     """A problem with its evidence so far, and values for parameters, unknown functions and time."""
 
@@ -38,7 +26,7 @@ class Scenery:
         self.problem, self.cayley, self.parts = problem, cayley, parts
         self.effort = Effort(WORK)
         self._view = dict(parts)
-        self.evidence = GrowingEvidence(problem, self._view, self.effort)
+        self.evidence = CheckedEvidence(problem, self._view, self.effort)
         self._prepared: dict[str, Tree] = {}
         self.reduced_from: dict[str, str] = {}
 
@@ -88,6 +76,10 @@ class Scenery:
             for name, f in self.functions.items()
         }
         return substituted(tree, {}, made)
+
+    def has_step(self, name: str) -> bool:
+        """Whether there is such a step."""
+        return any(step["id"] == name for step in self.parts["relations"])
 
     def add_step(self, step: dict[str, Any]) -> None:
         """A further step, if it stands up; `CheckError` where it does not."""
