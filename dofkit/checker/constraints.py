@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import combinations, pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 from dofkit.checker.balls import evaluated, excludes_zero
 from dofkit.checker.derivatives import MINUS, in_velocities, substituted, symbols_in
@@ -30,6 +30,7 @@ from dofkit.checker.trees import (
 )
 
 Entry = Mapping[str, Any]
+_PER_TURN = power(times(TWO, PI), MINUS)
 
 
 @dataclass
@@ -235,50 +236,6 @@ def gear(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     yield difference(second, times(world.expression(entry["ratio"]), first))
 
 
-class CheckedJoint(NamedTuple):
-    """The bodies of a joint, the place where they meet, a direction n that they keep, and vectors across n."""
-
-    first: CheckedFrame
-    second: CheckedFrame
-    place: Vector
-    n: Vector
-    across: tuple[Vector, ...]
-
-    def offset(self, direction: Vector) -> Tree:
-        """How far the place has moved along a direction of the first body."""
-        return self.first.offset(self.second.point(self.place), self.place, direction)
-
-    def shifted(self, by: Tree) -> Tree:
-        """How much more than by a given length the place has moved along n."""
-        under = times(self.first.under, self.second.point(self.place).under)
-        return difference(self.offset(self.n), times(under, length(self.n), by))
-
-    def turned(self) -> tuple[Tree, Tree]:
-        """The sine and cosine of the angle about n, times one positive factor."""
-        u, now = self.across[0], self.second.carry(self.across[0])
-        return dot(self.first.carry(cross(self.n, u)), now), times(length(self.n), dot(self.first.carry(u), now))
-
-    def advanced(self, pitch: Tree) -> Tree:
-        """How much more than by a pitch for each turn the place has moved along n."""
-        return self.shifted(times(pitch, call("atan2", *self.turned()), power(times(TWO, PI), MINUS)))
-
-    def turned_by(self, angle: Tree) -> Tree:
-        """The angle about n is a given one."""
-        if not self.across:
-            return difference(difference(self.second.angle, self.first.angle), angle)
-        sine, cosine = self.turned()
-        return difference(times(sine, call("cos", angle)), times(cosine, call("sin", angle)))
-
-    def parallel(self) -> Iterable[Tree]:
-        """No turn of one against the other: the angle; the Cayley parameters; or three entries of A1^T A2."""
-        if len(self.first.position) == 2:
-            return [difference(self.second.angle, self.first.angle)]
-        if self.first.cayley is not None and self.second.cayley is not None:
-            return less(self.second.cayley, self.first.cayley)
-        a, b = (tuple(zip(*frame.turn, strict=True)) for frame in (self.first, self.second))
-        return [dot(a[i], b[j]) for i, j in ((0, 1), (1, 2), (2, 0))]
-
-
 def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
     """What a joint keeps, one after the other, and what its drive prescribes.
 
@@ -294,21 +251,37 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
     place = second.start if "turn" in keeps or "plane" in keeps else world.place(entry.get("at"))
     asks = "line" in keeps or ("axis" in keeps and world.dimension == 3)
     refuse(asks and "at" in entry and "axis" not in entry, "a joint with a place has an axis")
-    hinge = CheckedJoint(first, second, place, *(world.direction(entry.get("axis")) if asks else ((), ())))
+    n, across = world.direction(entry.get("axis")) if asks else ((), ())
+    moved = second.point(place)
+
+    def shifted(by: Tree) -> Tree:
+        under = times(first.under, moved.under)
+        return difference(first.offset(moved, place, n), times(under, length(n), by))
+
+    def turned() -> tuple[Tree, Tree]:
+        now, u = second.carry(across[0]), across[0]
+        return dot(first.carry(cross(n, u)), now), times(length(n), dot(first.carry(u), now))
+
     equations: dict[str, Callable[[], Iterable[Tree]]] = {
-        "turn": hinge.parallel,
-        "point": lambda: apart(first.point(place), second.point(place))[0],
-        "axis": lambda: (dot(first.carry(u), second.carry(hinge.n)) for u in hinge.across),
-        "line": lambda: map(hinge.offset, hinge.across),
-        "plane": lambda: [hinge.offset(hinge.n)],
+        "turn": lambda: parallel(first, second),
+        "point": lambda: apart(first.point(place), moved)[0],
+        "axis": lambda: (dot(first.carry(u), second.carry(n)) for u in across),
+        "line": lambda: (first.offset(moved, place, u) for u in across),
+        "plane": lambda: [first.offset(moved, place, n)],
         "cross": lambda: [crossed(world, entry, first, second)],
-        "thread": lambda: [hinge.advanced(world.expression(entry["pitch"]))],
+        "thread": lambda: [shifted(times(world.expression(entry["pitch"]), call("atan2", *turned()), _PER_TURN))],
     }
     for kept in keeps.split():
         yield from equations[kept]()
     if "drive" in entry:
         law = world.expression(entry["drive"], "t")
-        yield hinge.shifted(law) if keeps in ("turn line", "axis line") else hinge.turned_by(law)
+        if keeps in ("turn line", "axis line"):
+            yield shifted(law)
+        elif not across:
+            yield difference(difference(second.angle, first.angle), law)
+        else:
+            sine, cosine = turned()
+            yield difference(times(sine, call("cos", law)), times(cosine, call("sin", law)))
 
 
 def crossed(world: Surroundings, entry: Entry, first: CheckedFrame, second: CheckedFrame) -> Tree:
@@ -321,20 +294,29 @@ def crossed(world: Surroundings, entry: Entry, first: CheckedFrame, second: Chec
     return dot(first.carry(a), second.carry(b))
 
 
-Read = Callable[[Surroundings, Entry], Iterator[Tree | Sided]]
+def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
+    """No turn of one against the other: the angle; the Cayley parameters; or three entries of A1^T A2."""
+    if len(first.position) == 2:
+        return [difference(second.angle, first.angle)]
+    if first.cayley is not None and second.cayley is not None:
+        return less(second.cayley, first.cayley)
+    a, b = (tuple(zip(*frame.turn, strict=True)) for frame in (first, second))
+    return [dot(a[i], b[j]) for i, j in ((0, 1), (1, 2), (2, 0))]
+
+
+#: What each joint keeps, the fields it has beside ``between``, and the dimensions in which it is defined.
+JOINTS = {
+    "revolute": ("point axis", "at axis drive", "23"), "prismatic": ("turn line", "at axis drive", "23"),
+    "weld": ("turn point", "", "23"), "cylindrical": ("axis line", "at axis drive", "3"),
+    "screw": ("axis line thread", "at axis drive pitch", "3"), "planar": ("axis plane", "at axis", "3"),
+    "universal": ("point cross", "at axes", "3"), "spherical": ("point", "at axis", "3"),
+}  # fmt: skip
 #: Every type: how it is read, the fields it has, and the dimensions in which it is defined.
-TYPES: dict[str, tuple[Read, str, str]] = {
-    "equation": (equation, "text", "123"), "on": (on, "members surface curve", "123"),
-    "link": (link, "between length", "123"), "rigid": (rigid, "members", "123"),
-    "string": (string, "along length", "123"), "fixed": (fixed, "point body", "123"),
-    "coincident": (coincident, "between", "123"), "slot": (slot, "point body at axis", "23"),
-    "cam": (cam, "point body curve", "2"), "roll": (roll, "body radius", "23"),
-    "gear": (gear, "between ratio carrier", "2"), "weld": (partial(joint, keeps="turn point"), "between", "23"),
-    "revolute": (partial(joint, keeps="point axis"), "between at axis drive", "23"),
-    "prismatic": (partial(joint, keeps="turn line"), "between at axis drive", "23"),
-    "cylindrical": (partial(joint, keeps="axis line"), "between at axis drive", "3"),
-    "screw": (partial(joint, keeps="axis line thread"), "between at axis drive pitch", "3"),
-    "universal": (partial(joint, keeps="point cross"), "between at axes", "3"),
-    "spherical": (partial(joint, keeps="point"), "between at axis", "3"),
-    "planar": (partial(joint, keeps="axis plane"), "between at axis", "3"),
+TYPES: dict[str, tuple[Callable[[Surroundings, Entry], Iterator[Tree | Sided]], str, str]] = {
+    "equation": (equation, "text", "123"), "rigid": (rigid, "members", "123"), "fixed": (fixed, "point body", "123"),
+    "on": (on, "members surface curve", "123"), "link": (link, "between length", "123"),
+    "roll": (roll, "body radius", "23"), "string": (string, "along length", "123"),
+    "slot": (slot, "point body at axis", "23"), "coincident": (coincident, "between", "123"),
+    "gear": (gear, "between ratio carrier", "2"), "cam": (cam, "point body curve", "2"),
+    **{name: (partial(joint, keeps=keeps), f"between {own}", where) for name, (keeps, own, where) in JOINTS.items()},
 }  # fmt: skip

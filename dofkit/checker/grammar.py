@@ -55,13 +55,9 @@ class Lexeme(NamedTuple):
     touching: bool = False
 
 
-BUILT_IN = {
-    **{name: Lexeme("function", name=name) for name in FUNCTIONS},
-    "diff": Lexeme("derivative", name="diff"),
-    "pi": Lexeme("value", PI),
-    "t": Lexeme("value", _TIME),
-    "dt": Lexeme("moving", symbol("dt")),
-}
+BUILT_IN = {name: Lexeme("function", name=name) for name in FUNCTIONS}
+BUILT_IN |= {"pi": Lexeme("value", PI), "t": Lexeme("value", _TIME), "dt": Lexeme("moving", symbol("dt"))}
+BUILT_IN |= {"diff": Lexeme("derivative", name="diff")}
 _E = Lexeme("value", EULER)
 
 
@@ -99,8 +95,8 @@ class KnownNames:
             given = tuple(trees[word] for word in map(spelled_out, arguments) if word in trees)
             orders = range(MOST_ORDERS + 1 if len(arguments) == 1 else 1)
             entries += [(name + "'" * k, Tree("apply", given, name, (k,) * len(arguments))) for k in orders]
-        kinds = {True: "declared", False: "value"}
-        found = {spelled_out(name): Lexeme(kinds[tree.head == "apply"], tree, name) for name, tree in entries}
+        kinds = {"apply": "declared"}
+        found = {spelled_out(name): Lexeme(kinds.get(tree.head, "value"), tree, name) for name, tree in entries}
         refuse(len(found) < len(entries), "a name is declared twice")
         return {**BUILT_IN, **found}
 
@@ -135,8 +131,7 @@ class KnownNames:
 
 def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
     """The tokens of a text, closed by one of kind ``end``."""
-    bad = not isinstance(text, (str, int)) or len(str(text)) > MOST_CHARACTERS
-    refuse(bad, "a text of bounded length, or a whole number, is needed")
+    refuse(not isinstance(text, (str, int)) or len(str(text)) > MOST_CHARACTERS, "a text of bounded length is needed")
     found: list[Lexeme] = []
     for match in _TOKEN.finditer(str(text).strip().translate(_PLAIN)):
         kind = str(match.lastgroup)
@@ -285,11 +280,10 @@ class _Reader:
         by: list[Tree] = []
         for step in steps:
             by += by[-1:] * (_TIMES[step] - 1) if by and step in _TIMES else [step]
-        bad = not 0 < len(by) <= MOST_ORDERS or any(step.head != "symbol" for step in by)
-        refuse(bad, "a derivative needs what to differentiate, and by which symbols")
+        refuse(not 0 < len(by) <= MOST_ORDERS, "a derivative needs what to differentiate, and by what")
         for step in by:
             doubtful = step == _TIME and not symbols_in(found) <= {"t", *self.names.values}
-            refuse(doubtful, "a derivative by time is not read")
+            refuse(doubtful or step.head != "symbol", "a derivative is by a symbol, and not by time on the way")
             found = derivative(found, str(step.value))
         return found
 

@@ -42,12 +42,8 @@ _SILENT, _NOTHING, _DEFAULTS = (
 _SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")
 ROLES = {1: ("x",), 2: ("x", "y", "theta"), 3: ("x", "y", "z", "phi", "theta", "psi")}
-FIELDS = {
-    "scene": "name title source notes dimension parameters functions particles bodies coordinates constraints forces "
-    "energies tolerance configuration expect",
-    "particles": "name coordinates at mass",
-    "bodies": "name coordinates mass inertia",
-}
+KEYS = "dimension parameters functions particles bodies coordinates constraints forces energies tolerance configuration"
+FIELDS = {"particles": "name coordinates at mass", "bodies": "name coordinates mass inertia"}
 
 
 def document_of(text: str) -> Any:
@@ -154,8 +150,8 @@ Problem = CheckedProblem
 def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> CheckedProblem:
     """The problem of a document; bodies in ``cayley`` are read with Cayley parameters in the place of angles."""
     try:
-        known_fields(document, FIELDS["scene"])
         scene = canonical(document)
+        known_fields(scene, KEYS)
         world, coordinates, given = _surroundings(scene, cayley)
         relations = tuple(_relations(world, scene, coordinates))
         reference = {} if world.generic else _reference(world, coordinates, given)
