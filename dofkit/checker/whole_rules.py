@@ -13,7 +13,7 @@ from dofkit.checker.trees import Tree, refuse
 
 
 def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """The largest number over all parts of the set, from relations of three kinds.
+    """The largest number over all parts of the set, from relations of three kinds, from which the others follow.
 
     ``order``: each relation gives a coordinate, or its velocity, with a factor of numbers and parameters, and those
     before do not hold it: the finite ones are a graph, and all have constant rank. Instead of a coordinate one may give
@@ -30,9 +30,11 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """
     order, blocks, generic = claim.get("order", []), claim.get("blocks", []), dict(claim.get("generic", []))
     names, size = [*(name for name, _ in order), *blocks, *generic], len(evidence.problem.coordinates)
-    whole, rank = sorted(names) == sorted(evidence.equations), len(names)
+    known, rank = evidence.closure(names, None), len(names)
+    whole, apart = known.issuperset(evidence.equations), len(set(names)) == rank
     refuse(claim.get("about") != "everywhere", "the rule is about everywhere")
-    refuse(not whole and sorted(names) != sorted(evidence.finite), "each relation stands in one place")
+    refuse(not apart or not set(names) <= set(evidence.equations), "each relation stands in one place")
+    refuse(not known.issuperset(evidence.finite), "not all relations are told, or follow from them everywhere")
     refuse(not all(map(evidence.is_linear, names)), "a relation is not linear in the velocities")
     forms = [name for name in names if evidence.relation(name).kind != "finite"]
     refuse(forms and (generic or (blocks and not blocks == forms == names[-1:])), "forms stand in the order, or alone")

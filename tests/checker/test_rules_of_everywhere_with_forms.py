@@ -123,3 +123,22 @@ def test_a_graph_for_almost_all_parameters_and_times() -> None:
     assert not accepted({**rope, "constraints": [*rope["constraints"], "y = 0"]}, [timely], **shorter)
     still = {key: one for key, one in timely.items() if key != "minor"}
     assert not accepted({"coordinates": ["x"], "constraints": ["t = 0"]}, [{**still, "value": 0}])
+
+
+def test_what_follows_everywhere_need_not_be_told() -> None:
+    scene = {"coordinates": ["x", "y"], "constraints": ["x = y^2", "2*x = 2*y^2"]}
+    parts = {"relations": [{"id": "k", "by": "implied", "of": "c2", "c": {"c1": "2"}}]}
+    claim = {**WHOLE, "path": "/dof", "value": 1, "order": [["c1", "x"]]}
+    assert faults(scene, [claim], **parts) == {}
+    assert not accepted(scene, [claim])
+    assert not accepted({**scene, "constraints": ["x = y^2", "2*x = 2*y^2 + t"]}, [claim], **parts)
+    near = {"relations": [{"id": "k", "by": "implied", "of": "c2", "h": "x", "c": {"c1": "2*x"}}]}
+    assert not accepted(scene, [claim], **near)
+    both = {**claim, "value": 0, "order": [["c1", "x"], ["c2", "x"]]}
+    assert not accepted(scene, [both], **parts)
+    twice = {**claim, "value": 0, "order": [["c1", "x"], ["c1", "y"]]}
+    assert not accepted(scene, [twice], **parts)
+    form = {"coordinates": ["x", "y", "z"], "constraints": ["zdot = y*xdot", "x*zdot = x*y*xdot"]}
+    steps = {"relations": [{"id": "k", "by": "implied", "of": "c2", "c": {"c1": "x"}}]}
+    assert faults(form, [_velocities(2, order=[["c1", "z"]])], **steps) == {}
+    assert not accepted(form, [_velocities(2, order=[["c1", "z"]])])

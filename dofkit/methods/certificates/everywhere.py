@@ -37,22 +37,29 @@ def velocities_everywhere(room: Room) -> Iterator[Told]:
 def _of_forms(room: Room) -> Iterator[Told]:
     """All relations in an order; or the finite ones, and a single form."""
     evidence, standing = room.scenery.evidence, room.standing
-    if standing is None or standing.dependent:
+    if standing is None or not standing.accounted:
         return
     found = {"rule": "everywhere", "about": "everywhere", "minor": room.minor(standing)}
-    order, left = graph_order(room, evidence.equations)
+    order, left = graph_order(room, _needed(standing, evidence.equations))
+    moving = _needed(standing, evidence.moving)
     if not left:
         yield {**found, "order": order}
-    elif len(evidence.moving) == 1:
-        order, left = graph_order(room)
+    elif len(moving) == 1:
+        order, left = graph_order(room, _needed(standing, evidence.finite))
         if not left:
-            yield {**found, "order": order, "blocks": list(evidence.moving)}
+            yield {**found, "order": order, "blocks": moving}
+
+
+def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
+    """Relations without those that follow from the rows."""
+    return [name for name in names if not (standing.accounted and name in standing.dependent)]
 
 
 def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
     """What the finite relations leave."""
     evidence = room.scenery.evidence
-    order, left = graph_order(room, columns=["t"])
+    finite = _needed(standing, evidence.finite)
+    order, left = graph_order(room, finite, columns=["t"])
     found: Told = {"rule": "everywhere", "about": "everywhere"}
     if not left:
         yield {**found, "order": order}
@@ -60,8 +67,8 @@ def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
     if not left:
         yield {**found, "order": order}
     own = own_symbols(room)
-    if not standing.dependent:
-        for tried, rest in ((order, left), given_first(room), ([], list(evidence.finite))):
+    if not standing.dependent or standing.accounted:
+        for tried, rest in ((order, left), given_first(room, finite), ([], finite)):
             blocks, generic = _split(room, tried, rest, own)
             if all(name in own for name in generic):
                 yield {**found, "order": tried, "blocks": blocks, "generic": [[name, own[name]] for name in generic]}
@@ -108,11 +115,10 @@ def _moved(room: Room, name: str) -> set[str]:
     return {q for q in room.problem.coordinates if f"{q}dot" in held}
 
 
-def given_first(room: Room) -> tuple[Order, list[str]]:
+def given_first(room: Room, names: Sequence[str]) -> tuple[Order, list[str]]:
     """Relations that give a coordinate which those chosen before do not hold, short ones first; and the others."""
-    evidence = room.scenery.evidence
     coordinates = room.problem.coordinates
-    held = {name: symbols_in(evidence.relation(name).left) & set(coordinates) for name in evidence.finite}
+    held = {name: symbols_in(room.scenery.evidence.relation(name).left) & set(coordinates) for name in names}
     order: Order = []
     taken: set[str] = set()
     for name in sorted(held, key=lambda one: len(held[one])):
@@ -120,7 +126,7 @@ def given_first(room: Room) -> tuple[Order, list[str]]:
         if fit:
             order.append([name, fit[0]])
             taken |= held[name]
-    return order, [name for name in evidence.finite if all(name != chosen for chosen, _ in order)]
+    return order, [name for name in names if all(name != chosen for chosen, _ in order)]
 
 
 def _gives(room: Room, name: str, q: str) -> bool:
