@@ -30,7 +30,6 @@ from dofkit.checker.trees import (
 )
 
 Entry = Mapping[str, Any]
-_PER_TURN = power(times(TWO, PI), MINUS)
 
 
 @dataclass
@@ -157,8 +156,8 @@ def cam(world: Surroundings, entry: Entry) -> Iterator[Tree]:
 
 def link(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """|A - B|^2 - length^2, times the square of the denominator of A - B."""
-    squared = power(world.moving(entry["length"]), TWO) if "length" in entry else None
-    yield distance(world, *map(world.point, entry["between"]), squared)
+    first, second = map(world.point, entry["between"])
+    yield distance(world, first, second, power(world.moving(entry["length"]), TWO) if "length" in entry else None)
 
 
 def rigid(world: Surroundings, entry: Entry) -> Iterator[Tree]:
@@ -258,10 +257,6 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
         under = times(first.under, moved.under)
         return difference(first.offset(moved, place, n), times(under, length(n), by))
 
-    def turned() -> tuple[Tree, Tree]:
-        now, u = second.carry(across[0]), across[0]
-        return dot(first.carry(cross(n, u)), now), times(length(n), dot(first.carry(u), now))
-
     equations: dict[str, Callable[[], Iterable[Tree]]] = {
         "turn": lambda: parallel(first, second),
         "point": lambda: apart(first.point(place), moved)[0],
@@ -269,7 +264,7 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
         "line": lambda: (first.offset(moved, place, u) for u in across),
         "plane": lambda: [first.offset(moved, place, n)],
         "cross": lambda: [crossed(world, entry, first, second)],
-        "thread": lambda: [shifted(times(world.expression(entry["pitch"]), call("atan2", *turned()), _PER_TURN))],
+        "thread": lambda: [shifted(times(world.expression(entry["pitch"]), turns(first, second, n, across[0])))],
     }
     for kept in keeps.split():
         yield from equations[kept]()
@@ -280,7 +275,7 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
         elif not across:
             yield difference(difference(second.angle, first.angle), law)
         else:
-            sine, cosine = turned()
+            sine, cosine = turned(first, second, n, across[0])
             yield difference(times(sine, call("cos", law)), times(cosine, call("sin", law)))
 
 
@@ -292,6 +287,17 @@ def crossed(world: Surroundings, entry: Entry, first: CheckedFrame, second: Chec
         a, (u, v) = world.direction(None)
         b = tuple(map(add, u, scaled(world.fresh("axis"), v)))
     return dot(first.carry(a), second.carry(b))
+
+
+def turned(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> tuple[Tree, Tree]:
+    """The sine and cosine of the angle about n, times one positive factor; u is across n."""
+    now = second.carry(u)
+    return dot(first.carry(cross(n, u)), now), times(length(n), dot(first.carry(u), now))
+
+
+def turns(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> Tree:
+    """How often the second body has turned about n."""
+    return times(call("atan2", *turned(first, second, n, u)), power(times(TWO, PI), MINUS))
 
 
 def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:

@@ -33,11 +33,8 @@ MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 20
 _NULLS = ("", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
 #: Keys that say nothing of the mathematics, and entries that are as good as left out.
-_SILENT, _NOTHING, _DEFAULTS = (
-    ("name", "title", "source", "notes", "expect"),
-    (None, {}, []),
-    {"dimension": 3, "tolerance": 0},
-)
+_SILENT, _DEFAULTS = ("name", "title", "source", "notes", "expect"), {"dimension": 3, "tolerance": 0}
+_NOTHING: tuple[Any, ...] = (None, {}, [])
 #: What a text alone stands for in these lists.
 _SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")

@@ -56,10 +56,10 @@ class Tree:
     def __post_init__(self) -> None:
         """Parts may be shared, so that a short text writes a huge tree, and powers of powers a huge number."""
         exponent = self.below[1].value if self.head == "power" else 1
-        often = max(1, abs(exponent)) if isinstance(exponent, Fraction) else 1
+        often = max(1, int(abs(exponent))) if isinstance(exponent, Fraction) else 1
         digits = self.value.as_integer_ratio() if isinstance(self.value, Fraction) else (0,)
         own = 1 + max(map(int.bit_length, digits)) // 64
-        object.__setattr__(self, "size", own + int(often * sum(part.size for part in self.below)))
+        object.__setattr__(self, "size", own + often * sum(part.size for part in self.below))
         refuse(self.size > LARGEST or own > LARGEST_NUMBER, "an expression or a number is too large")
 
 

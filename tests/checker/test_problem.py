@@ -185,7 +185,7 @@ def test_a_hinge_of_space_with_cayley_parameters_is_rational() -> None:
 
 
 MISTAKEN: dict[str, str] = {
-    "an unknown key": "constrants: []",
+    "an unknown key": "constrants: [x]",
     "an unknown field": "coordinates: [x]\nconstraints: [{type: equation, text: x, lenght: 2}]",
     "an unknown type": "constraints: [{type: revolut}]",
     "an undeclared name": "coordinates: [x]\nconstraints: [x = y]",
