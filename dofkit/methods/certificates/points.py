@@ -15,7 +15,7 @@ from dofkit.methods.certificates.settling import ITERATIONS, NEAR, PointSettling
 from dofkit.methods.certificates.texts import number_text, text_of
 
 ATTEMPTS = 5
-#: Of a hundred attempts so many start afar, those after them near the origin.
+#: Of a hundred attempts for an inequality so many start afar, those after them near the origin.
 AFAR = 12
 
 
@@ -117,7 +117,7 @@ class PointSearch:
             found |= {name: self.witness[name] for name in self.problem.coordinates if name in self.witness}
         elif attempt == 1:
             found |= {name: abs(found[name]) for name in self.problem.coordinates}
-        elif attempt % 100 >= AFAR:
+        elif attempt >= 100 and attempt % 100 >= AFAR:
             found |= {name: found[name] / 16 for name in self.problem.coordinates}
         return found
 
