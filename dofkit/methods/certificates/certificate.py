@@ -158,7 +158,7 @@ class Certifying:
         vanishes at the configuration may be told of what it was reduced to.
         """
         path = claim["path"]
-        if is_told_of_less(room, path[1:]) or (path == "/instantaneous_dof" and room.has_empty_row):
+        if is_told_of_less(room, path[1:]):
             return False
         told = self.report.verdicts.get(path[1:])
         whole = told is not None and told.about == "everywhere"

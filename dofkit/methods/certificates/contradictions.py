@@ -96,8 +96,13 @@ def is_of_largest_part(room: Room, claim: dict[str, Any]) -> bool:
 
 
 def is_told_of_less(room: Room, field: str) -> bool:
-    """Whether a report may be of what relations were reduced to: bases of squares, forms without a factor of time."""
-    return bool(room.scenery.reduced_from) or (field == "growth_vector" and room.scenery.evidence.timed)
+    """Whether a report may be of what relations were reduced to.
+
+    Such are the bases of squares, the terms of a factor that is a sum of squares, and forms without a factor of time.
+    """
+    if field == "growth_vector" and room.scenery.evidence.timed:
+        return True
+    return bool(room.scenery.reduced_from) or (field == "instantaneous_dof" and room.has_empty_row)
 
 
 def speaks_for_all(room: Room) -> bool:

@@ -47,7 +47,16 @@ def contradicted(scene: Any, entry: dict[str, Any] | None = None, **changes: Any
     return dict(made(document_of_scene(loaded), report)[1])
 
 
-@pytest.mark.parametrize("scene", [SKATE, HYPERBOLA, PENDULUM, TWICE, CROSS])
+#: A form times a function of time is told of without it, a factor that is a sum of squares by its terms.
+SCALED = {"coordinates": ["x", "y", "z"], "constraints": ["exp(t) (dz - y dx) = 0"]}
+POINT = {
+    "coordinates": ["u", "v", "w"],
+    "configuration": {"u": "5", "v": "0", "w": "0"},
+    "constraints": ["(w^2 + (u - 5)^2) (u - 10) = 0"],
+}
+
+
+@pytest.mark.parametrize("scene", [SKATE, HYPERBOLA, PENDULUM, TWICE, CROSS, SCALED, POINT])
 def test_nothing_is_contradicted_that_is_so(scene: Any) -> None:
     assert contradicted(scene) == {}
 
