@@ -9,11 +9,10 @@ from functools import partial
 from itertools import combinations, pairwise
 from typing import Any
 
-from dofkit.checker.balls import evaluated, excludes_zero
-from dofkit.checker.derivatives import MINUS, in_velocities, substituted, symbols_in
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector, apart, cross, dot, length, less, scaled, square
 from dofkit.checker.grammar import PI, KnownNames, Sided, parse, parse_relations
 from dofkit.checker.trees import (
+    MINUS,
     ONE,
     TWO,
     ZERO,
@@ -28,6 +27,7 @@ from dofkit.checker.trees import (
     symbol,
     times,
 )
+from dofkit.checker.values import evaluated, excludes_zero, in_velocities, substituted, symbols_in
 
 Entry = Mapping[str, Any]
 

@@ -7,12 +7,11 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx
 
-from dofkit.checker.balls import PRECISION, excludes_zero
-from dofkit.checker.derivatives import heads_in, symbols_in
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import Told, field_named, independent, tangent
 from dofkit.checker.relations import total_derivative
 from dofkit.checker.trees import Tree, refuse
+from dofkit.checker.values import PRECISION, excludes_zero, heads_in, symbols_in
 
 HIGHEST_ORDER = 8
 

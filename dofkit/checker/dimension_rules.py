@@ -9,12 +9,11 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.checker.balls import CheckedPoint, excludes_zero
 from dofkit.checker.curves import crossing, isolated
-from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.fields import Told, admissible, independent, involutive, of_word, span
 from dofkit.checker.trees import refuse
+from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:

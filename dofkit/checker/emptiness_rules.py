@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dofkit.checker.balls import CheckedPoint
-from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.dimension_rules import names_told
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import Told
 from dofkit.checker.trees import ONE, ZERO, add, refuse, times
+from dofkit.checker.values import CheckedPoint, derivative, substituted, symbols_in
 
 
 def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:

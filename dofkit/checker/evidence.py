@@ -6,10 +6,9 @@ from collections.abc import Collection, Iterable
 from contextlib import suppress
 from typing import Any, NamedTuple
 
-from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, interval_newton, regular
-from dofkit.checker.derivatives import derivative, substituted, symbols_in
 from dofkit.checker.relations import FAULTS, CheckedRelations, told, total_derivative
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
+from dofkit.checker.values import CheckedPoint, derivative, evaluated, excludes_zero, substituted, symbols_in
 
 __all__ = ["FAULTS", "CheckedEvidence", "CheckedMinor", "told"]
 
@@ -56,10 +55,9 @@ class CheckedEvidence(CheckedRelations):
         exact = {name: tree for name, tree in values.items() if name not in columns}
         point = CheckedPoint(given["id"], exact, functions, self.effort, balls, frozenset(rows))
         if columns:
-            equations, centre = [self.relation(name).left for name in rows], {name: balls[name] for name in columns}
             radius = evaluated(self.text(given["radius"]), {}, self.effort)
             refuse(not radius > 0, "the radius of a box is positive")
-            point.balls |= interval_newton(equations, centre, radius.mid(), point.value_with)
+            point.settle([self.relation(name).left for name in rows], columns, radius.mid())
         for name, sign in self.problem.parameters.items():
             wrong = name in balls and not (balls[name] > 0 or (sign != "positive" and excludes_zero(balls[name])))
             refuse(wrong and sign in ("positive", "nonzero"), f"the parameter `{name}` is declared {sign}")
@@ -104,13 +102,14 @@ class CheckedEvidence(CheckedRelations):
         refuse(not set(columns) <= set(self.problem.coordinates), "a column of a minor is no coordinate")
         self.follow(rows, self.equations if allowed is None else allowed, point, "the relations")
         self.on_set(point, rows)
-        self.is_regular([[self.slope(row, column) for column in columns] for row in rows], point)
+        point.is_regular([[self.slope(row, column) for column in columns] for row in rows])
         return CheckedMinor(point, rows, columns)
 
-    def is_regular(self, matrix: list[list[Tree]], point: CheckedPoint) -> None:
-        """`CheckError` unless a square matrix is regular at a point."""
-        values = [[point.value(tree) for tree in row] for row in matrix]
-        refuse(not regular(values, self.effort), "the minor may be 0")
+    def slope(self, row: str, column: str) -> Tree:
+        """The entry of a row: by a coordinate, or by its velocity."""
+        one = self.relation(row)
+        name = column if one.kind == "finite" else column + "dot"
+        return self.once(("slope", row, column), lambda: derivative(one.left, name))
 
     def accounts(self, minor: CheckedMinor, wanted: Iterable[str]) -> CheckedMinor:
         """The minor; `CheckError` unless relations hold at its point, and near it wherever its rows do."""

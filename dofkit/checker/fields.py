@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
-from dofkit.checker.balls import CheckedPoint, excludes_zero
-from dofkit.checker.derivatives import along, nodes_of, substituted, symbols_in
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.relations import Consequence
 from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse, times
+from dofkit.checker.values import CheckedPoint, along, excludes_zero, nodes_of, substituted, symbols_in
 
 LARGEST_CRAMER, LONGEST_WORD, MOST_FIELDS, LARGEST_FIELD = 5, 12, 40, 20_000
 VelocityField = dict[str, Tree]
@@ -90,7 +89,7 @@ def independent(evidence: CheckedEvidence, fields: Sequence[VelocityField], colu
     """`CheckError` unless the fields have a minor at the point that is not 0."""
     square = len(fields) == len(columns) == len(set(columns)) and set(columns) <= set(evidence.variables)
     refuse(not square, "as many columns as fields are needed, each once")
-    evidence.is_regular([[field.get(column, ZERO) for column in columns] for field in fields], point)
+    point.is_regular([[field.get(column, ZERO) for column in columns] for field in fields])
 
 
 def admissible(

@@ -13,8 +13,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
-from dofkit.checker.derivatives import derivative, over_time, symbols_in
 from dofkit.checker.trees import FUNCTIONS, ONE, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
+from dofkit.checker.values import derivative, over_time, symbols_in
 
 MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT = 20_000, 64, 60, 64
 #: How often a declared function is differentiated.

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import combinations
 
-from dofkit.checker.balls import CheckedPoint, excludes_zero
-from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.dimension_rules import told_integral
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import Told, admissible, involutive, of_word
 from dofkit.checker.relations import total_derivative
 from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse, symbol, times
+from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
 
 Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")

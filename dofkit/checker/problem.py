@@ -24,10 +24,10 @@ from ruamel.yaml.error import YAMLError
 from ruamel.yaml.events import CollectionEndEvent, CollectionStartEvent, MappingEndEvent, ScalarEvent
 
 from dofkit.checker.constraints import TYPES, Entry, Surroundings, known_fields
-from dofkit.checker.derivatives import TIME_RATE, symbols_in
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
 from dofkit.checker.grammar import BUILT_IN, DECIMAL, KnownNames, Sided, spelled_out
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
+from dofkit.checker.values import TIME_RATE, symbols_in
 
 MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 20_000
 _NULLS = ("", "~", "null", "Null", "NULL")

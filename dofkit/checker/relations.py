@@ -14,13 +14,21 @@ from typing import Any, TypeVar
 
 from flint import arb
 
-from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero
 from dofkit.checker.constraints import nowhere_zero
-from dofkit.checker.derivatives import along, derivative, heads_in, linear_parts, substituted, symbols_in
 from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import Problem
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
+from dofkit.checker.values import (
+    CheckedPoint,
+    along,
+    evaluated,
+    excludes_zero,
+    heads_in,
+    linear_in,
+    substituted,
+    symbols_in,
+)
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -271,16 +279,10 @@ class CheckedRelations(CheckedTexts):
         one = self.relation(name)
 
         def look() -> bool:
-            parts = linear_parts(one.left, self.velocities)
+            parts = linear_in(one.left, self.velocities)
             return parts is not None and self.ring.vanishes(parts[1])
 
         return one.kind != "velocity" or self.once(("linear", name), look)
-
-    def slope(self, row: str, column: str) -> Tree:
-        """The entry of a row: by a coordinate, or by its velocity."""
-        one = self.relation(row)
-        name = column if one.kind == "finite" else column + "dot"
-        return self.once(("slope", row, column), lambda: derivative(one.left, name))
 
 
 def told(error: Exception) -> str:

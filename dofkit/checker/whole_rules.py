@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from dofkit.checker.balls import CheckedPoint, excludes_zero
-from dofkit.checker.derivatives import heads_in, symbols_in
 from dofkit.checker.dimension_rules import bounds
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import Told
 from dofkit.checker.trees import Tree, refuse
+from dofkit.checker.values import CheckedPoint, excludes_zero, heads_in, symbols_in
 
 
 def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:

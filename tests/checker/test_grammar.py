@@ -9,10 +9,10 @@ import pytest
 from checker.values import of_engine, of_tree
 
 from dofkit.base.errors import TextError
-from dofkit.checker.derivatives import derivative, symbols_in
 from dofkit.checker.grammar import EULER, PI, KnownNames, parse, parse_relations
 from dofkit.checker.trees import FUNCTIONS as HEADS
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, call, negative, number, power, symbol, times
+from dofkit.checker.values import derivative, symbols_in
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import num, parameter
 

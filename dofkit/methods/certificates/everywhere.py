@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from dofkit.checker.derivatives import symbols_in
 from dofkit.checker.trees import CheckError
+from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.forms import orbit
 from dofkit.methods.certificates.rigid_fields import backing
 from dofkit.methods.certificates.room import Room, Standing, Told

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dofkit.checker.derivatives import derivative
 from dofkit.checker.fields import LARGEST_CRAMER
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, negative, times
+from dofkit.checker.values import derivative
 from dofkit.methods.certificates.dependence import rate_of
 from dofkit.methods.certificates.elimination import echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from dofkit.checker.derivatives import derivative, homogeneous_degree
 from dofkit.checker.trees import CheckError, Tree, add, negative, number, power, times
+from dofkit.checker.values import derivative, homogeneous_degree
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, reach, words_of
 from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.integrals import combined_integral, follows_from_integrals

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from dofkit.checker.derivatives import symbols_in
 from dofkit.checker.fields import field_named, on_row
 from dofkit.checker.trees import CheckError
+from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates
 from dofkit.methods.certificates.room import Room, Standing, Told

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from dofkit.checker.derivatives import symbols_in
 from dofkit.checker.label_rules import form_of
 from dofkit.checker.problem import Problem
 from dofkit.checker.trees import CheckError, Tree
+from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.dependence import accounted, rate_of
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError

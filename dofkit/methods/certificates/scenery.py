@@ -7,10 +7,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from dofkit.checker.derivatives import substituted, symbols_in
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import Problem
 from dofkit.checker.trees import CheckError, Effort, Tree
+from dofkit.checker.values import substituted, symbols_in
 
 #: Units of the checker's work that looking for the evidence of one scene may cost.
 WORK = 12_000_000
