@@ -64,8 +64,7 @@ class Surroundings:
 
     def vector(self, values: Any) -> Vector:
         """A place or direction."""
-        listed = isinstance(values, list) and len(values) == self.dimension
-        refuse(not listed, f"{self.dimension} components are needed, not {str(values)[:60]}")
+        refuse(not isinstance(values, list) or len(values) != self.dimension, "a place has as many components as space")
         return tuple(map(self.expression, values))
 
     def fresh(self, stem: str) -> Tree:
@@ -93,8 +92,7 @@ class Surroundings:
         every = range(self.dimension)
         n = self.vector(values) if values is not None else (ONE, *(self.fresh("axis") for _ in every[1:]))
         sure = [i for i in every if nowhere_zero(n[i], self.signs, Effort())]
-        doubtful = not sure and (self.dimension == 3 or not any(map(symbols_in, n)))
-        refuse(doubtful, "no component of a direction is surely not 0")
+        refuse(not sure and (self.dimension == 3 or not any(map(symbols_in, n))), "a direction may be 0")
         k = min(sure, key=lambda i: n[i].head != "number", default=0)
         rows = [{i: n[k], k: negative(n[i])} for i in every if i != k]
         return n, tuple(tuple(row.get(j, ZERO) for j in every) for row in rows)
@@ -254,8 +252,7 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
     moved = second.point(place)
 
     def shifted(by: Tree) -> Tree:
-        under = times(first.under, moved.under)
-        return difference(first.offset(moved, place, n), times(under, length(n), by))
+        return difference(first.offset(moved, place, n), times(first.under, moved.under, length(n), by))
 
     equations: dict[str, Callable[[], Iterable[Tree]]] = {
         "turn": lambda: parallel(first, second),

@@ -16,12 +16,10 @@ from typing import NamedTuple
 from dofkit.checker.trees import FUNCTIONS, ONE, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
 from dofkit.checker.values import derivative, over_time, symbols_in
 
-MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT = 20_000, 64, 60, 64
-#: How often a declared function is differentiated.
-MOST_ORDERS = 6
-PI, EULER, _TIME = Tree("pi"), call("exp", ONE), symbol("t")
-#: A dot above the letter before it.
-DOT = "\u0307"
+#: The last: how often a declared function is differentiated.
+MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT, MOST_ORDERS = 20_000, 64, 60, 64, 6
+#: The last: a dot above the letter before it.
+PI, EULER, _TIME, DOT = Tree("pi"), call("exp", ONE), symbol("t"), "\u0307"
 _LATIN = (
     "alpha beta gamma delta epsilon zeta eta theta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi phi "
     "chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"
@@ -139,8 +137,7 @@ def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
         if kind == "word":
             found += [one._replace(touching=touching or i > 0) for i, one in enumerate(names.parts(word))]
         elif kind == "number":
-            doubtful = any(names.words.get(letter, _E) != _E for letter in "eE" if letter in word)
-            refuse(doubtful, f"`{word}` may be a power of ten or hold a name")
+            refuse(any(names.words.get(c, _E) != _E for c in "eE" if c in word), f"`{word}` may be a power of ten")
             found.append(Lexeme(kind, number(Fraction(word)), word, touching))
         elif kind == "raised":
             found += [Lexeme("^"), Lexeme("number", number("²³".index(word) + 2))]
@@ -238,9 +235,8 @@ class _Reader:
         if token.kind in readers:
             return readers[token.kind](token)
         after = self.tokens[self.at : self.at + 3]
-        called = [one.kind for one in after] in (["(", "value", ")"], ["(", "number", ")"])
-        doubtful = token.kind != "number" and called and (self.next.touching or after[1].tree == _TIME)
-        refuse(doubtful, "a name before parentheses may be a factor or a function")
+        called = token.kind != "number" and [one.kind for one in after] in (["(", "value", ")"], ["(", "number", ")"])
+        refuse(called and (self.next.touching or after[1].tree == _TIME), "it may be a factor or a function")
         return token.tree
 
     def arguments(self) -> list[Tree]:
@@ -299,8 +295,7 @@ def _power(base: Tree, exponent: Tree) -> Tree:
     if isinstance(value, Fraction):
         refuse(max(abs(value.numerator), value.denominator) > LARGEST_EXPONENT, "an exponent is too large")
         if isinstance(raised, Fraction):
-            no_value = raised <= 0 and (value <= 0 if raised == 0 else value.denominator != 1)
-            refuse(no_value, f"{raised} has no power {value}")
+            refuse(raised <= 0 and (value <= 0 if raised == 0 else value.denominator != 1), "there is no such power")
             if value.denominator == 1:
                 return number(raised ** int(value))
     return power(base, exponent)

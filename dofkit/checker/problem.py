@@ -32,9 +32,8 @@ from dofkit.checker.values import TIME_RATE, symbols_in
 MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 20_000
 _NULLS = ("", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
-#: Keys that say nothing of the mathematics, and entries that are as good as left out.
+#: Keys that say nothing of the mathematics, and values that are as good as left out.
 _SILENT, _DEFAULTS = ("name", "title", "source", "notes", "expect"), {"dimension": 3, "tolerance": 0}
-_NOTHING: tuple[Any, ...] = (None, {}, [])
 #: What a text alone stands for in these lists.
 _SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")
@@ -95,7 +94,7 @@ def _canonical(value: Any, key: str, depth: int) -> Any:
         missing = "real" if key == "parameters" else None
         parts = [(name, missing if part is None else part) for name, part in value.items()]
         found = _mapping([(name, _canonical(part, name, depth + 1)) for name, part in parts])
-        return {name: part for name, part in found.items() if part not in _NOTHING}
+        return {name: part for name, part in found.items() if part not in (None, {}, [])}
     if isinstance(value, (list, tuple)):
         short, rest = _SHORT.get(key, ("", {}))
         longer = [{**rest, short: one} if short and isinstance(one, str) else one for one in value]
@@ -157,14 +156,13 @@ def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset
     names = [*coordinates, *world.names.values, *world.names.functions, *world.generic]
     for told in (names, [one.name for one in relations]):
         refuse(len({*told}) < len(told), "a name is that of a generic symbol, or relations have one name")
-    functions = {name: len(own) for name, own in world.names.functions.items()}
-    generic = tuple(world.generic)
-    return CheckedProblem(world.dimension, coordinates, world.signs, functions, relations, generic, reference)
+    arity = {name: len(own) for name, own in world.names.functions.items()}
+    return CheckedProblem(world.dimension, coordinates, world.signs, arity, relations, tuple(world.generic), reference)
 
 
 def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, tuple[str, ...], dict[str, Tree]]:
     """The names, points and bodies of a scene; its coordinates; the values that its configuration gives."""
-    d, others = scene.get("dimension", 3), scene.get("coordinates", [])
+    d, others, functions = scene.get("dimension", 3), scene.get("coordinates", []), scene.get("functions", {})
     refuse(type(d) is not int or d not in ROLES, "a world has 1, 2 or 3 dimensions")
     world = Surroundings(d, {"ground": ground(d)})
     particles, bodies = _owners(scene, "particles", ROLES[d][:d]), _owners(scene, "bodies", ROLES[d])
@@ -172,8 +170,12 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
     charts = bodies | {body: [*bodies[body][:3], *(f"{body}_{g}" for g in "abc")] for body in cayley}
     written = [*chain(*particles.values(), *bodies.values(), others)]
     coordinates = (*chain(*particles.values(), *charts.values(), others),)
-    values = _parameters(world, scene.get("parameters", {}))
-    functions = scene.get("functions", {})
+    values: dict[str, Tree] = {}
+    for name, value in scene.get("parameters", {}).items():
+        if value in SIGNS:
+            world.signs[name] = value
+        values[name] = symbol(name) if value in SIGNS else world.expression(value)
+        world.names = KnownNames(values=dict(values))
     refuse(not all(isinstance(given, list) for given in functions.values()), "a function has a list of arguments")
     own = [spelled_out(name) for name in (*written, *values, *functions)]
     every = KnownNames(frozenset([*written, *coordinates]), values, functions)
@@ -202,17 +204,6 @@ def _owners(scene: Entry, key: str, roles: Sequence[str]) -> dict[str, list[str]
         names = entry.get("coordinates") or [f"{role}_{entry['name']}" for role in roles]
         refuse(len(names) != len(roles) or entry["name"] in {*found, "ground"}, f"`{key}` cannot be read")
         found[entry["name"]] = names
-    return found
-
-
-def _parameters(world: Surroundings, given: Entry) -> dict[str, Tree]:
-    """The parameters: symbols, whose signs are noted, and values, in which those before may stand."""
-    found: dict[str, Tree] = {}
-    for name, value in given.items():
-        if value in SIGNS:
-            world.signs[name] = value
-        found[name] = symbol(name) if value in SIGNS else world.expression(value)
-        world.names = KnownNames(values=dict(found))
     return found
 
 

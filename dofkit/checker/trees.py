@@ -63,8 +63,7 @@ class Tree:
         refuse(self.size > LARGEST or own > LARGEST_NUMBER, "an expression or a number is too large")
 
 
-ZERO = Tree("number", (), Fraction(0))
-ONE = Tree("number", (), Fraction(1))
+ZERO, ONE = (Tree("number", (), Fraction(k)) for k in (0, 1))
 
 
 def number(value: Fraction | int) -> Tree:
