@@ -180,7 +180,8 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
     own = [spelled_out(name) for name in (*written, *values, *functions)]
     every = KnownNames(frozenset([*written, *coordinates]), values, functions)
     twice = len({*own, *BUILT_IN, TIME_RATE}) <= len(own) + len(BUILT_IN)
-    plain = all(re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and not every.moved(name) for name in (*own, *coordinates))
+    names = (*own, *map(spelled_out, coordinates))
+    plain = all(re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and not every.moved(name) for name in names)
     refuse(twice or not plain, "a name is taken, or not made of letters and digits")
     given = {q: world.expression(value) for q, value in scene.get("configuration", {}).items()}
     refuse(not given.keys() <= {*written}, "the configuration mentions what is no coordinate")

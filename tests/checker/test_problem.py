@@ -184,6 +184,11 @@ def test_a_hinge_of_space_with_cayley_parameters_is_rational() -> None:
     assert problem.reference == dict.fromkeys(problem.coordinates, number(0))
 
 
+def test_names_may_be_greek() -> None:
+    problem = read("coordinates: [θ, x_φ]\nconstraints: [θ̇ = 2 x_phi]")
+    assert (problem.coordinates, said(problem)) == (("θ", "x_φ"), {"c1": "velocity"})
+
+
 MISTAKEN: dict[str, str] = {
     "an unknown key": "constrants: [x]",
     "an unknown field": "coordinates: [x]\nconstraints: [{type: equation, text: x, lenght: 2}]",
@@ -192,6 +197,7 @@ MISTAKEN: dict[str, str] = {
     "a name given twice": "coordinates: [x, x]",
     "a name of a velocity": "coordinates: [x, xdot]",
     "a greek twin": "coordinates: [θ, theta]",
+    "a name of a differential beside a chart": "coordinates: [A_a, dA_a]",
     "a reserved name": "coordinates: [t]",
     "a generic name": "coordinates: [square_c1]\nparticles: [A, B]\nconstraints: [{type: link, between: [A, B]}]",
     "two constraints of one name": "coordinates: [x]\nconstraints: [{name: c2, type: equation, text: x}, 0 <= x < 1]",
