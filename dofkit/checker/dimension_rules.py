@@ -224,8 +224,8 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     if claim["rule"] != "frobenius":
         _finite_rows(evidence, minor)
     columns = {*minor.columns, *([claim["free"]] if claim["rule"] == "isolated" else [])}
-    others = {*evidence.problem.coordinates}.difference(names_told(claim))
-    refuse(columns != others, "the columns of the minor are not all the other coordinates")
+    whole = sorted((*columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
+    refuse(not whole, "the columns of the minor are not all the other coordinates")
     refuse(_same_place(evidence, minor.point, verified) != len(columns), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names_told(claim)

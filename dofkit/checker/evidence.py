@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from dofkit.checker.relations import FAULTS, CheckedRelations, told, total_derivative
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
-from dofkit.checker.values import CheckedPoint, derivative, evaluated, excludes_zero, substituted, symbols_in
+from dofkit.checker.values import CheckedPoint, derivative, evaluated, excludes_zero, linear_in, substituted, symbols_in
 
 __all__ = ["FAULTS", "CheckedEvidence", "CheckedMinor", "told"]
 
@@ -104,6 +104,16 @@ class CheckedEvidence(CheckedRelations):
         self.on_set(point, rows)
         point.is_regular([[self.slope(row, column) for column in columns] for row in rows])
         return CheckedMinor(point, rows, columns)
+
+    def is_linear(self, name: str) -> bool:
+        """Whether a relation is finite, or a linear form in the velocities (dt included)."""
+        one = self.relation(name)
+
+        def look() -> bool:
+            parts = linear_in(one.left, self.velocities)
+            return parts is not None and self.ring.vanishes(parts[1])
+
+        return one.kind != "velocity" or self.once(("linear", name), look)
 
     def slope(self, row: str, column: str) -> Tree:
         """The entry of a row: by a coordinate, or by its velocity."""

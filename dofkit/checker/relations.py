@@ -19,16 +19,7 @@ from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import Problem
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import (
-    CheckedPoint,
-    along,
-    evaluated,
-    excludes_zero,
-    heads_in,
-    linear_in,
-    substituted,
-    symbols_in,
-)
+from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, heads_in, substituted, symbols_in
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -273,16 +264,6 @@ class CheckedRelations(CheckedTexts):
             return one.at in (None, point.name) and all(map(excludes_zero, values[: len(one.nonzero)]))
 
         return self.once(("met", place, point.name), look)
-
-    def is_linear(self, name: str) -> bool:
-        """Whether a relation is finite, or a linear form in the velocities (dt included)."""
-        one = self.relation(name)
-
-        def look() -> bool:
-            parts = linear_in(one.left, self.velocities)
-            return parts is not None and self.ring.vanishes(parts[1])
-
-        return one.kind != "velocity" or self.once(("linear", name), look)
 
 
 def told(error: Exception) -> str:
