@@ -16,17 +16,25 @@ from dofkit.checker.trees import refuse
 from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
 
 
+def _finite_minor(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
+    minor = evidence.minor(given["minor"])
+    moving = any(evidence.relation(row).kind != "finite" for row in minor.rows)
+    refuse(moving, "a row of velocities does not reduce dof by itself")
+    return minor
+
+
+#: What shows how many freedoms there are at most: as many as coordinates less rows, or one less.
+MOST = {"minor": _finite_minor, "frobenius": involutive, "isolated": isolated, "crossing": crossing}
+CURVED = ("isolated", "crossing")
+
+
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """dof or velocity_dof near a point, between two bounds."""
-    path, size = claim["path"], len(evidence.problem.coordinates)
-    one = {"minor": claim.get("minor")}
+    path, size, one = claim["path"], len(evidence.problem.coordinates), {"minor": claim.get("minor")}
     most, least = claim.get("most", {**one, "rule": "minor"}), claim.get("least", {**one, "rule": "regular"})
-    ways = {"frobenius": involutive, "isolated": isolated, "crossing": crossing} if path == "/dof" else {}
-    refuse(most["rule"] not in ("minor", *ways), "an upper bound is `minor`, `frobenius`, `isolated` or `crossing`")
-    minor = ways[most["rule"]](evidence, most) if most["rule"] in ways else evidence.minor(most["minor"])
-    above = size - len(minor.rows) - (most["rule"] in ("isolated", "crossing"))
-    if most["rule"] == "minor" and path == "/dof":
-        _finite_rows(evidence, minor)
+    refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
+    minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
+    above = size - len(minor.rows) - (most["rule"] in CURVED)
     if least["rule"] == "crossing":
         point, found = crossing(evidence, least).point, above
     elif least["rule"] == "regular":
@@ -34,17 +42,11 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         point, found = other.point, size - len(other.rows)
     else:
         refuse(least["rule"] != "span", "a lower bound is `regular`, `span` or `crossing`")
-        given, longest = {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12
-        point, found = span(evidence, given, longest)
+        point, found = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
     evidence.is_about(claim["about"], point)
     verified[f"{path} at"] = "reference" if claim["about"] == "reference" else point.name
     return found
-
-
-def _finite_rows(evidence: CheckedEvidence, minor: CheckedMinor) -> None:
-    moving = any(evidence.relation(row).kind != "finite" for row in minor.rows)
-    refuse(moving, "a row of velocities does not reduce dof by itself")
 
 
 def instantaneous(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -219,10 +221,7 @@ def _same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) 
 
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
     """All other coordinates are functions of these near the point, whose number is dof there."""
-    way = {"isolated": isolated, "frobenius": involutive}.get(claim["rule"])
-    minor = way(evidence, claim) if way else evidence.minor(claim["minor"])
-    if claim["rule"] != "frobenius":
-        _finite_rows(evidence, minor)
+    minor = MOST[claim["rule"]](evidence, claim)
     columns = {*minor.columns, *([claim["free"]] if claim["rule"] == "isolated" else [])}
     whole = sorted((*columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
     refuse(not whole, "the columns of the minor are not all the other coordinates")

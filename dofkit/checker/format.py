@@ -152,9 +152,10 @@ path                                    rule           fields
 .../exact false                         not exact      at, pair [x, y]; relation ID where there are several forms
 .../independent 0                       inequality     of nothing but inequalities
 .../integrating_factor                  integral       at; the value mu makes mu * form closed and is not 0 there
-.../integral                            integral       at (value is "function = C"); alone: d function =
-                                                       factor * form, factor TEXT. In the system: step ID of the
-                                                       integral, and NAME's relation follows from its rate
+.../integral                            integral       at (value is "function = C"); step ID of the integral;
+                                                       NAME's relation follows from its rate. integrals [ID] that
+                                                       it takes besides: minor of these, finite relations and one
+                                                       of NAME's
 .../circuit                             cofactors      at (a point of all); minimal {NAME: {"minor"} at that point:
                                                        rows of the other members that account for them, and one of
                                                        the constraint's own}

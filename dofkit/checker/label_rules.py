@@ -8,7 +8,6 @@ from itertools import combinations
 from dofkit.checker.dimension_rules import told_integral
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import Told, admissible, involutive, of_word
-from dofkit.checker.relations import total_derivative
 from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse, symbol, times
 from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
 
@@ -183,27 +182,31 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     return False
 
 
-def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
-    """The constraint says that a function keeps its value: its differential is a multiple, or it is a step's.
+def factor(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
+    """An integrating factor makes the form closed, and is not 0."""
+    point, tree = evidence.point(claim["at"]), evidence.text(claim["value"])
+    (form,) = _forms(evidence, claim, single=True).values()
+    refuse(evidence.met_by(tree) or not excludes_zero(point.value(tree)), "the factor may be 0")
+    held = dict.fromkeys(symbols_in(tree) & set(evidence.variables), ZERO)
+    _identically(evidence, {**held, **{name: times(tree, part) for name, part in form.items()}}, _curl, 2)
+    return claim["value"]
 
-    An integrating factor makes the form closed.
+
+def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
+    """The constraint says that a function keeps its value, as a step does: it follows from its rate.
+
+    Where it takes further integrals: a minor of these, of finite relations and a relation of the constraint shows that
+    they do not do alone.
     """
-    point, factored = evidence.point(claim["at"]), claim["field"] == "integrating_factor"
-    factor = evidence.text(claim["value"] if factored else claim.get("factor", "1"))
-    refuse(evidence.met_by(factor) or not excludes_zero(point.value(factor)), "the factor may be 0")
-    if factored:
-        (form,) = _forms(evidence, claim, single=True).values()
-        held = dict.fromkeys(symbols_in(factor) & set(evidence.variables), ZERO)
-        _identically(evidence, {**held, **{name: times(factor, tree) for name, tree in form.items()}}, _curl, 2)
-        return claim["value"]
-    function = evidence.text(told_integral(evidence, claim["value"]))
+    point, function = evidence.point(claim["at"]), evidence.text(told_integral(evidence, claim["value"]))
     moves = any(excludes_zero(point.value(derivative(function, v))) for v in evidence.variables)
     refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
-    if "step" in claim:
-        evidence.identity(evidence.relation(claim["step"]).left, function, "the integral of the step")
-        integrable(evidence, {**claim, "integrals": [claim["step"]]}, verified)
-        return claim["value"]
-    (relation,) = own(evidence, claim, ("velocity",))
-    change = total_derivative(function, evidence.variables)
-    evidence.identity(change, times(factor, evidence.relation(relation).left), "the integral")
+    evidence.identity(evidence.relation(claim["step"]).left, function, "the integral of the step")
+    others, whole = [*claim.get("integrals", [])], own(evidence, claim)
+    if others:
+        minor = evidence.minor(claim["minor"], {*others, *evidence.finite, *whole})
+        rest = set(minor.rows).difference(whole)
+        refuse(minor.point is not point or len(rest) == len(minor.rows), "the minor is not of the constraint")
+        evidence.follow({*others, *evidence.finite}, rest, point, "the rows of the minor")
+    integrable(evidence, {**claim, "integrals": [claim["step"], *others]}, verified)
     return claim["value"]

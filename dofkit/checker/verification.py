@@ -43,7 +43,8 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("scleronomic, catastatic", "timeless", labels.timeless),
     ("scleronomic, catastatic", "turns", labels.turns),
     ("exact", "exact, not exact", labels.exact),
-    ("integral, integrating_factor", "integral", labels.integral),
+    ("integrating_factor", "integral", labels.factor),
+    ("integral", "integral", labels.integral),
 )
 RULES = {(path, rule): look for paths, rules, look in TABLE for path in paths.split(", ") for rule in rules.split(", ")}
 #: What may be false of poses near the configuration alone.

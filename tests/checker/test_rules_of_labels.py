@@ -88,8 +88,7 @@ STEPS = [
 ]
 GOOD = [
     about("c1", "integrating_factor", "x", "integral", at="P"),
-    about("c1", "integral", "x^2*y = C", "integral", at="P", function="x^2*y", factor="x"),
-    about("c1", "integral", "x^2*y = C", "integral", at="P", function="x^2*y", step="f"),
+    about("c1", "integral", "x^2*y = C", "integral", at="P", step="f"),
     about("c1", "holonomic", True, "integral", at="P", integrals=["f"]),
     about("c1", "holonomic_alone", True, "integral", at="P", integrals=["f"]),
 ]
@@ -102,6 +101,36 @@ def test_an_integral(claim: dict[str, Any]):
     assert not accepted(POTENTIAL, [claim], **{**parts, "points": [{**AT, "values": {"x": "0", "y": "2", "z": "0"}}]})
     for wrong in ("x^2", "x^2*y = y", "x*y = C", "x^3*y = C", False, None, "0"):
         assert not accepted(POTENTIAL, [{**claim, "value": wrong}], **parts)
+
+
+def test_integrals_that_do_only_together():
+    """dx + dy = 0 and dx - dy = 0 keep x and y; of dx = 0 and dy = 0 each keeps its own alone."""
+    point = [{"id": "P", "values": {"x": "0", "y": "0"}}]
+    claim = about("c1", "integral", "x = C", "integral", at="P", step="x", integrals=["y"], minor="m")
+    for first, second, cofactors, good in (
+        ("dx + dy = 0", "dx - dy = 0", ({"c1": "1/2", "c2": "1/2"}, {"c1": "1/2", "c2": "-1/2"}), True),
+        ("dy = 0", "dx = 0", ({"c2": "1"}, {"c1": "1"}), False),
+    ):
+        scene = {"coordinates": ["x", "y"], "constraints": [first, second]}
+        steps = [
+            {"id": "x", "by": "integral", "function": "x", "c": cofactors[0]},
+            {"id": "y", "by": "integral", "function": "y", "c": cofactors[1]},
+            {"id": "dx", "by": "rate", "of": "x"},
+            {"id": "dy", "by": "rate", "of": "y"},
+            {"id": "k", "by": "implied", "of": "c1", "c": {"dy": "1", **({"dx": "1"} if good else {})}},
+        ]
+        parts = {
+            "points": point,
+            "relations": steps,
+            "minors": [
+                {"id": "m", "at": "P", "rows": ["y", "c1"], "columns": ["x", "y"]},
+                {"id": "n", "at": "P", "rows": ["y"], "columns": ["y"]},
+                {"id": "o", "at": "P", "rows": ["c1"], "columns": ["y"]},
+            ],
+        }
+        assert accepted(scene, [claim], **parts) is good
+        for wrong in ({"minor": "n"}, {"minor": "o"}, {"integrals": []}, {"integrals": ["c2"]}, {"step": "y"}):
+            assert not accepted(scene, [{**claim, **wrong}], **parts)
 
 
 @pytest.mark.parametrize(
@@ -118,7 +147,7 @@ def test_an_integral(claim: dict[str, Any]):
     ],
 )
 def test_broken_steps_are_refused(steps: list[dict[str, Any]]):
-    assert not accepted(POTENTIAL, [GOOD[3]], points=[AT], relations=steps)
+    assert not accepted(POTENTIAL, [GOOD[2]], points=[AT], relations=steps)
 
 
 def test_a_form_that_only_the_others_make_integrable():

@@ -136,17 +136,19 @@ def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     function = integral_text(entry)
     if len(names) != 1 or room.point is None or function is None:
         return
-    found = {"rule": "integral", "at": room.point.name, "function": function}
-    if factor := factor_text(room, entry, names[0]):
-        yield {**found, "factor": factor}
+    found = {"rule": "integral", "at": room.point.name}
+    if alone := integral_step(room, entry, names[0]):
+        yield {**found, "step": alone}
     if (step := combined_integral(room, function)) is None:
         return
     if follows_from_integrals(room, names[0], [step]):
         yield {**found, "step": step}
     texts = [one for other in room.report.constraints if (one := integral_text(other))]
-    steps = [step, *(one for text in texts if (one := combined_integral(room, text)) and one != step)]
-    if follows_from_integrals(room, names[0], steps):
-        yield {**found, "step": step, "integrals": steps}
+    others = [one for text in texts if (one := combined_integral(room, text)) and one != step]
+    others = list(dict.fromkeys(others))
+    standing = room.standing_of([*room.scenery.evidence.finite, *others, names[0]])
+    if follows_from_integrals(room, names[0], [step, *others]) and standing is not None and names[0] in standing.rows:
+        yield {**found, "step": step, "integrals": others, "minor": room.minor(standing)}
 
 
 def integrating_factor(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
