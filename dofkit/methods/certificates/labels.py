@@ -139,6 +139,8 @@ def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     found = {"rule": "integral", "at": room.point.name}
     if alone := integral_step(room, entry, names[0]):
         yield {**found, "step": alone}
+        if other := room.search.somewhere(room.scenery.evidence.finite, room.problem.coordinates, seed=1):
+            yield {**found, "step": alone, "at": room.add_point(other)}
     if (step := combined_integral(room, function)) is None:
         return
     if follows_from_integrals(room, names[0], [step]):
