@@ -142,9 +142,8 @@ class CheckedEvidence(CheckedRelations):
         """A generic symbol (or one of ``letters``) of one relation alone, in which it is never stationary."""
         left = self.relation(name).left
         others = [symbols_in(one.left) for one in self.problem.relations if one.name != name]
-        for letter in sorted(
-            symbols_in(left) & set(self.problem.generic if letters is None else letters) & self.chosen
-        ):
+        wanted = self.chosen.intersection(self.problem.generic if letters is None else letters)
+        for letter in sorted(symbols_in(left) & wanted):
             alone = not any(letter in held for held in others) and self.is_nowhere_zero(derivative(left, letter))
             if alone and self.has_value_everywhere(left):
                 return letter
@@ -164,8 +163,7 @@ class CheckedEvidence(CheckedRelations):
         if about == "component" or (about == "here" and off):
             refuse(not off, "the scene has a configuration: the claim has to be about it")
             return
-        refuse(about not in ("reference", "here"), "a claim is about `reference`, `component` or `everywhere`")
-        refuse(not self.problem.reference, "the scene has no configuration")
+        refuse(about not in ("reference", "here") or not self.problem.reference, "the scene has no configuration")
         time = {"t": ZERO} if "t" in point.balls else {}
         for name, tree in {**self.problem.reference, **time}.items():
             told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))

@@ -7,6 +7,7 @@ there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to rel
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+from itertools import chain
 from typing import Any
 
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
@@ -44,10 +45,8 @@ def _determinant(rows: list[list[Tree]]) -> Tree:
 
 def bracket(first: VelocityField, second: VelocityField) -> VelocityField:
     """[X, Y] = (DY) X - (DX) Y."""
-    return {
-        name: add(along(first, second.get(name, ZERO)), negative(along(second, first.get(name, ZERO))))
-        for name in dict.fromkeys([*first, *second])
-    }
+    names, (x, y) = dict.fromkeys([*first, *second]), (first, second)
+    return {q: add(along(x, y.get(q, ZERO)), negative(along(y, x.get(q, ZERO)))) for q in names}
 
 
 def of_word(evidence: CheckedEvidence, word: Any, allowed: Iterable[str], longest: int = LONGEST_WORD) -> VelocityField:
@@ -104,9 +103,8 @@ def admissible(
     evidence.follow(rows, wanted, point, "the relations")
     evidence.follow(wanted, rows, point, "the rows of the fields")
     evidence.settled(point, wanted, given)
-    for field in fields:
-        for value in field.values():
-            point.value(value)
+    for value in (value for field in fields for value in field.values()):
+        point.value(value)
     return point, fields
 
 
@@ -123,17 +121,15 @@ def span(evidence: CheckedEvidence, given: Told, longest: int) -> tuple[CheckedP
 
 def involutive(evidence: CheckedEvidence, given: Told, allowed: Collection[str] | None = None) -> CheckedMinor:
     """Rows whose kernel is spanned by fields that are closed under brackets: they integrate (Frobenius 1877)."""
-    minor = evidence.minor(given["minor"], allowed)
+    minor, fields = evidence.minor(given["minor"], allowed), [field_named(evidence, name) for name in given["fields"]]
     timed = evidence.holds_time(minor.rows)
-    fields = [field_named(evidence, name) for name in given["fields"]]
     missing = len(evidence.problem.coordinates) + timed - len(minor.rows)
     refuse(len(fields) != missing or not all(map(evidence.is_linear, minor.rows)), f"the kernel has {missing} fields")
     moves = not timed and any(field.get("t", ZERO) != ZERO for field in fields)
     refuse(moves, "a field moves time, which does not occur")
     independent(evidence, fields, given["columns"], minor.point)
     brackets = (paid(evidence, first, second) for i, first in enumerate(fields) for second in fields[:i])
-    tangent(evidence, fields, minor.rows)
-    tangent(evidence, brackets, minor.rows)
+    tangent(evidence, chain(fields, brackets), minor.rows)
     return minor
 
 
@@ -149,10 +145,10 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> None:
     minor, rows = evidence.minor(given["minor"]), [row for block in given["blocks"] for row in block["rows"]]
     once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
     refuse(not once, "the blocks do not hold each finite relation once, or the minor has other rows")
-    refuse("t" in frozenset().union(*(symbols_in(evidence.relation(row).left) for row in rows)), "rows that hold time")
     for row in rows:
-        chosen = evidence.is_open(evidence.relation(row).left) and not evidence.own_symbol(row)
-        refuse(chosen, f"`{row}` holds what the point chose: it may be met for that alone")
+        left = evidence.relation(row).left
+        chosen = "t" in symbols_in(left) or (evidence.is_open(left) and not evidence.own_symbol(row))
+        refuse(chosen, f"`{row}` holds time, or what the point chose: it may be met for that alone")
     evidence.on_set(minor.point, rows)
     for block in given["blocks"]:
         fields = [field_named(evidence, field) for field in block["fields"]]

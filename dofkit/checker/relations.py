@@ -246,7 +246,7 @@ class CheckedRelations(CheckedTexts):
     def follow(self, wanted: Iterable[str], start: Iterable[str], point: CheckedPoint | None, what: str) -> None:
         """`CheckError` unless all that is wanted holds near a point where ``start`` does."""
         left = set(wanted) - set(start)
-        left -= self.closure(start, point) if left else set()
+        left = left and left - self.closure(start, point)
         refuse(left, f"`{min(left, default='')}` is not shown to follow from {what}")
 
     def _met(self, place: int, point: CheckedPoint | None) -> bool:

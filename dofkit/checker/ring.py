@@ -61,8 +61,7 @@ class QuotientRing:
         """The generator of a key, new or known; its power of an order is the polynomial ``rule``."""
         place = self.places.setdefault(key, len(self.places))
         if place == len(self.generators):
-            for known in (self.places, self.rules, self.memory):
-                known.clear()
+            self.places, self.rules, self.memory = {}, {}, {}
             raise CheckError("too many functions and symbols")
         if order and place not in self.rules:
             self.rules[place] = order, self.generators[place] ** order - rule
