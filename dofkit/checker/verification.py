@@ -8,7 +8,6 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from dofkit.checker import dimension_rules as numbers
-from dofkit.checker import emptiness_rules as emptiness
 from dofkit.checker import label_rules as labels
 from dofkit.checker import whole_rules as whole
 from dofkit.checker.evidence import CheckedEvidence
@@ -21,9 +20,9 @@ from dofkit.checker.trees import CheckError, Effort, refuse
 Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
 #: The rules: paths of the report (fields of an entry, without ``/``), names of rules, and what looks at them.
 TABLE: tuple[tuple[str, str, Rule], ...] = (
-    ("/consistent, /feasible", "point, regular", emptiness.consistent),
-    ("/consistent", "nullstellensatz", emptiness.inconsistent),
-    ("/conflicting", "conflict", emptiness.conflict),
+    ("/consistent, /feasible", "point, regular", whole.consistent),
+    ("/consistent", "nullstellensatz", whole.inconsistent),
+    ("/conflicting", "conflict", whole.conflict),
     ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds),
     ("/dof, /velocity_dof", "everywhere", whole.everywhere),
     ("/velocity_dof, /holonomic, /scleronomic, /redundant_equations, /redundancies", "count", numbers.counted),
