@@ -145,14 +145,12 @@ def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]
 
 
 def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """How many equations a constraint adds to those of the constraints before it; or how many finite ones there are.
+    """How many equations a constraint adds to those of the constraints before it.
 
     Of the last constraint: by how much the dimension falls, from a manifold to a dof that was verified there.
     """
     minor, order = evidence.minor(claim["minor"]), owners(evidence)
     evidence.is_about("here", minor.point)
-    if claim["path"] == "/count/independent":
-        return _rank(evidence, minor, evidence.finite)
     place, own = order.index(claim["owner"]), len(evidence.owned(claim["owner"]))
     refuse(not own, "the constraint has no equations")
     before, upto = (relations_of(evidence, order[:k]) for k in (place, place + 1))

@@ -114,7 +114,7 @@ path                                    rule           fields
                                                        ``covers``. dof beside forms: most, least as for squeeze
 /instantaneous_dof                      rank           at: the reference. Rational rows: nothing more. Else minor,
                                                        of all relations
-/singular                               compare        (of verified /instantaneous_dof and /velocity_dof)
+/singular                               count          (of verified /instantaneous_dof and /velocity_dof)
 /holonomic, /scleronomic                count          (of the verified entries)
 /redundant_equations                    count          (of verified /velocity_dof)
 /redundancies                           count          (of verified /redundant_equations: 0, or all equations are of
@@ -124,7 +124,6 @@ path                                    rule           fields
 /integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of
                                                        the texts of the basis, in order; /dof verified before at the
                                                        same point. Nothing more where the basis is null
-/count/independent                      independent    minor: finite rows, all finite relations follow
 /generalized_coordinates                minor,         as above, minor: rows finite or integrals; the columns (and
                                         frobenius,     free) are all the other coordinates; /dof verified before, at
                                         isolated       the same point

@@ -202,7 +202,7 @@ def _fault(path: str, value: Any, about: Any, report: Mapping[str, Any], choices
     owner = parts[2].replace("~1", "/").replace("~0", "~") if len(parts) == 4 else ""
     entry: Any = next((one for one in report["constraints"] if one["name"] == owner), None) if owner else report
     if entry is None or parts[-1] not in entry:
-        return "" if path == "/count/independent" else f"{path}: nothing of the kind is told"
+        return f"{path}: nothing of the kind is told"
     verdict = entry["verdicts"].get(parts[-1], {})
     if verdict.get("verdict") != "proved":
         inconsistent = report["consistent"] is False and parts[-1] in ("dof", "velocity_dof")

@@ -32,7 +32,7 @@ NUMBERS: dict[str, Maker] = {
     "dof": freedom.dof,
     "velocity_dof": freedom.velocity_dof,
     "instantaneous_dof": freedom.instantaneous,
-    "singular": freedom.compared,
+    "singular": freedom.counted,
     "holonomic": freedom.counted,
     "scleronomic": freedom.counted,
     "redundant_equations": freedom.counted,

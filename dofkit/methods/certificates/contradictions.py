@@ -23,7 +23,7 @@ from dofkit.report import ConstraintEntry, Report
 
 #: Rules whose evidence is of the whole set, or of a constraint wherever it is looked at.
 OF_ALL = frozenset(
-    ("count", "compare", "finite", "inequality", "timeless", "turns", "exact", "not exact", "wedge", "nullstellensatz")
+    ("count", "finite", "inequality", "timeless", "turns", "exact", "not exact", "wedge", "nullstellensatz")
 )
 #: Fields that are shown by any point.
 OF_ANY_POINT = ("consistent", "feasible", "conflicting")

@@ -80,18 +80,13 @@ def instantaneous(room: Room) -> Iterator[Told]:
         return
     found: dict[str, Any] = {"rule": "rank", "at": standing.point.name}
     if not standing.dependent and standing.rows:
-        yield {**found, "minor": room.minor(standing), "dependent": {}}
+        yield {**found, "minor": room.minor(standing)}
     yield found
 
 
 def counted(room: Room) -> Iterator[Told]:
     """What follows from other claims."""
     yield {"rule": "count"}
-
-
-def compared(room: Room) -> Iterator[Told]:
-    """Two numbers that differ, or do not."""
-    yield {"rule": "compare"}
 
 
 def redundant(room: Room) -> Iterator[Told]:
