@@ -11,7 +11,6 @@ from dofkit.base.arguments import description_of
 from dofkit.base.errors import ArgumentError
 from dofkit.checker import Verification
 from dofkit.checker import verify as rechecked
-from dofkit.checker.document import exact_document
 from dofkit.methods.certificates.lowering import document_of_scene
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import SceneLike
@@ -41,9 +40,9 @@ def _written(scene: SceneLike | None) -> Mapping[str, Any] | str | None:
     if scene is None:
         return None
     if isinstance(scene, Scene):
-        return exact_document(document_of_scene(scene))
+        return document_of_scene(scene)
     if isinstance(scene, Mapping):
-        return exact_document(scene)
+        return scene
     data = find(scene).data
     return data if isinstance(data, str) else data.decode("utf-8")
 
