@@ -40,7 +40,9 @@ _SIGNS: dict[str, str] = {
 _LETTERS: dict[str, str] = {"ϑ": "θ", "ϕ": "φ", "ϵ": "ε", "ϱ": "ρ", "ς": "σ", "ϰ": "κ", "µ": "μ", "∆": "Δ"}
 _SPACES = dict.fromkeys("\u00a0\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a\u202f\u205f\u3000", " ")
 _SUBSCRIPTS: dict[str, str] = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
-_KEPT = frozenset(GREEK) | frozenset(SUPERSCRIPTS) | frozenset(FRACTIONS) | {DOT, TWO_DOTS}
+#: After a number: so many times pi/180.
+DEGREE = "°"
+_KEPT = frozenset(GREEK) | frozenset(SUPERSCRIPTS) | frozenset(FRACTIONS) | {DOT, TWO_DOTS, DEGREE}
 _MARKS = {**dict.fromkeys("\u0358", DOT)}
 
 #: Letters of other alphabets that look like Latin ones.
@@ -56,7 +58,6 @@ _REFUSED: dict[str, tuple[str, str]] = {
     "±": ("`±` stands for two texts", "write each of the two relations by itself"),
     "∓": ("`∓` stands for two texts", "write each of the two relations by itself"),
     "∞": ("infinity is no number", "leave that bound out"),
-    "°": ("degrees are not read", "write the angle in radians, such as `30*pi/180`"),
     "∂": ("`∂` is not read", "write a derivative as `diff(h(s), s)`"),
     "∛": ("`∛` is not read", "write `x^(1/3)`"),
     "∈": ("`∈` is no relation", "write `0 <= x <= L` for an interval"),
