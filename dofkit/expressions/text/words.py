@@ -21,9 +21,10 @@ _FOREIGN: dict[str, str] = {
     "nan": "write a number", "NaN": "write a number", "inf": "leave that bound out", "oo": "leave that bound out",
 }  # fmt: skip
 #: Names of units: a number has none here.
-_UNITS = frozenset(
-    "km m dm cm mm um nm in inch ft kg g mg t lb s ms min h Hz N kN Nm J kJ W rad rpm Pa K mol A V".split()
-)
+_UNITS = frozenset({
+    "km", "m", "dm", "cm", "mm", "um", "nm", "in", "inch", "ft", "kg", "g", "mg", "lb", "s", "ms", "min", "h", "Hz", "N",
+    "kN", "Nm", "J", "kJ", "W", "rad", "rpm", "Pa", "K", "mol",
+})  # fmt: skip
 _NEAR = 200
 
 
