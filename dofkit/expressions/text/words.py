@@ -22,8 +22,8 @@ _FOREIGN: dict[str, str] = {
 }  # fmt: skip
 #: Names of units: a number has none here.
 _UNITS = frozenset({
-    "km", "m", "dm", "cm", "mm", "um", "nm", "in", "inch", "ft", "kg", "g", "mg", "lb", "s", "ms", "min", "h", "Hz", "N",
-    "kN", "Nm", "J", "kJ", "W", "rad", "rpm", "Pa", "K", "mol",
+    "km", "m", "dm", "cm", "mm", "um", "nm", "in", "inch", "ft", "kg", "g", "mg", "lb", "s", "ms", "min", "h", "Hz",
+    "N", "kN", "Nm", "J", "kJ", "W", "rad", "rpm", "Pa", "K", "mol",
 })  # fmt: skip
 _NEAR = 200
 
