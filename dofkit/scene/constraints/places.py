@@ -35,7 +35,7 @@ class Fixed(ConstraintBase):
     understood: ClassVar[tuple[str, ...]] = ("pin", "hinge", "anchor", "clamped", "frozen")
     point: Point | None = Field(None, description="a particle or a point of a body")
     body: str | None = Field(None, description="a body")
-    facts: ClassVar[TypeFacts] = TypeFacts(_fixed_rows, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(_fixed_rows, joint=True, held=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
         if (self.point is None) == (self.body is None):

@@ -87,7 +87,7 @@ class Gear(Joint):
     ratio: Value = Field(description="angle of the second by angle of the first; negative for wheels that mesh outside")
     carrier: str | None = Field(None, description="the body that carries both axes, as in a planetary gear")
     dimensions: ClassVar[tuple[int, ...]] = (2,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_gear_rows, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(_gear_rows, joint=True, geared=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         ratio = world.mentioned.number = world.fixed(self.ratio, "ratio")
