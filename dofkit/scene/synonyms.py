@@ -106,7 +106,7 @@ def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: di
         kind = kind if any(key in entry and key not in fields for key in _TELLING) else SYNONYMS[kind]
     if kind != entry.get("type"):
         entry = {**entry, "type": kind}
-    known = _other_keys(kind) if isinstance(kind, str) else {}
+    known = other_keys(kind) if isinstance(kind, str) else {}
     if not known.keys().isdisjoint(entry):
         meant = {key: known[key] for key in entry if key in known and known[key] not in entry}
         origin = places.get(here, here)
@@ -120,7 +120,7 @@ def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: di
 
 
 @cache
-def _other_keys(kind: str) -> Mapping[str, str]:
+def other_keys(kind: str) -> Mapping[str, str]:
     """Other words for the fields of a type."""
     cls = TYPES.get(kind)
     if cls is None:
