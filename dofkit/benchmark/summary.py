@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dofkit.benchmark import statistics
 from dofkit.benchmark.record import ChartRun, Data, Ran
+from dofkit.benchmark.sentences import sentences
 
 
 def summary(data: Data) -> ChartRun:
     """All that is drawn and told."""
     found, points = statistics.scores(data.lines), statistics.points(data.lines)
-    return ChartRun(
+    chart = ChartRun(
         ran=data.ran,
         scores=found,
         fronts=statistics.fronts(found),
@@ -20,6 +21,7 @@ def summary(data: Data) -> ChartRun:
         reductions=data.reductions,
         captions={name: f"{text} {provenance(data.ran)}" for name, text in _CAPTIONS.items()},
     )
+    return chart.model_copy(update={"sentences": sentences(chart)})
 
 
 def provenance(ran: Ran) -> str:
