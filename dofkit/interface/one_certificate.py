@@ -8,9 +8,9 @@ from typing import Any
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.workers import Json
-from dofkit.checker import CheckError, Verification, verify
+from dofkit.checker import CheckError, Verification
 from dofkit.interface.supervised import CertificateGiven
-from dofkit.scene.reading import find
+from dofkit.methods.certificates.verifying import verify
 
 #: Exit statuses: all is well, something failed, something could not be read.
 VERIFIED, REFUSED, UNREAD = 0, 1, 2
@@ -19,7 +19,7 @@ VERIFIED, REFUSED, UNREAD = 0, 1, 2
 def verification_lines(given: CertificateGiven) -> Json:
     """What is printed of a certificate, and the exit status."""
     try:
-        found = verify(_scene_text(given.scene), Path(given.certificate).read_bytes())
+        found = verify(given.scene, Path(given.certificate))
     except OSError as error:
         return _unread(given, f"it cannot be read: {error.strerror or error}")
     except (CheckError, DofkitError, ValueError) as error:
@@ -27,13 +27,6 @@ def verification_lines(given: CertificateGiven) -> Json:
     refused = bool(found.failed) or (given.strict and bool(found.uncovered))
     out = json.dumps(found.as_json(), ensure_ascii=given.ascii_only) if given.as_json else _text(found)
     return {"out": out + "\n", "err": "", "status": REFUSED if refused else VERIFIED}
-
-
-def _scene_text(file: str | None) -> str | None:
-    if file is None:
-        return None
-    _, data = find(file)
-    return data if isinstance(data, str) else data.decode("utf-8")
 
 
 def _unread(given: CertificateGiven, message: str) -> Json:
