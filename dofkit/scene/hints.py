@@ -10,7 +10,7 @@ from typing import Any
 from dofkit.base.errors import Fault
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
-from dofkit.scene.synonyms import dimension_of
+from dofkit.scene.synonyms import dimension_of, other_keys
 
 UNKNOWN_KEY = "unknown key"
 UNKNOWN_TYPE = "there is no constraint type"
@@ -24,7 +24,7 @@ _HINTS = (
 )
 #: Hints that show what to write already, or need no line.
 _ENOUGH = re.compile(
-    r"`|'[^']*[:=]|column|^(?:the (?:particles|bodies) are|declared|rename|leave|choose|check|delete|keep|give|move)"
+    r"`|'[^']*[:=]|column|^(?:the (?:particles|bodies) are|declared|rename|leave|choose|check|delete|keep|move)"
 )
 _FORCES = ("spring", "damper", "force", "gravity")
 #: A line by the key that it gives; of some keys one for each dimension.
@@ -88,7 +88,8 @@ def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
 
 
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
-    told = fault.hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
+    twice = _said_twice(fault, value)
+    told = twice or fault.hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
     if told is not None and _ENOUGH.search(told):
         return told
     line = _line(fault, told or "", value)
@@ -99,6 +100,16 @@ def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
     return f"{told}{'' if told.endswith('?') else ';'} for example `{line}`"
 
 
+def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
+    """What to do about a key of a constraint that is another word for one which is given too."""
+    key = fault.where[-1] if fault.where and fault.message.startswith(UNKNOWN_KEY) else ""
+    kind = _type_at(value, fault.where[1]) if fault.where[:1] == ("constraints",) and len(fault.where) == 3 else None
+    meant = other_keys(kind).get(str(key)) if kind is not None else None
+    return (
+        None if meant is None else f"`{key}` is another word for `{meant}`, which is given too: leave one of them out"
+    )
+
+
 def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
     """A line that would work in the place of a fault: of a constraint, or of a key."""
     where, d = fault.where, dimension_of(value)
@@ -106,9 +117,11 @@ def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
     missing = re.search(r"needs [`'](\w+)[`']", fault.message)
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = suggested[1] if suggested and suggested[1] in TYPES else _type_at(value, where[1])
-        whole = missing or len(where) == 2 or fault.message.startswith((UNKNOWN_KEY, UNKNOWN_TYPE))
-        if whole or kind is None:
-            return TYPES[kind or _likely(_entry_at(value, where[1]))].example(d)
+        whole = missing or len(where) == 2 or where[-1] == "type" or fault.message.startswith(UNKNOWN_KEY)
+        if kind is None or d not in TYPES[kind].dimensions:
+            return TYPES[_likely(_entry_at(value, where[1]), d)].example(d)
+        if whole:
+            return TYPES[kind].example(d)
     keys = [key for key in where if isinstance(key, str) and key in LINES]
     key = suggested[1] if suggested and suggested[1] in LINES else (keys[-1] if keys else "constraints")
     line = LINES[key]
@@ -117,10 +130,11 @@ def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
     return line if isinstance(line, str) else line[d - 1]
 
 
-def _likely(entry: Any) -> str:
-    """The first type that has all the keys of an entry without one; an equation where none has."""
+def _likely(entry: Any, dimension: int) -> str:
+    """The first type of a dimension that has all the keys of an entry; an equation where none has."""
     given = set(entry) - {"type"} if isinstance(entry, Mapping) else set()
-    named = (kind for kind, cls in TYPES.items() if given and given <= cls.model_fields.keys())
+    able = [(kind, cls.model_fields.keys()) for kind, cls in TYPES.items() if dimension in cls.dimensions]
+    named = (kind for kind, fields in able if given and given <= fields)
     return next(named, Equation.kind())
 
 

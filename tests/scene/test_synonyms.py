@@ -163,7 +163,14 @@ SHOWN: dict[str, tuple[str, str]] = {
     "no radius": ("{A}[{type: roll, body: a}]", "`{type: roll, body: crank, radius: 1}`"),
     "two words for one thing": (
         "{A}[{type: hinge, between: [ground, a], at: [0, 0, 0], axis: x, direction: y}]",
-        "axis: [0, 0, 1]}`",
+        "`direction` is another word for `axis`",
+    ),
+    "a joint of space in the plane": (
+        "dimension: 2\n{A}[{type: ball, between: [ground, a], at: [0, 0]}]", "`{type: revolute, between",
+    ),
+    "a length that contradicts": (
+        "dimension: 1\nparticles: [{name: A, at: [0]}, {name: B, at: [5]}]\n"
+        "constraints: [{type: link, between: [A, B], length: 6}]", "`length: 5`",
     ),
 }  # fmt: skip
 

@@ -146,7 +146,7 @@ def _check_length(world: World, first: Placed, second: Placed, given: Expr, *whe
         return
     measured = root(drawn)
     message = f"the length {_figure(shown)} contradicts the drawing, where {first.label} and {second.label} are "
-    hint = "leave `length` out to take the drawing's, or set `tolerance` if it is measured"
+    hint = f"write `length: {_figure(measured)}`, or leave it out: the drawing's; set `tolerance` if it is measured"
     world.misfit(_less(shown, measured), f"{message}{_figure(measured)} apart", *where, hint=hint)
 
 
