@@ -53,7 +53,9 @@ def standard_words(value: Mapping[str, Any]) -> StandardWords:
     {'constraints': [{'type': 'revolute', 'between': ['ground', 'a'], 'axis': [0, 0, 1]}]}
     """
     places: dict[Path, Path] = {}
-    found = {key: part if key in SAID else _named(part, (key,), places) for key, part in value.items()}
+    found = dict(value)
+    if _subscripted(value):
+        found = {key: part if key in SAID else _named(part, (key,), places) for key, part in value.items()}
     if "joints" in found:
         found = _one_section(found, places)
     d = dimension_of(found)
@@ -142,6 +144,22 @@ def _vector(axis: Any, dimension: int) -> Any:
         return axis
     sign = -1 if match[1] in ("-", "−") else 1
     return [sign if letter == match[2] else 0 for letter in "xyz"[:dimension]]
+
+
+def _subscripted(value: Any) -> bool:
+    """Does a subscript digit stand anywhere in a document?"""
+    left = [value]
+    while left:
+        part = left.pop()
+        if isinstance(part, str):
+            if not part.isascii() and not SUBSCRIPTS.keys().isdisjoint(part):
+                return True
+        elif isinstance(part, (list, tuple)):
+            left += part
+        elif isinstance(part, Mapping):
+            left += part
+            left += part.values()
+    return False
 
 
 def _named(value: Any, here: Path, places: dict[Path, Path]) -> Any:
