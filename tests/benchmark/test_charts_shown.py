@@ -66,9 +66,9 @@ def test_every_sentence_about_a_chart_is_worked_out_from_its_data() -> None:
 
 
 def test_no_reduction_is_drawn_against_a_cold_start() -> None:
-    """Nowhere does leaving one out look like a gain of more than a half."""
+    """Nowhere does leaving one out look like a large gain: a cold baseline looked like an eightfold one."""
     whole = {row.scene: row.seconds for row in data().reductions if not row.off}
-    assert min(row.seconds / whole[row.scene] for row in data().reductions if row.off) > 0.5
+    assert min(row.seconds / whole[row.scene] for row in data().reductions if row.off) > 1 / 3
 
 
 def test_no_reduction_changed_an_answer() -> None:
