@@ -110,7 +110,8 @@ class TypeFacts:
     there are, given or not; ``by_turn``: its number is an advance by turn; ``merged``: its points are one point.
     ``axial``: it turns about lines through its places, in the plane about a place; ``slides``: along its first
     direction; ``contact``: in the plane it pushes its first point across its first direction. ``bars``: it keeps
-    distances between its points; ``complete``: between every two. ``welded``: two bodies are one.
+    distances between its points; ``complete``: between every two. ``welded``: two bodies are one; ``held``: a body,
+    or a point, stays where it is. ``geared``: two wheels, the ratio of whose angles is its number.
 
     For how its relations are read: ``written``: they are a person's texts, which may be squared or fall into parts;
     ``lettered``: x, y, z in these stand for coordinates of a point; ``half_turns``: they also hold in assemblies that
@@ -131,6 +132,8 @@ class TypeFacts:
     bars: bool = False
     complete: bool = False
     welded: bool = False
+    held: bool = False
+    geared: bool = False
     written: bool = False
     lettered: bool = False
     half_turns: bool = False

@@ -193,6 +193,7 @@ class ChartRun(_Row):
     against: list[Against]
     reductions: list[ReductionCost]
     captions: dict[str, str] = Field(description="of every figure, by its name")
+    sentences: dict[str, str] = Field(default_factory=dict, description="what the figures say, by what it is about")
 
 
 @dataclass(frozen=True)

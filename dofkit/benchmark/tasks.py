@@ -68,8 +68,10 @@ class Few(NamedTuple):
 
 def _rounding(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
     for trial, group in _groups(trials, _digits, few.most):
+        scene = {key: part for key, part in trial.scene.items() if key != "tolerance"}
         for value in TOLERANCES[:: few.stride]:
-            yield TrialTask(trial, "numeric", Knobs(tolerance=value), "tolerance", value, group)
+            task = replace(trial, scene=scene)
+            yield TrialTask(task, "numeric", Knobs(tolerance=value), "tolerance", value, group)
 
 
 def _tolerant(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
@@ -86,8 +88,8 @@ def _precision(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
 
 
 def _digits(trial: Trial) -> str | None:
-    """To how many digits its numbers are rounded, where nothing in the scene says so."""
-    return str(trial.swept["digits"]) if "digits" in trial.swept and "tolerance" not in trial.swept else None
+    """To how many digits its numbers are rounded, where the truth is that of what was rounded."""
+    return str(trial.swept["digits"]) if "digits" in trial.swept and "tolerance" in trial.swept else None
 
 
 def _gap(trial: Trial) -> str | None:

@@ -144,7 +144,7 @@ def modelled(system: System, outcome: Outcome) -> str:
     touched = len(system.coordinates) - len(outcome.untouched)
     if outcome.blocks:
         many = len(outcome.blocks)
-        parts.append(f"{touched} coordinates in {many} independent part{'s' if many > 1 else ''}")
+        parts.append(f"{touched} coordinate{'s' * (touched != 1)} in {many} independent part{'s' * (many > 1)}")
     if outcome.untouched:
         shown = ", ".join(outcome.untouched[:12]) + (", ..." if len(outcome.untouched) > 12 else "")
         parts.append(f"counted but not computed with, because nothing constrains them: {shown}")
@@ -193,4 +193,24 @@ def warnings(study: Study) -> list[str]:
     for a in study.outcome.answers:
         told += a.reasons
         told += [f"hidden finite relation: {to_text(g)} = 0" for g in a.hidden]
+    if study.outcome.dof is None and study.outcome.consistent is not False:
+        told += _wanting_a_drawing(study.system)
     return list(dict.fromkeys(told))
+
+
+def _wanting_a_drawing(system: System) -> Iterator[str]:
+    """What to give of a drawing where the freedom is open and there is none."""
+    known = {str(symbol.args[1]) for symbol in system.pose}
+    if system.reference is not None or all(c.name in known for c in system.coordinates):
+        return
+    owners = dict.fromkeys(c.owner for c in system.coordinates if c.owner in system.particles and c.name not in known)
+    shown = ", ".join([*owners][:8]) + (", ..." if len(owners) > 8 else "")
+    wanted = [f"`at` for {shown}"] if owners else []
+    if system.bodies and system.generic:
+        wanted.append("`at` (and `axis`) for the joints")
+    if not wanted:
+        wanted = ["`configuration`, a value for each coordinate"]
+    yield (
+        f"There is no drawing to look at: give {' and '.join(wanted)}. At a reference configuration it can be decided "
+        "more often."
+    )

@@ -29,6 +29,7 @@ from typing import Any, Literal, get_args
 
 from dofkit.base.errors import PoleError
 from dofkit.expressions.roots import exact_root
+from dofkit.expressions.turns import TURNING, value_at, value_at_turn
 
 Kind = Literal["coordinate", "velocity", "acceleration", "differential", "parameter", "time", "dt"]
 KINDS: tuple[str, ...] = get_args(Kind)
@@ -284,23 +285,19 @@ def sqrt(value: Expr) -> Expr:
     return power(value, HALF)
 
 
-_AT_ZERO = {"sin": ZERO, "tan": ZERO, "asin": ZERO, "atan": ZERO, "sinh": ZERO, "tanh": ZERO,
-            "cos": ONE, "sec": ONE, "cosh": ONE, "exp": ONE, "abs": ZERO}  # fmt: skip
-
-
 def fn(name: str, *arguments: Expr) -> Expr:
-    """An elementary function of `FUNCTIONS`; ``sqrt`` is taken too. Folds the value at 0."""
+    """An elementary function of `FUNCTIONS`; ``sqrt`` is taken too. Folds values at 0, and rational ones of angles."""
     if name == "sqrt":
         return sqrt(*arguments)
     if FUNCTIONS.get(name) != len(arguments):
         raise ValueError(f"{name} does not take {len(arguments)} argument(s)")
-    if arguments[0].is_zero and name in _AT_ZERO:
-        return _AT_ZERO[name]
-    if name == "abs" and arguments[0].op == "num":
-        return num(abs(arguments[0].args[0]))
-    if name == "log" and arguments[0] == ONE:
-        return ZERO
-    return Expr("fn", (name, *arguments))
+    first = arguments[0]
+    if first.op == "num":
+        value = value_at(name, first.args[0])
+    else:
+        multiple, rest = _split(first) if name in TURNING else (_ONCE, ONE)
+        value = value_at_turn(name, multiple) if rest == PI else None
+    return Expr("fn", (name, *arguments)) if value is None else num(value)
 
 
 def call(name: str, arguments: Iterable[Expr], orders: Iterable[int] | None = None) -> Expr:

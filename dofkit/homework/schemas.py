@@ -8,6 +8,7 @@ from typing import Any
 from dofkit.homework.assignment import Assignment
 from dofkit.homework.result import Result
 from dofkit.report import Report
+from dofkit.scene.schema import identified
 
 _ANSWER = {
     "description": "a text, a number, or a list of these",
@@ -38,8 +39,8 @@ def submission_schema() -> dict[str, Any]:
 
 #: By what they describe.
 SCHEMAS: dict[str, Callable[[], dict[str, Any]]] = {
-    "assignment": Assignment.model_json_schema,
-    "submission": submission_schema,
-    "result": lambda: Result.model_json_schema(mode="serialization"),
-    "report": lambda: Report.model_json_schema(mode="serialization"),
+    "assignment": lambda: identified(Assignment.model_json_schema(), "assignment"),
+    "submission": lambda: identified(submission_schema(), "submission"),
+    "result": lambda: identified(Result.model_json_schema(mode="serialization"), "result"),
+    "report": lambda: identified(Report.model_json_schema(mode="serialization"), "report"),
 }

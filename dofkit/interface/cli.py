@@ -224,17 +224,20 @@ def schema(
 ) -> None:
     """Print the JSON Schema of a scene, or of what is named."""
     if of == "scene":
-        from dofkit.scene.scene import Scene
+        from dofkit.scene.schema import scene_schema
 
-        typer.echo(json.dumps(Scene.model_json_schema(), indent=2))
+        typer.echo(json.dumps(scene_schema(), indent=2))
         return
     from dofkit.benchmark.record import ChartRun
     from dofkit.homework.schemas import SCHEMAS
+    from dofkit.scene.schema import identified
 
-    known = {**SCHEMAS, "chart": ChartRun.model_json_schema}
-    if of not in known:
-        raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(known)}", param_hint="WHAT")
-    typer.echo(json.dumps(known[of](), indent=2))
+    if of == "chart":
+        typer.echo(json.dumps(identified(ChartRun.model_json_schema(), of), indent=2))
+    elif of in SCHEMAS:
+        typer.echo(json.dumps(SCHEMAS[of](), indent=2))
+    else:
+        raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(SCHEMAS)}, chart", param_hint="WHAT")
 
 
 def _print(printed: Generator[Printed]) -> None:

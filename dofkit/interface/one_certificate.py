@@ -10,6 +10,7 @@ from dofkit.base.errors import DofkitError
 from dofkit.base.workers import Json
 from dofkit.checker import CheckError, Verification, verify
 from dofkit.interface.supervised import CertificateGiven
+from dofkit.methods import certificates
 from dofkit.scene.found_files import find
 
 #: Exit statuses: all is well, something failed, something could not be read.
@@ -19,7 +20,7 @@ VERIFIED, REFUSED, UNREAD = 0, 1, 2
 def verification_lines(given: CertificateGiven) -> Json:
     """What is printed of a certificate, and the exit status."""
     try:
-        found = verify(_scene_text(given.scene), Path(given.certificate).read_bytes())
+        found = _verified(given)
     except OSError as error:
         return _unread(given, f"it cannot be read: {error.strerror or error}")
     except (CheckError, DofkitError, ValueError) as error:
@@ -29,11 +30,16 @@ def verification_lines(given: CertificateGiven) -> Json:
     return {"out": out + "\n", "err": "", "status": REFUSED if refused else VERIFIED}
 
 
-def _scene_text(file: str | None) -> str | None:
-    if file is None:
-        return None
-    _, data = find(file)
-    return data if isinstance(data, str) else data.decode("utf-8")
+def _verified(given: CertificateGiven) -> Verification:
+    """The checker by itself; a scene that it cannot read may be in other words, and is given in the standard ones."""
+    certificate = Path(given.certificate).read_bytes()
+    if given.scene is None:
+        return verify(None, certificate)
+    data = find(given.scene).data
+    try:
+        return verify(data if isinstance(data, str) else data.decode("utf-8"), certificate)
+    except CheckError:
+        return certificates.verify(given.scene, certificate)
 
 
 def _unread(given: CertificateGiven, message: str) -> Json:

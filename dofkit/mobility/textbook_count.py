@@ -64,8 +64,9 @@ def why(system: System, facts: CountedFacts, naive: int) -> str | None:
         return None
     reasons = []
     if facts.dof > naive:
+        left = facts.written - facts.dof + naive
         reasons.append(
-            f"of the {facts.written} finite equations only {facts.written - facts.dof + naive} are independent here: "
+            f"of the {facts.written} finite equations only {left} {'is' if left == 1 else 'are'} independent here: "
             "what the others say already takes nothing away"
         )
         complete = complete_sets(system)

@@ -58,7 +58,9 @@ def repeat_faults(key: str, letter: str, given: Sequence[str | None]) -> Iterato
                 message = f"the name '{name}' is given twice: it is the default name of entry {default + 1}"
             else:
                 message = f"the name '{name}' is given twice"
-            ledger.fault(message, *(() if given[i] is None else ("name",)), hint="rename one of them")
+            ledger.fault(
+                message, *(() if given[i] is None else ("name",)), hint=f"rename one of them: `name: {name}_2`"
+            )
             yield from ledger.faults
 
 

@@ -232,7 +232,7 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
         return f"a key is a text, not {_in_words(place[-1])}", "put it in quotes"
     if kind == "missing":
         if isinstance(place[-1], int):
-            return f"{place[-1] + 1} entries are needed here", "there are fewer"
+            return f"{place[-1] + 1} entries are needed here, not {place[-1]}", None
         return f"{owner} needs '{place[-1]}'", None
     if kind == "model_type" and not place:
         return f"{owner} is {_AS.get(owner, 'a mapping')}, not {_in_words(detail['input'])}", None

@@ -1,23 +1,49 @@
-"""What to do about a fault of a scene, where the fault itself does not say it."""
+"""What to do about a fault of a scene, where the fault itself does not say it: a hint shows a line that would work."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from typing import Any
 
 from dofkit.base.errors import Fault
+from dofkit.scene.constraints import TYPES
+from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.synonyms import dimension_of, other_keys
 
 UNKNOWN_KEY = "unknown key"
+UNKNOWN_TYPE = "there is no constraint type"
 _HINTS = (
-    (r"needs '(\w+)'", "add '{0}: ...'"),
-    (r"^a list is needed", "write it in square brackets, [a, b]"),
-    (r"^a mapping is needed", "write it as 'key: value', or in braces"),
+    (r"^a list is needed", "write it in square brackets"),
+    (r"^a mapping is needed", "write it as `key: value`, or in braces"),
     (r"^a text is needed", "put it in double quotes"),
     (r"is 1, 2 or 3", "write 1, 2 or 3"),
     (r"number", "write a number such as 2, 0.5 or 1e-3"),
     (r"^at (?:least|most) \d+ entries", "add or take away entries"),
 )
+#: Hints that show what to write already, or need no line.
+_ENOUGH = re.compile(
+    r"`|'[^']*[:=]|column|^(?:the (?:particles|bodies) are|declared|rename|leave|choose|check|delete|keep|move)"
+)
+_FORCES = ("spring", "damper", "force", "gravity")
+#: A line by the key that it gives; of some keys one for each dimension.
+LINES: dict[str, str | tuple[str, str, str]] = {
+    "at": ("at: [0]", "at: [0, 0]", "at: [0, 0, 0]"),
+    "axis": ("axis: [1]", "axis: [1, 0]", "axis: [0, 0, 1]"),
+    "axes": "axes: [[1, 0, 0], [0, 1, 0]]", "between": "between: [A, B]", "members": "members: [A, B, C]",
+    "along": ("along: [A, [0], B]", "along: [A, [0, 0], B]", "along: [A, [0, 0, 0], B]"),
+    "length": "length: 2", "radius": "radius: 1", "ratio": "ratio: -2", "pitch": "pitch: 2", "drive": 'drive: "2 t"',
+    "carrier": "carrier: arm", "point": "point: A", "body": "body: crank",
+    "text": 'text: "x^2 + y^2 = 4"', "surface": 'surface: "y - x^2"', "curve": 'curve: ["y - x^2"]',
+    "coordinates": "coordinates: [x, y]", "particles": "particles: [A, B]", "bodies": "bodies: [crank]",
+    "parameters": "parameters: {l: positive, b: 3/2}", "functions": "functions: {f: [t]}",
+    "configuration": "configuration: {theta: 0}", "dimension": "dimension: 2", "tolerance": "tolerance: 1e-6",
+    "constraints": 'constraints: ["x^2 + y^2 = 4"]', "forces": "forces: [{type: spring, between: [A, B]}]",
+    "energies": 'energies: {kinetic: "1/2 m xdot^2", potential: "m g x"}', "expect": "expect: {dof: 1}",
+    "kinetic": 'kinetic: "1/2 m xdot^2"', "potential": 'potential: "m g x"', "mass": "mass: m", "inertia": "inertia: J",
+    "name": "name: pendulum", "title": 'title: "A pendulum"',
+}  # fmt: skip
 
 
 def without_echoes(faults: Iterable[Fault]) -> list[Fault]:
@@ -35,20 +61,104 @@ def without_echoes(faults: Iterable[Fault]) -> list[Fault]:
     ]
 
 
-def with_hint(fault: Fault) -> Fault:
-    """A fault that says which field it is about, and what to do."""
+def _meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
+    """The constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
+    word = word.lower() if isinstance(word, str) else ""
+    fields = {kind: cls.model_fields for kind, cls in TYPES.items() if word in (kind, *cls.synonyms, *cls.understood)}
+    return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
+
+
+def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
+    """What to write instead of a word that is no constraint type, where that is known."""
+    if word in _FORCES:
+        return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force constrains nothing"
+    found = _meant_type(word, entry)
+    return None if found is None else f"did you mean '{found}'?"
+
+
+def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
+    """A fault that says which field it is about, and what to do; ``value``: the document that it is about."""
     message, keys = (
         re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message),
         [key for key in fault.where if isinstance(key, str)],
     )
     if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
         message = f"`{keys[-1]}`: {message}"
-    return replace(fault, message=message, hint=fault.hint or _hint(fault.message))
+    return replace(fault, message=message, hint=_hint(fault, {} if value is None else value))
 
 
-def _hint(message: str) -> str:
-    for pattern, hint in _HINTS:
-        match = re.search(pattern, message)
-        if match:
-            return hint.format(*match.groups())
-    return "'dofkit schema' lists what can stand here"
+def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
+    twice = _said_twice(fault, value)
+    told = twice or fault.hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
+    if told is not None and _ENOUGH.search(told):
+        return told
+    line = _line(fault, told or "", value)
+    if line is None:
+        return told or "'dofkit schema' lists what can stand here"
+    if told is None:
+        return f"for example `{line}`"
+    return f"{told}{'' if told.endswith('?') else ';'} for example `{line}`"
+
+
+def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
+    """What to do about a key of a constraint that is another word for one which is given too."""
+    key = fault.where[-1] if fault.where and fault.message.startswith(UNKNOWN_KEY) else ""
+    kind = _type_at(value, fault.where[1]) if fault.where[:1] == ("constraints",) and len(fault.where) == 3 else None
+    meant = other_keys(kind).get(str(key)) if kind is not None else None
+    return (
+        None if meant is None else f"`{key}` is another word for `{meant}`, which is given too: leave one of them out"
+    )
+
+
+def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
+    """A line that would work in the place of a fault: of a constraint, or of a key."""
+    where, d = fault.where, dimension_of(value)
+    suggested = re.fullmatch(r"did you mean '(\w+)'\?", told)
+    missing = re.search(r"needs [`'](\w+)[`']", fault.message)
+    if where[:1] == ("constraints",) and len(where) > 1:
+        kind = suggested[1] if suggested and suggested[1] in TYPES else _type_at(value, where[1])
+        whole = missing or len(where) == 2 or where[-1] == "type" or fault.message.startswith(UNKNOWN_KEY)
+        if kind is None or d not in TYPES[kind].dimensions:
+            return TYPES[_likely(_entry_at(value, where[1]), d)].example(d)
+        if whole:
+            return TYPES[kind].example(d)
+    keys = [key for key in where if isinstance(key, str) and key in LINES]
+    key = suggested[1] if suggested and suggested[1] in LINES else (keys[-1] if keys else "constraints")
+    line = LINES[key]
+    if key == "between" and where[:1] == ("constraints",):
+        line = _between(value, where)
+    return line if isinstance(line, str) else line[d - 1]
+
+
+def _likely(entry: Any, dimension: int) -> str:
+    """The first type of a dimension that has all the keys of an entry; an equation where none has."""
+    given = set(entry) - {"type"} if isinstance(entry, Mapping) else set()
+    able = [(kind, cls.model_fields.keys()) for kind, cls in TYPES.items() if dimension in cls.dimensions]
+    named = (kind for kind, fields in able if given and given <= fields)
+    return next(named, Equation.kind())
+
+
+def _entry_at(value: Mapping[str, Any], index: object) -> Any:
+    entries = value.get("constraints")
+    found = isinstance(entries, (list, tuple)) and isinstance(index, int) and index < len(entries)
+    return entries[index] if found and isinstance(entries, (list, tuple)) and isinstance(index, int) else None
+
+
+def _type_at(value: Mapping[str, Any], index: object) -> str | None:
+    """The type of a constraint of a document, where it is one."""
+    entry = _entry_at(value, index)
+    kind = entry.get("type") if isinstance(entry, Mapping) else None
+    return kind if isinstance(kind, str) and kind in TYPES else None
+
+
+def _between(value: Mapping[str, Any], where: tuple[str | int, ...]) -> str:
+    """Two ends, the first as it was written."""
+    entry = _entry_at(value, where[1])
+    given = entry.get("between") if isinstance(entry, Mapping) else None
+    first = given[0] if isinstance(given, (list, tuple)) and given and isinstance(given[0], str) else None
+    kind = _type_at(value, where[1])
+    ends = re.search(r"between: \[(\w+), (\w+)\]", "" if kind is None else TYPES[kind].example(2))
+    one, other = ends.groups() if ends else ("A", "B")
+    if first is not None:
+        one, other = (first, other if other != first else one) if one != "ground" or first == "ground" else (one, first)
+    return f"between: [{one}, {other}]"

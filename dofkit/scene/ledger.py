@@ -9,7 +9,7 @@ from dofkit.base.errors import Fault, TextError
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.expressions.vectors import Vec
-from dofkit.scene.fields import Vector, suggestion
+from dofkit.scene.fields import Vector, as_written, suggestion
 from dofkit.system import Sense
 
 #: The nearest name is looked for while there are fewer faults than this.
@@ -87,6 +87,15 @@ def symbols_of(text: str, names: Names) -> frozenset[Expr]:
     return frozenset().union(*(side.symbols for c in found for side in (c.left, c.right)))
 
 
+def _instead(kind: str, allow: frozenset[str]) -> str:
+    """What to write where a kind of symbol cannot stand."""
+    told = f"only {_ONLY[allow]} may be used"
+    if allow is FIXED:
+        law = "x_A = cos(t)" if kind == "time" else "x_A = s"
+        told += f"; what moves is written as an equation, such as `{law}`"
+    return told
+
+
 class Texts(Ledger):
     """The texts of one entry, read with the scene's names."""
 
@@ -101,10 +110,15 @@ class Texts(Ledger):
             return num(value)
         found = self._reader.expression(value)
         if isinstance(found, TextError):
-            self.fault(found.message, *where, hint=found.hint, column=found.column)
+            self.fault(found.message, *where, hint=self.advice(found, value), column=found.column)
             return parameter("_fault")
         self.only(found, allow, *where)
         return found
+
+    def advice(self, error: TextError, text: str) -> str | None:
+        """What to do about a text that cannot be read; a class that knows more than names may say more."""
+        del text
+        return error.hint
 
     def fixed(self, value: Fraction | str, *where: str | int) -> Expr:
         """A number or text that holds numbers and parameters only."""
@@ -114,7 +128,10 @@ class Texts(Ledger):
         """The components as expressions; None after a fault in their number."""
         if len(values) != dimension:
             message = f"{len(values)} component{'s' * (len(values) != 1)} given where the dimension is {dimension}"
-            self.fault(message, *where, hint=f"write {dimension}, or change the scene's `dimension`")
+            line = "[" + ", ".join([*map(as_written, values), *["0"] * dimension][:dimension]) + "]"
+            line = f"{where[-1]}: {line}" if where and isinstance(where[-1], str) else line
+            other = f", or `dimension: {len(values)}`" if len(values) in (1, 2, 3) else ""
+            self.fault(message, *where, hint=f"write `{line}`{other}")
             return None
         return tuple(self.fixed(value, *where, i) for i, value in enumerate(values))
 
@@ -125,7 +142,7 @@ class Texts(Ledger):
         for kind, name in sorted(symbol.args for symbol in e.symbols):
             if kind not in allow:
                 message = f"{_CALLED[kind].format(name)} cannot stand here"
-                self.fault(message, *where, hint=f"only {_ONLY[allow]} may be used")
+                self.fault(message, *where, hint=_instead(kind, allow))
                 return
 
     def relations(
@@ -135,7 +152,7 @@ class Texts(Ledger):
         try:
             found = parse_relations(text, names or self.names)
         except TextError as error:
-            self.fault(error.message, *where, hint=error.hint, column=error.column)
+            self.fault(error.message, *where, hint=self.advice(error, text), column=error.column)
             return []
         told = []
         for comparison in found:

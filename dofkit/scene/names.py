@@ -163,7 +163,9 @@ def name_faults(scene: Declared, table: NameTable) -> tuple[Fault, ...]:
         word = name if name.isascii() else spelled(name)
         if word in seen:
             told = f"{what} and {seen[word]}" if what != seen[word] else f"each time as {what}"
-            ledger.fault(f"the name '{name}' is given twice: {told}", *where, hint="rename one of them")
+            ledger.fault(
+                f"the name '{name}' is given twice: {told}", *where, hint=f"rename one of them, for example `{name}2`"
+            )
             continue
         seen[word] = what
         if name in RESERVED:
@@ -199,7 +201,13 @@ def _check_owners(scene: Declared, ledger: Ledger) -> None:
                 hint = "a name is letters, digits and _: its coordinates are x_NAME and so on"
                 ledger.fault(f"'{name}' cannot be the name of a {one}", key, i, "name", hint=hint)
             if name in seen:
-                ledger.fault(f"the name '{name}' is given twice", key, i, "name", hint=f"it is already a {seen[name]}")
+                ledger.fault(
+                    f"the name '{name}' is given twice",
+                    key,
+                    i,
+                    "name",
+                    hint=f"rename it: `{name}` is a {seen[name]} already",
+                )
             seen.setdefault(name, one)
             if owner.coordinates is not None and len(owner.coordinates) != len(roles):
                 message = f"a {one} has {len(roles)} coordinates in dimension {d}, not {len(owner.coordinates)}"

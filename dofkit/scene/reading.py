@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from pydantic import ValidationError
@@ -15,15 +16,15 @@ from dofkit.base.documents.fast_flow import DEEPEST
 from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.scene.constraints.equations import as_equation
 from dofkit.scene.found_files import find
-from dofkit.scene.hints import UNKNOWN_KEY, with_hint, without_echoes
+from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, with_hint, without_echoes
 from dofkit.scene.scene import Scene, check, faults_of
+from dofkit.scene.synonyms import StandardWords, standard_words
 from dofkit.system import System
 
 __all__ = ["SceneFile", "SceneLike", "load", "loads", "scene_or_system"]
 
 #: More faults than this are counted, not listed.
 MOST_FAULTS = 200
-_UNKNOWN_TYPE = "there is no constraint type"
 #: Parts of a scene without which its other parts can still be checked.
 _DROPPED_WHOLE = frozenset({"name", "title", "source", "notes", "expect", "energies", "configuration"})
 _DROPPED_BY_ENTRY = ("constraints", "forces")
@@ -98,12 +99,18 @@ class SceneFile:
                 hint = "begin with 'coordinates: [x, y]' or the like"
                 faults.append(Fault("a scene is a mapping of keys to values", hint=hint))
             raise self._error(faults)
+        value = self._words.value
         if value.get("name") is None:
             value = {**value, "name": self.document.name}
         scene, found = _scene_and_faults(value, checked or bool(faults))
         if faults or found or scene is None:
             raise self._error([*faults, *found])
         return scene
+
+    @cached_property
+    def _words(self) -> StandardWords:
+        value = self.document.value
+        return standard_words(value if isinstance(value, dict) else {})
 
     def with_places(self, error: SceneError) -> SceneError:
         """The same faults with their lines and columns."""
@@ -123,21 +130,24 @@ class SceneFile:
         if fault.line is not None:
             return fault
         key = fault.message.startswith(UNKNOWN_KEY)
-        where = (*fault.where, "type") if fault.message.startswith(_UNKNOWN_TYPE) else fault.where
-        line, column = self.document.place(where, key=key, column=fault.column)
-        return replace(with_hint(fault), line=line, column=column)
+        where = (*fault.where, "type") if fault.message.startswith(UNKNOWN_TYPE) else fault.where
+        line, column = self.document.place(self._words.written(where), key=key, column=fault.column)
+        told = with_hint(fault, self._words.value)
+        return replace(told, where=self._words.written(fault.where), line=line, column=column)
 
 
 def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:
     deep = _too_deep(source)
     if deep is not None:
         raise SceneError((Fault(f"nested deeper than {DEEPEST} levels", deep, hint="write the scene flat"),), name)
-    value = dict(source)
+    words = standard_words(source)
+    value = words.value
     if name is not None and value.get("name") is None:
         value["name"] = name
     scene, faults = _scene_and_faults(value, True)
     if scene is None or faults:
-        raise SceneError(_first_faults([with_hint(fault) for fault in without_echoes(faults)]), name)
+        told = [with_hint(fault, value) for fault in without_echoes(faults)]
+        raise SceneError(_first_faults([replace(f, where=words.written(f.where)) for f in told]), name)
     return scene
 
 

@@ -24,6 +24,7 @@ from dofkit.scene.fields import (
     fault_error,
     faults_of,
 )
+from dofkit.scene.hints import type_advice
 from dofkit.scene.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, Force, Particle
 from dofkit.scene.survey import KeptSurvey, Survey
 from dofkit.scene.tagged_union import TaggedUnion
@@ -40,6 +41,7 @@ _CONSTRAINT = TaggedUnion(
     listing="the types are ",
     unknown="there is no constraint type '{}'",
     otherwise=("a constraint is a text or a mapping with a `type`", None),
+    advise=type_advice,
 )
 
 

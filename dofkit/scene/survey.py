@@ -17,6 +17,7 @@ from dofkit.base.errors import Fault
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import Expr
 from dofkit.report import Report
+from dofkit.scene.carriers import carrier_warnings
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.constraints.equations import LETTERS
 from dofkit.scene.drawing import Drawing, drawing_of
@@ -111,18 +112,19 @@ def _whole(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Finding
     size = size_of([*drawing.points, *(p for f in findings for p in f.points)])
     placed = drawing.drawn.union(*(f.drawn for f in findings if f.drawn))
     drawn = drawn_bodies(placed, (ends for f in findings for ends in f.welds))
+    constraints, connections = tuple(e.constraint for e in read), tuple(e.connection for e in read)
     misfits = (m for f in findings for m in f.misfits if m.body is None or m.body in drawn)
     return Survey(
         drawing=drawing,
-        constraints=tuple(e.constraint for e in read),
-        connections=tuple(e.connection for e in read),
+        constraints=constraints,
+        connections=connections,
         generic=tuple(name for f in findings for name in f.generic),
         drawn=drawn,
         links=tuple((i, first, second) for i, e in enumerate(read) for first, second in e.findings.links),
         distances={i: e.findings.distances for i, e in enumerate(read) if e.findings.distances},
         special=any(f.special or not drawn.isdisjoint(f.special_of) for f in findings),
         size=size,
-        warnings=tuple(warning for f in findings for warning in f.warnings),
+        warnings=(*(w for f in findings for w in f.warnings), *carrier_warnings(constraints, connections)),
         faults=(*faults, *(m.fault for m in misfits if not within(m.distance, drawing.tolerance, size))),
     )
 

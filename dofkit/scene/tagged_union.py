@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,6 +27,8 @@ class TaggedUnion:
     listing: str
     unknown: str
     otherwise: tuple[str, str | None]
+    #: What is hinted of a word that is none of ``known``, by the word and what it stands in, where something is.
+    advise: Callable[[object, Mapping[str, Any]], str | None] = lambda word, entry: None
 
     def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
         """A member, its faults at paths free of the key. Raises as Pydantic's validators do."""
@@ -35,7 +37,7 @@ class TaggedUnion:
             if given is None:
                 raise fault_error(f"{self.called} needs its `{self.key}`", self.listing + ", ".join(self.known))
             if not isinstance(given, str) or given not in self.known:
-                hint = suggestion(given, list(self.known), self.names)
+                hint = self.advise(given, value) or suggestion(given, list(self.known), self.names)
                 raise fault_at((self.key,), self.unknown.format(given), hint)
         elif not isinstance(value, self.base):
             raise fault_error(*self.otherwise)

@@ -7,15 +7,17 @@ come to light at once. Geometry that is left out is asked for here too and becom
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
-from dofkit.base.errors import Fault
+from dofkit.base.errors import Fault, TextError
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate, differs_from_zero
+from dofkit.expressions.text import UnknownNameError
 from dofkit.expressions.tree import ONE, TIME, ZERO, Expr, parameter
 from dofkit.expressions.vectors import Vec, across
 from dofkit.scene.drawing import Drawing
@@ -24,6 +26,9 @@ from dofkit.scene.frames import Frame, Placed
 from dofkit.scene.ledger import Texts
 from dofkit.scene.parts import BodyPoint, show_point
 from dofkit.system import GROUND, Distance, DrawnPoint, Place
+
+#: A distance as people write it: |A - B| = 3.
+_APART = re.compile(r"\s*\|\s*(\w+)\s*-\s*(\w+)\s*\|\s*=\s*([\w./()*]+)\s*")
 
 
 class Direction(NamedTuple):
@@ -175,11 +180,22 @@ class World(Texts):
             self.mentioned.members.append(name)
             return found
         if name in self.particles:
-            hint = "a particle is held by `coincident`, `fixed`, `slot` or `link`"
+            hint = f"a particle is held by `link`, `slot`, `coincident` or `fixed`: `{{type: fixed, point: {name}}}`"
             self.fault(f"'{name}' is a particle where a body is needed", *where, hint=hint)
         else:
             self.unknown("body", name, chain(self.frames, (GROUND,)), *where, plural="bodies")
         return self.ground
+
+    def advice(self, error: TextError, text: str) -> str | None:
+        """What to write for a name that is that of a particle or a body."""
+        name = error.name if isinstance(error, UnknownNameError) else ""
+        owned = self.table.particles.get(name) or self.table.bodies.get(name)
+        if owned is None:
+            return error.hint
+        apart = _APART.fullmatch(text)
+        if apart is not None:
+            return f"a distance is a link: `{{type: link, between: [{apart[1]}, {apart[2]}], length: {apart[3]}}}`"
+        return f"write its coordinates, {', '.join(f'`{q}`' for q in owned)}"
 
     def particle(self, name: str, *where: str | int) -> Placed:
         """A particle's position."""
@@ -189,8 +205,9 @@ class World(Texts):
             self.mentioned.points.append(DrawnPoint(name, found.reference, particle=True))
             return found
         if name in self.frames or name == GROUND:
-            place = ", ".join("..." for _ in range(self.dimension))
-            hint = f"name one of its points: {{on: {name}, at: [{place}]}}"
+            place = ", ".join(["0"] * self.dimension)
+            hint = f"name one of its points: `{{on: {name}, at: [{place}]}}`"
+            hint = f"write a fixed point: `[{place}]`" if name == GROUND else hint
             self.fault(f"'{name}' is a body where a point is needed", *where, hint=hint)
         else:
             self.unknown("particle", name, self.particles, *where)

@@ -134,15 +134,21 @@ def test_answers_are_judged(truth: Any, told: Any, outcome: Outcome) -> None:
 
 def test_sweeps_turn_what_the_trials_sweep() -> None:
     base = next(chart_methods.family(True))
-    rounded = [replace(base, name=f"r{d}-{k}", swept={"digits": d}) for d in (3, 9) for k in range(40)]
+    told = {**base.scene, "tolerance": "1e-3"}
+    rounded = [
+        replace(base, name=f"r{d}-{k}", scene=told, swept={"digits": d, "tolerance": 10.0**-d})
+        for d in (3, 9)
+        for k in range(40)
+    ]
     near = [replace(base, name=name, swept={"gap": gap}) for name, gap in (("n", -1e-3), ("m", "1/1000"), ("far", 1))]
     near.append(replace(base, name="large", size=99, swept={"gap": 1e-3}))
-    rounded.append(replace(base, name="said", swept={"digits": 5, "tolerance": 1e-5}))
+    rounded.append(replace(base, name="exact as written", swept={"digits": 5}))
     found = list(tasks.sweeps([*rounded, *near], ["auto", "numeric", "balls"], False))
     tolerances = [task for task in found if task.knob == "tolerance"]
     assert {task.knobs.tolerance for task in tolerances} == {task.value for task in tolerances} == set(tasks.TOLERANCES)
     assert len(tolerances) == 2 * tasks.MOST_SWEPT * len(tasks.TOLERANCES)
     assert {task.group for task in tolerances} == {"3", "9"}
+    assert not any("tolerance" in task.trial.scene for task in tolerances)
     tolerant = [task for task in found if task.knob == "scene tolerance"]
     assert all(task.trial.scene["tolerance"] == task.value and task.knobs == Knobs() for task in tolerant)
     balls = [task for task in found if task.knob == "bits"]

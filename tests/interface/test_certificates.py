@@ -121,3 +121,20 @@ def test_the_door_takes_a_scene_in_every_way(tmp_path: Path) -> None:
     odd: Any = 5
     with pytest.raises(dofkit.DofkitError, match="is a mapping, a path or JSON"):
         dofkit.verify(scene, odd)
+
+
+def test_a_scene_in_other_words_is_verified_in_standard_ones(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene, place = tmp_path / "hinge.yaml", tmp_path / "why.json"
+    scene.write_text(
+        "dimension: 2\nbodies: [a]\ncoordinates: [s₁]\njoints:\n- {type: hinge, between: [ground, a], at: [0, 0]}\n"
+        'constraints:\n- {name: q, text: "s₁ = 2 sin 30° + 1/2 theta_a"}\n',
+        encoding="utf-8",
+    )
+    assert called(capsys, "classify", str(scene), "--certificate", str(place))[0] == 0
+    for given in ([str(scene), str(place)], [str(place)]):
+        status, out, err = called(capsys, "verify", *given)
+        assert (status, err) == (0, "")
+        assert "claims verified" in out
+        assert "failed" not in out

@@ -501,3 +501,22 @@ def test_generic_joints_close_at_the_pose() -> None:
         draw = np.random.default_rng(3)
         at |= {parameter(name): draw.uniform(1, 2) for name in found.generic}
         assert max(abs(value(r.expr, at)) for r in found.constraints[0].relations) < 1e-12
+
+
+def _planetary(*more: dict[str, Any], **gear: Any) -> tuple[str, ...]:
+    """Warnings of a sun and an arm on the ground and a planet on the arm, geared."""
+    hinges = [("ground", "sun", 0), ("ground", "arm", 0), ("arm", "planet", 3)]
+    joints = [{"type": "revolute", "between": [a, b], "at": [x, 0]} for a, b, x in hinges]
+    mesh = {"name": "mesh", "type": "gear", "between": ["sun", "planet"], "ratio": -2, **gear}
+    scene = {"dimension": 2, "bodies": ["sun", "planet", "arm"], "constraints": [*joints, mesh, *more]}
+    return lower(dofkit.load(scene)).warnings
+
+
+def test_a_gear_on_a_moving_arm_is_told_of_its_carrier() -> None:
+    (told,) = _planetary()
+    assert "'mesh'" in told
+    assert "'planet' turns on 'arm'" in told
+    assert "`carrier: arm`" in told
+    assert _planetary(carrier="arm") == ()
+    assert _planetary({"type": "weld", "between": ["arm", "ground"]}) == ()
+    assert _planetary({"type": "fixed", "body": "arm"}) == ()

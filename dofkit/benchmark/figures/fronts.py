@@ -1,23 +1,28 @@
-"""Time against right, wrong and undecided answers: one mark a method, the Pareto front, ``auto`` on it."""
+"""Time against what is not right: one mark a method, all panels on the same axes, wrong answers told in red."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
-from matplotlib.path import Path
+from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, NullLocator
 
-from dofkit.benchmark.figures.style import OUTCOME_COLOURS, QUESTIONS, label_marks, seconds_text, settle, sheet
-from dofkit.benchmark.record import ALL, AUTO, OUTCOMES, ChartRun, Front, Score
+from dofkit.benchmark.figures.labels import Label, Piece, place
+from dofkit.benchmark.figures.style import QUESTIONS, WRONG, Look, looks, seconds_text, settle, sheet
+from dofkit.benchmark.record import ALL, AUTO, ChartRun, Front, Score
 
-#: Points of a mark's radius; that of ``auto`` is larger.
-RADIUS, RADIUS_AUTO = 6.5, 9.5
+#: Points of a mark's radius.
+RADIUS = 4.5
 #: Seconds that no clock here tells from 0.
 SHORTEST = 1e-6
+#: Where "none" stands on the logarithmic axis of per cent, and its other marks.
+NONE, TICKS = 0.1, (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
+GREY = "#6E6E6E"
 
 
 def draw(chart: ChartRun) -> Figure | None:
@@ -28,103 +33,143 @@ def draw(chart: ChartRun) -> Figure | None:
         return None
     across = min(2, len(asked))
     down = math.ceil(len(asked) / across)
-    title = "Which method to use: how often it is right, and how long it takes"
-    figure = sheet(
-        5.6 * across + (1.0 if across == 1 else 0), 4.0 * down + 0.4, title, chart.captions["fronts"], _legend()
-    )
-    panels = figure.subplots(down, across, squeeze=False).ravel()
-    labels = []
-    for panel, question in zip(panels, asked, strict=False):
+    title = "Speed against accuracy: how much is not right, and how long it takes"
+    look = looks(dict.fromkeys(score.method for score in whole))
+    figure = sheet(6.3 * across, 3.5 * down, title, chart.captions["fronts"], _legend())
+    grid = figure.subplots(down, 2 * across, squeeze=False, gridspec_kw={"width_ratios": [1, 0.4] * across})
+    panels, tables = grid[:, ::2].ravel(), grid[:, 1::2].ravel()
+    kept = []
+    for panel, beside, question in zip(panels, tables, asked, strict=False):
         members = [score for score in whole if score.question == question]
         front = next((front for front in chart.fronts if front.question == question), None)
-        labels.append((panel, _panel(panel, question, members, front)))
-    for panel in panels[len(asked) :]:
-        panel.set_axis_off()
+        _axes(panel, whole)
+        kept.append((panel, members, _panel(panel, question, members, front, look)))
+        _table(beside, members, look)
+    for axes in (*tables, *panels[len(asked) :]):
+        axes.set_axis_off()
     settle(figure)
-    for panel, (marks, stair) in labels:
-        label_marks(panel, marks, RADIUS_AUTO, stair)
+    for panel, members, stair in kept:
+        labels = [_label(score, look[score.method]) for score in sorted(members, key=lambda s: s.method != AUTO)]
+        lines = [((_low(s), _not_right(s)), (_high(s), _not_right(s))) for s in members]
+        place(panel, labels, RADIUS, [*lines, *pairwise(stair)])
     return figure
 
 
-def _panel(axes: Axes, question: str, members: list[Score], front: Front | None) -> tuple[list[Any], list[Any]]:
-    """Draw it; the labels that are to be placed, and the corners of the front."""
+def _axes(axes: Axes, members: Sequence[Score]) -> None:
+    """The axes that all panels share."""
     axes.set_xscale("log")
-    times = [_time(score) for score in members]
-    axes.set_xlim(min(times) / 3, max(times) * 3)
-    axes.xaxis.set_minor_locator(NullLocator())
-    least = min(100 * score.share_right for score in members)
-    axes.set_ylim(max(-9, least - 14), 128)
-    axes.set_yticks([tick for tick in range(0, 101, 20) if tick >= least - 14])
-    axes.set_title(f"{QUESTIONS[question]}   ({max(score.trials for score in members)} trials)")
+    axes.set_yscale("log")
+    axes.set_xlim(min(map(_low, members)) / 2, max(map(_high, members)) * 1.6)
+    axes.set_ylim(NONE / 1.7, 150)
+    axes.set_yticks([NONE, *TICKS], ["none", *(f"{tick:g} %" for tick in TICKS)])
     axes.xaxis.set_major_formatter(FuncFormatter(lambda seconds, _: seconds_text(seconds)))
-    axes.set_xlabel("median processor time of a trial")
-    axes.set_ylabel("right answers (% of trials)")
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_minor_locator(NullLocator())
+
+
+def _panel(
+    axes: Axes, question: str, members: Sequence[Score], front: Front | None, look: dict[str, Look]
+) -> list[tuple[float, float]]:
+    """Draw it; the corners of the stair."""
+    axes.set_title(f"{QUESTIONS[question]}   ({max(score.trials for score in members)} trials)")
+    axes.set_xlabel("processor time of a trial")
+    axes.set_ylabel("not right (% of trials)")
     by_name = {score.method: score for score in members}
     on = [by_name[m] for m in front.never_wrong if m in by_name] if front else []
-    stair = _stair(axes, on) if on else []
-    marks = []
-    for score in sorted(members, key=lambda score: score.method == AUTO):
-        _pie(axes, score, bool(front and score.method in front.methods))
-        wrong = f"{_percent(score.share_wrong)} wrong" if score.wrong else "never wrong"
-        style: dict[str, Any] = {"fontsize": 9.5 if score.method == AUTO else 8, "linespacing": 1.05}
-        style |= {"fontweight": "bold"} if score.method == AUTO else {}
-        style |= {"color": "#A33B00"} if score.wrong else {}
-        text = f"{score.method}\n{_percent(score.share_right)} right, {wrong}"
-        marks.append((_time(score), 100 * score.share_right, text, style))
-    return marks[::-1], stair
+    stair = _stair(axes, on)
+    for score in members:
+        one, y = look[score.method], _not_right(score)
+        axes.plot([_low(score), _high(score)], [y, y], color=one.colour, linewidth=1.2, alpha=0.75, zorder=3)
+        for end in (_low(score), _high(score)):
+            axes.plot(end, y, marker="|", markersize=5, color=one.colour, zorder=3)
+        size = 2 * RADIUS * (1.25 if score.method == AUTO else 1)
+        edge: dict[str, Any] = {"markeredgecolor": "#FFFFFF", "markeredgewidth": 0.7}
+        axes.plot(_time(score), y, marker="s", markersize=size, color=one.colour, zorder=4, clip_on=False, **edge)
+    arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": GREY, "linewidth": 1.6}
+    ends: dict[str, Any] = {
+        "xy": (0.015, 0.03),
+        "xytext": (0.085, 0.13),
+        "xycoords": "axes fraction",
+        "textcoords": "axes fraction",
+    }
+    axes.annotate("", arrowprops=arrow, **ends)
+    axes.text(0.09, 0.125, "better", transform=axes.transAxes, color=GREY, fontsize=9, style="italic", va="bottom")
+    return stair
 
 
-def _stair(axes: Axes, on: list[Score]) -> list[tuple[float, float]]:
-    """The front of those that are never wrong: as a stair, since nothing lies between two methods."""
-    corners = [(on[0].median_seconds or 0.0, 100 * on[0].share_right)]
+def _stair(axes: Axes, on: Sequence[Score]) -> list[tuple[float, float]]:
+    """The front of those that are never wrong: as a stair, since nothing lies between two methods. Its corners."""
+    corners = [(_time(score), _not_right(score)) for score in on[:1]]
     for score in on[1:]:
-        corners += [
-            (_time(score), corners[-1][1]),
-            (_time(score), 100 * score.share_right),
-        ]
-    corners.append((axes.get_xlim()[1], corners[-1][1]))
-    axes.plot([x for x, _ in corners], [y for _, y in corners], color="#000000", linewidth=1.3, zorder=2)
+        corners += [(_time(score), corners[-1][1]), (_time(score), _not_right(score))]
+    corners += [(axes.get_xlim()[1], y) for _, y in corners[-1:]]
+    axes.plot([x for x, _ in corners], [y for _, y in corners], color="#BBBBBB", linewidth=1.6, zorder=1)
     return corners
 
 
-def _pie(axes: Axes, score: Score, ringed: bool) -> None:
-    """Shares of the outcomes as wedges, the same size wherever it stands."""
-    radius = RADIUS_AUTO if score.method == AUTO else RADIUS
-    counts = [score.right, score.wrong, score.undecided, score.timed_out, score.cannot]
-    at, turn = (_time(score), 100 * score.share_right), 0.25
-    for outcome, count in zip(OUTCOMES, counts, strict=True):
-        if not count:
-            continue
-        share = count / score.trials
-        steps = max(2, round(64 * share) + 1)
-        angles = [2 * math.pi * (turn - share * k / (steps - 1)) for k in range(steps)]
-        turn -= share
-        corners = [(math.cos(a), math.sin(a)) for a in angles]
-        wedge = corners if share == 1 else [(0.0, 0.0), *corners]
-        size = (2 * radius * max(max(abs(x), abs(y)) for x, y in wedge)) ** 2
-        axes.scatter(*at, marker=Path(wedge), s=size, color=OUTCOME_COLOURS[outcome], zorder=4, lw=0, clip_on=False)
-    edge, width = ("#000000", 2.0) if score.method == AUTO else ("#000000", 1.4) if ringed else ("#888888", 0.6)
-    axes.scatter(
-        *at, s=(2 * radius) ** 2, facecolors="none", edgecolors=edge, linewidths=width, zorder=5, clip_on=False
+def _label(score: Score, look: Look) -> Label:
+    return Label(
+        (_time(score), _not_right(score)),
+        ([Piece(score.method, look.colour, "bold" if score.method == AUTO else "normal")],),
     )
+
+
+def _table(axes: Axes, members: Sequence[Score], look: dict[str, Look]) -> None:
+    """Beside the panel, the best first: each method's wrong answers in red, and what it leaves open apart."""
+    axes.set_xlim(0, 1)
+    axes.set_ylim(-max(9, len(members)), 0)
+    about: dict[str, Any] = {"fontsize": 8, "va": "center"}
+    for x, text, colour in ((0.68, "wrong", WRONG), (1.0, "open", GREY)):
+        axes.text(x, -0.3, text, ha="right", color=colour, **about)
+    for row, score in enumerate(sorted(members, key=lambda s: (1 - s.share_right, s.median_seconds or 0.0))):
+        y, open_ = -1.2 - 0.95 * row, score.trials - score.right - score.wrong
+        weight = "bold" if score.method == AUTO else "normal"
+        axes.plot([0.03], [y], marker="s", markersize=6, color=look[score.method].colour)
+        axes.text(0.09, y, score.method, ha="left", color="#222222", fontweight=weight, **about)
+        wrong = (percent(score.share_wrong), WRONG, "bold") if score.wrong else ("0", GREY, "normal")
+        axes.text(0.68, y, wrong[0], ha="right", color=wrong[1], fontweight=wrong[2], **about)
+        axes.text(1.0, y, percent(open_ / score.trials) if open_ else "0", ha="right", color=GREY, **about)
 
 
 def _time(score: Score) -> float:
     return max(score.median_seconds or 0.0, SHORTEST)
 
 
-def _percent(share: float) -> str:
+def _low(score: Score) -> float:
+    return max(score.low_seconds or 0.0, SHORTEST)
+
+
+def _high(score: Score) -> float:
+    return max(score.high_seconds or 0.0, SHORTEST)
+
+
+def _not_right(score: Score) -> float:
+    """Per cent of the trials; at the mark for none where there are none."""
+    return max(NONE, 100 * (1 - score.share_right))
+
+
+def percent(share: float) -> str:
     """Never rounded to 0 or 100 where it is not."""
     value = 100 * share
     if 0 < value < 0.1:
-        return "<0.1%"
+        return "<0.1 %"
     if 99.9 < value < 100:
-        return ">99.9%"
-    return f"{value:.1f}%" if (0 < value < 10 or 90 < value < 100) else f"{value:.0f}%"
+        return ">99.9 %"
+    return f"{value:.1f} %" if (0 < value < 10 or 90 < value < 100) else f"{value:.0f} %"
 
 
-def _legend() -> list[Patch]:
-    names = {"cannot": "cannot answer such a scene"}
+def _legend() -> list[Line2D]:
+    mark: dict[str, Any] = {"marker": "s", "markersize": 7, "color": "#444444"}
     return [
-        Patch(facecolor=OUTCOME_COLOURS[o], edgecolor="#666666", linewidth=0.6, label=names.get(o, o)) for o in OUTCOMES
+        Line2D([], [], linestyle="none", label="a method, at its median time", **mark),
+        Line2D(
+            [],
+            [],
+            linewidth=1.4,
+            marker="|",
+            markersize=7,
+            color="#444444",
+            label="its times from 10 to 90 % of the trials",
+        ),
+        Line2D([], [], linewidth=1.8, color="#BBBBBB", label="the best of those that were never wrong"),
     ]

@@ -17,7 +17,6 @@ FIGURES: Mapping[str, Callable[[ChartRun], Figure | None]] = {
     "cost": cost.draw,
     "tolerance": sweeps.tolerance,
     "bits": sweeps.bits,
-    "primes": sweeps.primes,
     "reductions": reductions.draw,
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from types import ModuleType
 
 from dofkit.benchmark.trials import (
     blocks,
@@ -24,6 +25,14 @@ from dofkit.benchmark.trials.trial import Trial
 
 Family = Callable[[bool], Iterator[Trial]]
 
+#: What the families are about: five headings, and the modules under each.
+_HEADINGS: Mapping[str, tuple[ModuleType, ...]] = {
+    "Lectures and homework": (catalog, equivalence),
+    "Linkages and mechanisms": (graphs, joints, mechanisms),
+    "Drawings: nearly singular, rounded, far away": (near_singular,),
+    "Differential constraints, time, long chains": (forms, times, chains, blocks),
+    "Equations between coordinates": (relations, powers, identities),
+}
 _ALL: Mapping[str, Callable[[bool], Iterator[Construction]]] = {
     **catalog.FAMILIES,
     **graphs.FAMILIES,
@@ -39,6 +48,10 @@ _ALL: Mapping[str, Callable[[bool], Iterator[Construction]]] = {
     **identities.FAMILIES,
     **equivalence.FAMILIES,
 }
+#: The heading that each family stands under.
+HEADINGS: Mapping[str, str] = {
+    name: heading for heading, modules in _HEADINGS.items() for module in modules for name in module.FAMILIES
+}
 
 
 def _trials(name: str, constructions: Iterator[Construction]) -> Iterator[Trial]:
@@ -50,5 +63,7 @@ def _family(name: str) -> Family:
     return lambda quick: few(_trials(name, _ALL[name](True))) if quick else _trials(name, _ALL[name](False))
 
 
+#: What each family is, in a line.
+GLOSSES: Mapping[str, str] = {name: (made.__doc__ or "").partition("\n")[0].rstrip(".") for name, made in _ALL.items()}
 #: Every family by name. ``quick``: a few small members that stand for the others.
 FAMILIES: Mapping[str, Family] = {name: _family(name) for name in _ALL}

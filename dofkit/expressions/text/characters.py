@@ -39,8 +39,10 @@ _SIGNS: dict[str, str] = {
 }  # fmt: skip
 _LETTERS: dict[str, str] = {"ϑ": "θ", "ϕ": "φ", "ϵ": "ε", "ϱ": "ρ", "ς": "σ", "ϰ": "κ", "µ": "μ", "∆": "Δ"}
 _SPACES = dict.fromkeys("\u00a0\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a\u202f\u205f\u3000", " ")
-_SUBSCRIPTS: dict[str, str] = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
-_KEPT = frozenset(GREEK) | frozenset(SUPERSCRIPTS) | frozenset(FRACTIONS) | {DOT, TWO_DOTS}
+SUBSCRIPTS: dict[str, str] = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
+#: After a number: so many times pi/180.
+DEGREE = "°"
+_KEPT = frozenset(GREEK) | frozenset(SUPERSCRIPTS) | frozenset(FRACTIONS) | {DOT, TWO_DOTS, DEGREE}
 _MARKS = {**dict.fromkeys("\u0358", DOT)}
 
 #: Letters of other alphabets that look like Latin ones.
@@ -56,7 +58,6 @@ _REFUSED: dict[str, tuple[str, str]] = {
     "±": ("`±` stands for two texts", "write each of the two relations by itself"),
     "∓": ("`∓` stands for two texts", "write each of the two relations by itself"),
     "∞": ("infinity is no number", "leave that bound out"),
-    "°": ("degrees are not read", "write the angle in radians, such as `30*pi/180`"),
     "∂": ("`∂` is not read", "write a derivative as `diff(h(s), s)`"),
     "∛": ("`∛` is not read", "write `x^(1/3)`"),
     "∈": ("`∈` is no relation", "write `0 <= x <= L` for an interval"),
@@ -84,12 +85,12 @@ def fold(text: str) -> Folded:
     places: list[int] = []
     below = False
     for column, char in enumerate(text, 1):
-        plain = char if char.isascii() else _SUBSCRIPTS.get(char)
+        plain = char if char.isascii() else SUBSCRIPTS.get(char)
         if plain is None:
             plain = _plain(char, column)
         elif plain is not char and not below:
             plain = "_" + plain
-        below = char in _SUBSCRIPTS
+        below = char in SUBSCRIPTS
         out.append(plain)
         places.extend([column] * len(plain))
     places.append(len(text) + 1)

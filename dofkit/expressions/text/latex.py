@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.text.characters import DOT, GREEK_LETTERS, LETTERS_OF_NAMES, TWO_DOTS, Folded
+from dofkit.expressions.text.characters import DEGREE, DOT, GREEK_LETTERS, LETTERS_OF_NAMES, TWO_DOTS, Folded
 
 #: The mark that `\frac` leaves for the parser; no text can hold it otherwise.
 FRACTION_MARK = "\\"
@@ -30,7 +30,7 @@ _PLAIN: dict[str, str] = {
     "ln": " log ", "arcsin": " asin ", "arccos": " acos ", "arctan": " atan ", "sqrt": " sqrt ",
     "cdot": "*", "times": "*", "ast": "*", "div": "/", "le": "<=", "leq": "<=", "leqslant": "<=", "ge": ">=",
     "geq": ">=", "geqslant": ">=", "lt": "<", "gt": ">", "lvert": "|", "rvert": "|", "vert": "|", "prime": "'",
-    "frac": FRACTION_MARK, "dfrac": FRACTION_MARK, "tfrac": FRACTION_MARK, "quad": " ", "qquad": " ",
+    "circ": DEGREE, "frac": FRACTION_MARK, "dfrac": FRACTION_MARK, "tfrac": FRACTION_MARK, "quad": " ", "qquad": " ",
     ",": " ", ";": " ", ":": " ", "!": " ", " ": " ",
     **dict.fromkeys(("left", "right", "big", "Big", "bigl", "bigr", "Bigl", "Bigr"), ""),
     **LETTERS_OF_NAMES,

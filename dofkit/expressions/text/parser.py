@@ -92,7 +92,7 @@ class Parser(PrimaryReader):
     # Products
 
     def term(self) -> Expr:
-        """Factors with signs between them or side by side."""
+        """Factors with signs between them or side by side; after a quotient a space decides: `1/2 x` is (1/2) x."""
         first = self.next
         factors = [self.factor()]
         slash: Token | None = None
@@ -107,9 +107,10 @@ class Parser(PrimaryReader):
                 self.at += 1
                 slash = None if self.divide(factors) else token
             elif kind in STARTS and not (kind == "|" and self.bars):
-                if slash is not None:
+                if slash is not None and token.start == self.last.end:
                     self.ask_quotient(first, slash)
                 factors.append(self.power())
+                slash = None
             elif kind == "number":
                 self.ask_number(token)
             else:

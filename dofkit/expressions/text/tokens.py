@@ -8,12 +8,12 @@ from fractions import Fraction
 from typing import NamedTuple, NoReturn
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.text.characters import DOT, FRACTIONS, GREEK_LETTERS, SUPERSCRIPTS, TWO_DOTS, fold
+from dofkit.expressions.text.characters import DEGREE, DOT, FRACTIONS, GREEK_LETTERS, SUPERSCRIPTS, TWO_DOTS, fold
 from dofkit.expressions.text.latex import FRACTION_MARK, unlatex
 from dofkit.expressions.text.limits import MAX_CHARACTERS, MAX_DIGITS, MAX_EXPONENT, MAX_NODES, MAX_TEXT_BITS
 from dofkit.expressions.text.names import Lookup, Meaning
 from dofkit.expressions.text.words import read_word
-from dofkit.expressions.tree import Expr, num, sym
+from dofkit.expressions.tree import PI, Expr, mul, num, sym
 
 
 class Token(NamedTuple):
@@ -45,6 +45,7 @@ _TOKEN = re.compile(
     |(?P<number>(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)
     |(?P<wrong>!=|=>|=<|<>|===|<<|>>|//|->|=!|:=|\*\*\*)
     |(?P<relation><=|>=|==?|[<>])
+    |(?P<degree>\^[ ]*\{{[ ]*{DEGREE}[ ]*\}}|\^?[ ]*{DEGREE})
     |(?P<sign>\*\*|[-+*/^(),\[\]{{}}|√\\])
     |(?P<prime>'+)
     |(?P<superscript>[{"".join(SUPERSCRIPTS)}]+)
@@ -55,6 +56,7 @@ _TOKEN = re.compile(
 _SQUARE = r"\s*(?:²|(?:\^|\*\*)\s*(?:2|\{\s*2\s*\}))"
 _SECOND = re.compile(rf"d{_SQUARE}\s*(?P<name>{_WORD})\s*/\s*dt{_SQUARE}", re.ASCII)
 _NUMBER = re.compile(r"(\d*)\.?(\d*)(?:[eE]([+-]?\d+))?", re.ASCII)
+_DEGREES = frozenset({"deg", "degree", "degrees"})
 _ALIKE = {"**": "^", "==": "=", "[": "(", "{": "(", "]": ")", "}": ")", FRACTION_MARK: "frac", "√": "root"}
 
 _STRANGE: dict[str, tuple[str, str]] = {
@@ -112,9 +114,13 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         if second is not None:
             found.append(_second_derivative(second, lookup, columns))
             end = second.end()
+        elif kind == "degree" or (kind == "word" and match[kind] in _DEGREES and lookup.meaning(match[kind]) is None):
+            found[-1:] = [_in_degrees(found, start, end, columns)]
         elif kind == "word":
             called = text[end : end + 1] == "("
-            for meaning, a, b in read_word(match[kind], lookup, columns[start], called):
+            before = found[-1] if found and found[-1].kind == "number" else None
+            number = "" if before is None else text[before.start : before.end]
+            for meaning, a, b in read_word(match[kind], lookup, columns[start], called, number):
                 found.append(_word_token(meaning, start + a, start + b, text))
         elif kind == "sign" or kind == "relation":
             sign = match[kind]
@@ -134,12 +140,22 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         position = end
 
 
+def _in_degrees(found: list[Token], start: int, end: int, columns: Sequence[int]) -> Token:
+    """The number that stands before a sign of degrees, times pi/180."""
+    before = found[-1] if found else None
+    if before is None or before.kind != "number" or before.expr is None or before.expr.op != "num":
+        hint = "write `60°`, or `theta*pi/180` for what is not a number"
+        raise TextError("degrees are read after a number only", columns[start], hint)
+    return Token("number", before.start, end, mul(before.expr, num(Fraction(1, 180)), PI), "degrees")
+
+
 def _check_size(found: list[Token], columns: Sequence[int]) -> None:
     """Refuse numbers that are small each and, multiplied, large."""
     total = 0
     for token in found:
         if token.kind == "number" and token.expr is not None:
-            value: Fraction = token.expr.args[0]
+            e = token.expr.args[0] if token.expr.op == "mul" else token.expr
+            value: Fraction = e.args[0]
             total += value.numerator.bit_length() + value.denominator.bit_length() - 2
             if total > MAX_TEXT_BITS:
                 message = "the numbers in this text have too many digits together"

@@ -20,6 +20,11 @@ _FOREIGN: dict[str, str] = {
     "False": "write an equation", "None": "write an equation, or leave the field out",
     "nan": "write a number", "NaN": "write a number", "inf": "leave that bound out", "oo": "leave that bound out",
 }  # fmt: skip
+#: Names of units: a number has none here.
+_UNITS = frozenset({
+    "km", "m", "dm", "cm", "mm", "um", "nm", "in", "inch", "ft", "kg", "g", "mg", "lb", "s", "ms", "min", "h", "Hz",
+    "N", "kN", "Nm", "J", "kJ", "W", "rad", "rpm", "Pa", "K", "mol",
+})  # fmt: skip
 _NEAR = 200
 
 
@@ -31,8 +36,8 @@ class WordPart(NamedTuple):
     end: int
 
 
-def read_word(word: str, lookup: Lookup, column: int, called: bool) -> tuple[WordPart, ...]:
-    """The pieces of ``word``; ``called`` says that a parenthesis follows, for the advice."""
+def read_word(word: str, lookup: Lookup, column: int, called: bool, number: str = "") -> tuple[WordPart, ...]:
+    """The pieces of ``word``; ``called`` says that a parenthesis follows, ``number`` is what stands before it."""
     whole = lookup.meaning(word)
     if whole is not None:
         return (WordPart(whole, 0, len(word)),)
@@ -45,7 +50,17 @@ def read_word(word: str, lookup: Lookup, column: int, called: bool) -> tuple[Wor
             return ways[0]
         if ways:
             raise _several(word, ways, column)
+    if number and word in _UNITS:
+        raise UnknownNameError(
+            f"`{word}` is not declared, and no number has a unit here", column, _no_unit(word, number)
+        )
     raise _unknown(word, lookup, column, called)
+
+
+def _no_unit(word: str, number: str) -> str:
+    if word == "rad":
+        return f"angles are in radians: write `{number}`"
+    return f"numbers only: write `{number}`, and every quantity in units that go together"
 
 
 def _splits(word: str, lookup: Lookup) -> list[tuple[WordPart, ...]]:

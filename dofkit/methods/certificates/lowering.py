@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any
 
 from dofkit.base.verdicts import weakest
+from dofkit.expressions.text.characters import DEGREE, GREEK_LETTERS
 from dofkit.methods.certificates.certificate import Certifying
 from dofkit.methods.certificates.contradictions import Contradiction
 from dofkit.report import ConstraintEntry, FieldVerdict, Report
-from dofkit.scene.scene import Scene
+from dofkit.scene.scene import Scene, survey_of
+from dofkit.scene.synonyms import SAID, with_plain_subscripts
 
 _UNDECIDED = FieldVerdict(verdict="undecided")
 #: What fields are where they are undecided; the others stay as they are.
@@ -21,10 +25,32 @@ _OPEN: Mapping[str, Any] = {
 }
 
 
+#: A number of degrees; `deg` where that is no declared name.
+_DEGREES = re.compile(
+    rf"(?<![\w.{GREEK_LETTERS}])((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)[ \t]*(?:{DEGREE}|(deg(?:rees?)?)(?!\w))",
+    re.ASCII,
+)
+
+
 def document_of_scene(scene: Scene) -> dict[str, Any]:
-    """The document of a scene: what was written, as JSON has it."""
+    """The document of a scene as JSON has it: what was written, in standard words, its angles in radians."""
     found: dict[str, Any] = scene.model_dump(mode="json", by_alias=True, exclude_unset=True)
-    return {"name": scene.name, **found}
+    unit = partial(_unit, scene)
+    return {"name": scene.name, **{key: part if key in SAID else _plain(part, unit) for key, part in found.items()}}
+
+
+def _unit(scene: Scene, match: re.Match[str]) -> str:
+    """A number of degrees in radians; ``deg`` that is a declared name stays."""
+    declared = match[2] and survey_of(scene).names.lookup.meaning(match[2]) is not None
+    return match[0] if declared else f"({match[1]}*pi/180)"
+
+
+def _plain(value: Any, unit: Callable[[re.Match[str]], str]) -> Any:
+    if isinstance(value, str):
+        return _DEGREES.sub(unit, with_plain_subscripts(value)) if "deg" in value or not value.isascii() else value
+    if isinstance(value, dict):
+        return {key: _plain(part, unit) for key, part in value.items()}
+    return [_plain(part, unit) for part in value] if isinstance(value, list) else value
 
 
 def with_certificate(scene: Scene, report: Report, again: Callable[[], Report] | None = None) -> Report:

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from dofkit.base.arguments import description_of
+from dofkit.base.documents import read_document
 from dofkit.base.errors import ArgumentError
 from dofkit.checker import Verification
 from dofkit.checker import verify as rechecked
+from dofkit.expressions.text.characters import SUBSCRIPTS
 from dofkit.methods.certificates.lowering import document_of_scene
 from dofkit.scene.found_files import find
-from dofkit.scene.reading import SceneLike
+from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
+from dofkit.scene.synonyms import SAID, standard_words
 
 Given = Mapping[str, Any] | str | bytes | os.PathLike[str]
 
@@ -42,9 +45,28 @@ def _written(scene: SceneLike | None) -> Mapping[str, Any] | str | None:
     if isinstance(scene, Scene):
         return document_of_scene(scene)
     if isinstance(scene, Mapping):
-        return scene
-    data = find(scene).data
-    return data if isinstance(data, str) else data.decode("utf-8")
+        return document_of_scene(load(scene)) if _in_other_words(scene) else scene
+    found = find(scene)
+    text = found.data if isinstance(found.data, str) else found.data.decode("utf-8")
+    value = read_document(found.data, found.name).value
+    return document_of_scene(load(scene)) if _in_other_words(value) else text
+
+
+def _in_other_words(value: object) -> bool:
+    """Whether a document is written in words that the checker does not know: it is given the standard ones then."""
+    if not isinstance(value, Mapping):
+        return False
+    odd = ("°", "deg", *SUBSCRIPTS)
+    return standard_words(value).value != value or any(sign in text for text in _texts(value) for sign in odd)
+
+
+def _texts(value: object) -> Iterator[str]:
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Mapping):
+        yield from (text for key, part in value.items() if key not in SAID for text in _texts(part))
+    elif isinstance(value, list | tuple):
+        yield from (text for part in value for text in _texts(part))
 
 
 def _text_of(certificate: Given) -> Mapping[str, Any] | str | bytes:

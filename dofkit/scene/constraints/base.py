@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import ClassVar, get_args
 
@@ -24,6 +24,14 @@ class ConstraintBase(WrittenModel):
 
     #: The dimensions in which it is defined.
     dimensions: ClassVar[tuple[int, ...]] = (1, 2, 3)
+    #: A line of a scene by its dimension (0: in any): it loads where the bodies crank and rod, the particles A, B and C
+    #: and the coordinates x and y are declared.
+    examples: ClassVar[Mapping[int, str]] = {}
+    #: Other words for the type that are read; words that are understood, and only lead to a hint.
+    synonyms: ClassVar[tuple[str, ...]] = ()
+    understood: ClassVar[tuple[str, ...]] = ()
+    #: Other words for its fields.
+    other_keys: ClassVar[Mapping[str, str]] = {}
     #: What everyone else may know of the type.
     facts: ClassVar[TypeFacts] = TypeFacts()
 
@@ -35,6 +43,11 @@ class ConstraintBase(WrittenModel):
     @classmethod
     def called(cls) -> str:
         return f"a constraint of type '{cls.kind()}'"
+
+    @classmethod
+    def example(cls, dimension: int) -> str:
+        """One line that would work in a scene of that dimension, or in another where it works in none of this."""
+        return cls.examples.get(dimension) or cls.examples[max(cls.examples)]
 
     def relations(self, world: World) -> Iterator[Relation]:
         """Its scalar relations; faults go to the world."""

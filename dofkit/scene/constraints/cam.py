@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import ClassVar, Literal, NamedTuple
 
@@ -37,6 +37,7 @@ class Cam(ConstraintBase):
     """
 
     type: Literal["cam"] = Field(description="a point on the profile of a body, in the plane")
+    examples: ClassVar[Mapping[int, str]] = {2: '{type: cam, point: A, body: crank, curve: "x^2 + y^2 = 4"}'}
     point: Point = Field(description="the follower's point, or a particle")
     body: str = Field(description="the cam, or ground")
     curve: Text = Field(description="the profile: an equation in x and y, the body's own coordinates; may hold t")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -14,9 +14,10 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
 from dofkit.expressions.vectors import Vec, difference, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase, root
-from dofkit.scene.fields import Value, as_written
+from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Placed, between
-from dofkit.scene.parts import Ends, Point, show_point
+from dofkit.scene.ledger import symbols_of
+from dofkit.scene.parts import BodyPoint, Ends, Point, show_point
 from dofkit.scene.world import World
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -35,11 +36,17 @@ class Link(ConstraintBase):
     """
 
     type: Literal["link"] = Field(description="two points at a given distance")
+    examples: ClassVar[Mapping[int, str]] = {0: "{type: link, between: [A, B], length: 2}"}
+    synonyms: ClassVar[tuple[str, ...]] = ("rod", "distance")
+    understood: ClassVar[tuple[str, ...]] = ("bar", "strut", "stick", "edge")
+    other_keys: ClassVar[Mapping[str, str]] = {"distance": "length"}
     between: Ends = Field(description="the two points")
     length: Value | None = Field(None, description="their distance; may hold t; by default that of the drawing")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
 
     def relations(self, world: World) -> Iterator[Relation]:
+        if _told_to_move(self, world):
+            return
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
         if first.label == second.label or _same_place(first, second):
             hint = "name two different points"
@@ -60,6 +67,39 @@ class Link(ConstraintBase):
     def in_words(self) -> str:
         ends = "-".join(show_point(end) for end in self.between)
         return f"link {ends}" + ("" if self.length is None else f", length {as_written(self.length)}")
+
+
+def _told_to_move(link: Link, world: World) -> bool:
+    """Whether an end of a link is a place that moves in time: a fault, which shows the equation that says it."""
+    moving = [i for i, end in enumerate(link.between) if isinstance(end, tuple) and TIME in _symbols(world, end)]
+    if not moving:
+        return False
+    sides = [_components(world, end) for end in link.between]
+    hint = "write the equation of the distance"
+    if all(sides):
+        length = "l" if link.length is None else as_written(link.length)
+        one, other = (sides[1], sides[0]) if moving[0] == 0 else (sides[0], sides[1])
+        gaps = [f"({q} - ({p}))^2" for q, p in zip(one, other, strict=False)]
+        squared = f"({length})^2" if any(sign in length for sign in "+-*/ ") else f"{length}^2"
+        hint = f'write its equation: `"{" + ".join(gaps)} = {squared}"`'
+    world.fault(
+        "an end of a link is a point that does not move by itself, and time stands here",
+        "between",
+        moving[0],
+        hint=hint,
+    )
+    return True
+
+
+def _symbols(world: World, end: Vector) -> frozenset[Expr]:
+    return frozenset().union(*(symbols_of(part, world.names) for part in end if isinstance(part, str)))
+
+
+def _components(world: World, end: str | Vector | BodyPoint) -> tuple[str, ...]:
+    """The coordinates of a point as texts; none for a point of a body, or of what is not declared."""
+    if isinstance(end, str):
+        return world.table.particles.get(end, ())
+    return tuple(map(as_written, end)) if isinstance(end, tuple) else ()
 
 
 def _same_place(first: Placed, second: Placed) -> bool:
@@ -98,7 +138,7 @@ def _check_length(world: World, first: Placed, second: Placed, given: Expr, *whe
     start = substitute(given, {TIME: ZERO})
     shown = approximate(start)
     if shown is not None and shown < 0:
-        world.fault(f"a length cannot be negative ({shown:.6g})", *where)
+        world.fault(f"a length cannot be negative ({shown:.6g})", *where, hint=f"write `length: {-shown:.6g}`")
     if first.reference is None or second.reference is None:
         return
     drawn = square_between(first.reference, second.reference)
@@ -106,7 +146,7 @@ def _check_length(world: World, first: Placed, second: Placed, given: Expr, *whe
         return
     measured = root(drawn)
     message = f"the length {_figure(shown)} contradicts the drawing, where {first.label} and {second.label} are "
-    hint = "leave `length` out to take the drawing's, or set `tolerance` if it is measured"
+    hint = f"write `length: {_figure(measured)}`, or leave it out: the drawing's; set `tolerance` if it is measured"
     world.misfit(_less(shown, measured), f"{message}{_figure(measured)} apart", *where, hint=hint)
 
 
@@ -123,6 +163,7 @@ class Rigid(ConstraintBase):
     """|A - B|^2 - d_AB^2 = 0 for every pair of members: m(m-1)/2 relations."""
 
     type: Literal["rigid"] = Field(description="particles that keep all their distances")
+    examples: ClassVar[Mapping[int, str]] = {0: "{type: rigid, members: [A, B, C]}"}
     members: Annotated[tuple[str, ...], Field(min_length=2)] = Field(description="particles")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, complete=True)
 
@@ -162,6 +203,13 @@ class String(ConstraintBase):
     """
 
     type: Literal["string"] = Field(description="an inextensible string over small pulleys")
+    examples: ClassVar[Mapping[int, str]] = {
+        1: "{type: string, along: [A, [0], B], length: 5}",
+        2: "{type: string, along: [A, [0, 0], B], length: 5}",
+        3: "{type: string, along: [A, [0, 0, 0], B], length: 5}",
+    }
+    understood: ClassVar[tuple[str, ...]] = ("rope", "cable", "cord", "pulley", "belt")
+    other_keys: ClassVar[Mapping[str, str]] = {"between": "along"}
     along: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(description="the points it runs along, in order")
     length: Value | None = Field(None, description="its length; may hold t; by default that of the drawing")
     facts: ClassVar[TypeFacts] = TypeFacts(string=True)

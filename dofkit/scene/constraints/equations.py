@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
@@ -31,6 +31,8 @@ class Equation(ConstraintBase):
     """
 
     type: Literal["equation"] = Field(default="equation", description="an equation or inequality as text")
+    examples: ClassVar[Mapping[int, str]] = {0: '"x^2 + y^2 = 4"'}
+    understood: ClassVar[tuple[str, ...]] = ("formula", "relation", "inequality", "pfaffian")
     text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, surface=True)
 
@@ -68,6 +70,12 @@ class On(ConstraintBase):
     """
 
     type: Literal["on"] = Field(description="points on a surface or a curve")
+    examples: ClassVar[Mapping[int, str]] = {
+        1: "{type: on, members: [A], surface: x - 1}",
+        2: "{type: on, members: [A], surface: y - x^2}",
+        3: "{type: on, members: [A], surface: z - x^2 - y^2}",
+    }
+    understood: ClassVar[tuple[str, ...]] = ("surface", "curve", "wire", "bead")
     members: tuple[Point, ...] = Field(min_length=1, description="particles or points")
     surface: Text | None = Field(None, description="one equation in x, y, z")
     curve: Annotated[

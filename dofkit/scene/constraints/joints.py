@@ -25,6 +25,8 @@ from dofkit.scene.parts import show_vector
 from dofkit.scene.world import Direction, World
 from dofkit.system import Kinematics, Relation, VelocityRow
 
+_UP = {2: "[1, 0]", 3: "[0, 0, 1]"}
+
 
 class Joint(ConstraintBase):
     """Two bodies, or a body and the ground, joined together."""
@@ -83,7 +85,7 @@ class Axial(LocatedJoint):
         if self.axis is None and self.at is not None:
             world.fault(
                 f"this {self.kind()} joint has a place (`at`) but no `axis`",
-                hint="add `axis: [...]`, or leave both out for a joint in general position",
+                hint=f"add `axis: {_UP[world.dimension]}`, or leave both out for a joint in general position",
             )
         return world.direction(self.axis, "axis")
 

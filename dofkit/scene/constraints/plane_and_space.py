@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -40,6 +40,12 @@ class Revolute(Driven):
     """
 
     type: Literal["revolute"] = Field(description="a hinge")
+    examples: ClassVar[Mapping[int, str]] = {
+        2: "{type: revolute, between: [ground, crank], at: [0, 0]}",
+        3: "{type: revolute, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}",
+    }
+    synonyms: ClassVar[tuple[str, ...]] = ("hinge", "pin")
+    understood: ClassVar[tuple[str, ...]] = ("pivot", "pinned", "rotary", "rotational", "turning", "bearing")
     facts: ClassVar[TypeFacts] = TypeFacts(
         _revolute_rows, turn_rate, axial=True, half_turns=True, joint=True, planar_pair=True
     )
@@ -72,6 +78,12 @@ class Prismatic(Driven):
     """
 
     type: Literal["prismatic"] = Field(description="a slider")
+    examples: ClassVar[Mapping[int, str]] = {
+        2: "{type: prismatic, between: [ground, crank], axis: [1, 0]}",
+        3: "{type: prismatic, between: [ground, crank], axis: [1, 0, 0]}",
+    }
+    synonyms: ClassVar[tuple[str, ...]] = ("slider",)
+    understood: ClassVar[tuple[str, ...]] = ("translational", "sliding", "linear", "rail", "piston")
     facts: ClassVar[TypeFacts] = TypeFacts(
         _prismatic_rows, slide_rate, slides=True, half_turns=True, joint=True, planar_pair=True
     )
@@ -96,6 +108,8 @@ class Weld(Joint):
     """The second body moves as the first: 3 relations in the plane, 6 in space."""
 
     type: Literal["weld"] = Field(description="two bodies joined into one")
+    examples: ClassVar[Mapping[int, str]] = {0: "{type: weld, between: [crank, rod]}"}
+    understood: ClassVar[tuple[str, ...]] = ("glue", "glued", "clamp", "fastened", "rigid_joint")
     facts: ClassVar[TypeFacts] = TypeFacts(_weld_rows, welded=True, half_turns=True, joint=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:

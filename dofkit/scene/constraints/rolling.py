@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -27,6 +27,8 @@ class Roll(ConstraintBase):
     """
 
     type: Literal["roll"] = Field(description="a disc or sphere that rolls without slipping, contact included")
+    examples: ClassVar[Mapping[int, str]] = {0: "{type: roll, body: crank, radius: 1}"}
+    understood: ClassVar[tuple[str, ...]] = ("wheel", "rolling", "disc", "no-slip")
     body: str = Field(description="the body; its origin is its centre")
     radius: Value = Field(description="its radius")
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
@@ -80,10 +82,12 @@ class Gear(Joint):
     """
 
     type: Literal["gear"] = Field(description="two wheels geared together, in the plane")
+    examples: ClassVar[Mapping[int, str]] = {2: "{type: gear, between: [crank, rod], ratio: -2}"}
+    understood: ClassVar[tuple[str, ...]] = ("gears", "meshing")
     ratio: Value = Field(description="angle of the second by angle of the first; negative for wheels that mesh outside")
     carrier: str | None = Field(None, description="the body that carries both axes, as in a planetary gear")
     dimensions: ClassVar[tuple[int, ...]] = (2,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_gear_rows, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(_gear_rows, joint=True, geared=True)
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         ratio = world.mentioned.number = world.fixed(self.ratio, "ratio")

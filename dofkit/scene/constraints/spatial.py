@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -51,6 +51,9 @@ class Cylindrical(Driven):
     """
 
     type: Literal["cylindrical"] = Field(description="a sleeve on a shaft")
+    examples: ClassVar[Mapping[int, str]] = {
+        3: "{type: cylindrical, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}"
+    }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(_cylindrical_rows, slide_rate, axial=True, half_turns=True, joint=True)
 
@@ -74,6 +77,10 @@ class Screw(Driven):
     """
 
     type: Literal["screw"] = Field(description="a nut on a thread")
+    examples: ClassVar[Mapping[int, str]] = {
+        3: "{type: screw, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1], pitch: 2}"
+    }
+    understood: ClassVar[tuple[str, ...]] = ("helical", "thread", "nut")
     pitch: Value = Field(description="the advance along the axis for one turn, right-handed")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(
@@ -104,6 +111,10 @@ class Universal(LocatedJoint):
     """X1 = X2, and the first axis, carried by the first body, stays across the second: 4 relations."""
 
     type: Literal["universal"] = Field(description="a Cardan joint")
+    examples: ClassVar[Mapping[int, str]] = {
+        3: "{type: universal, between: [crank, rod], at: [0, 0, 0], axes: [[1, 0, 0], [0, 1, 0]]}"
+    }
+    understood: ClassVar[tuple[str, ...]] = ("cardan", "hooke", "u-joint", "gimbal")
     axes: tuple[Vector, Vector] | None = Field(
         None, description="two perpendicular axes, the first carried by the first body, the second by the second"
     )
@@ -124,7 +135,7 @@ class Universal(LocatedJoint):
     def _pair(self, world: World) -> tuple[Vec, Vec]:
         if self.axes is None:
             if self.at is not None:
-                hint = "add `axes: [[...], [...]]`, or leave both out for a joint in general position"
+                hint = "add `axes: [[1, 0, 0], [0, 1, 0]]`, or leave both out for a joint in general position"
                 world.fault("this universal joint has a place (`at`) but no `axes`", hint=hint)
             one = world.direction(None)
             return one.vector, plus(one.across[0], scaled(world.fresh(), one.across[1]))
@@ -151,6 +162,9 @@ class Spherical(LocatedJoint):
     """X1 = X2: 3 relations."""
 
     type: Literal["spherical"] = Field(description="a ball in a socket")
+    examples: ClassVar[Mapping[int, str]] = {3: "{type: spherical, between: [crank, rod], at: [0, 0, 0]}"}
+    synonyms: ClassVar[tuple[str, ...]] = ("ball",)
+    understood: ClassVar[tuple[str, ...]] = ("socket", "ball-socket", "ball_and_socket")
     axis: Vector | None = Field(None, description="not needed: the joint turns every way")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(_spherical_rows, half_turns=True, joint=True)
@@ -170,6 +184,9 @@ class Planar(Axial):
     """The normal n keeps its direction (2 relations), and (R n).(p2 - p1) - n.(p02 - p01) = 0: 3 relations."""
 
     type: Literal["planar"] = Field(description="a face that slides on a face")
+    examples: ClassVar[Mapping[int, str]] = {
+        3: "{type: planar, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}"
+    }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(_planar_rows, half_turns=True, joint=True)
 

@@ -22,6 +22,8 @@ class _Told(NamedTuple):
 
 _TOLD = (
     _Told(r"found character '\\t'", "a tab stands where YAML allows none", "indent and separate with spaces"),
+    _Told(r"expected (?:chomping or )?indentation indicator", "in YAML '|' and '>' begin a block of lines",
+          "quote a text that begins so: `- \"|x - y| = 3\"`", True),
     _Told(r"found character '(?P<char>.)'", "a plain text cannot begin with {char}", _QUOTE),
     _Told(r"mapping values are not allowed", "a ':' stands where no key can be",
           "check the indentation; a text that holds ': ' goes in double quotes"),

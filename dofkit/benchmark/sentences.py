@@ -1,0 +1,211 @@
+"""What the charts say, in sentences: each is worked out from the data of a run, and so may stand beside them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from dofkit.benchmark.record import ALL, AUTO, ChartRun, Score, Step
+from dofkit.relations.reductions import REDUCTIONS
+
+#: `auto` should take no more than so many times the fastest method that is right.
+TWICE = 2
+#: So many families are named in which a method errs most, of at least so many trials each.
+NAMED, LEAST = 3, 8
+_NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+
+
+def sentences(chart: ChartRun) -> dict[str, str]:
+    """By what they are about; what the run has no data of is left out."""
+    found = {"trials": _trials(chart), "time": _time(chart), "tolerance": _tolerance(chart), "bits": _bits(chart)}
+    found |= {"primes": _primes(chart), "cost": _cost(chart), "reductions": _reductions(chart)}
+    found |= {method: _method(chart, method) for method in dict.fromkeys(score.method for score in chart.scores)}
+    return {key: text for key, text in found.items() if text}
+
+
+def _trials(chart: ChartRun) -> str:
+    mine = _total(chart, AUTO)
+    if mine is None:
+        return ""
+    methods = len({score.method for score in chart.scores})
+    left = mine.trials - mine.right - mine.wrong
+    wrong = f"{mine.wrong} {'is' if mine.wrong == 1 else 'are'}" if mine.wrong else "none is"
+    return (
+        f"{_spaced(chart.ran.trials)} trials by {_word(methods)} methods, at most {chart.ran.limit:g} s each: of the "
+        f"answers of `auto` {wrong} wrong and {_percent(left, mine.trials)} are left open."
+    )
+
+
+def _time(chart: ChartRun) -> str:
+    sound = [row.sound_ratio for row in chart.against if row.sound_ratio is not None]
+    every = [row.ratio for row in chart.against]
+    if not sound:
+        return ""
+    within, lucky = sum(ratio <= TWICE for ratio in sound), sum(ratio <= TWICE for ratio in every)
+    where = "On every family" if within == len(sound) else f"On {within} of {len(sound)} families"
+    return (
+        f"{where} `auto` takes at most twice the time of the fastest method that is right there and wrong nowhere; "
+        f"with those that are right there by luck it does on {lucky} of {len(every)}."
+    )
+
+
+def _method(chart: ChartRun, method: str) -> str:
+    """How often it is wrong and open, and where most."""
+    whole = _total(chart, method)
+    if whole is None:
+        return ""
+    left = whole.trials - whole.right - whole.wrong
+    told = (
+        f"`{method}` is wrong on {_percent(whole.wrong, whole.trials)} and leaves {_percent(left, whole.trials)} open"
+    )
+    most = list(_worst(chart, method, wrong=bool(whole.wrong)))
+    if not most:
+        return told + "."
+    return f"{told}; it {'errs' if whole.wrong else 'leaves open'} most in {_listed(most)}."
+
+
+def _worst(chart: ChartRun, method: str, *, wrong: bool) -> Iterator[str]:
+    """The families with the largest share of what is wrong, or else of what is open."""
+    rows: dict[str, tuple[int, int]] = {}
+    for score in chart.scores:
+        if score.method == method and score.family != ALL:
+            bad, trials = rows.get(score.family, (0, 0))
+            more = score.wrong if wrong else score.trials - score.right
+            rows[score.family] = bad + more, trials + score.trials
+    shares = {family: bad / trials for family, (bad, trials) in rows.items() if bad and trials >= LEAST}
+    yield from sorted(shares, key=lambda family: (-shares[family], family))[:NAMED]
+
+
+class _Rounded(NamedTuple):
+    """Counts at the tolerance equal to the rounding; the largest share of right answers at one tolerance for all."""
+
+    right: int
+    wrong: int
+    trials: int
+    best: float
+
+
+def _rounded(chart: ChartRun, sweep: str) -> _Rounded | None:
+    steps = [step for step in chart.steps if step.sweep == sweep and step.group.isdigit()]
+    equal = [step for step in steps if round(math.log10(step.value)) == -int(step.group)]
+    if not equal:
+        return None
+    best = max(sum(s.right for s in same) / sum(s.trials for s in same) for same in _by_value(steps))
+    return _Rounded(sum(s.right for s in equal), sum(s.wrong for s in equal), sum(s.trials for s in equal), best)
+
+
+def _tolerance(chart: ChartRun) -> str:
+    ours, other = (_rounded(chart, sweep) for sweep in ("scene tolerance", "tolerance"))
+    if ours is None or other is None:
+        return ""
+    return (
+        "With the tolerance equal to the rounding dofkit finds what was rounded in "
+        f"{_percent(ours.right, ours.trials)} of the trials and is wrong in {_percent(ours.wrong, ours.trials)}; "
+        "singular values with that tolerance find it in "
+        f"{_percent(other.right, other.trials)}, and with the best one for all drawings in "
+        f"{_percent(round(1000 * other.best), 1000)}."
+    )
+
+
+def _by_value(steps: Sequence[Step]) -> Iterator[list[Step]]:
+    for value in {step.value for step in steps}:
+        yield [step for step in steps if step.value == value]
+
+
+def _bits(chart: ChartRun) -> str:
+    steps = [step for step in chart.steps if step.sweep == "bits"]
+    gaps = sorted({float(step.group) for step in steps}, reverse=True)
+    needed = {}
+    for gap in gaps:
+        curve = [step for step in steps if float(step.group) == gap]
+        enough = [s.value for s in curve if not any(other.wrong for other in curve if other.value >= s.value)]
+        if enough and any(step.wrong for step in curve):
+            needed[gap] = min(enough)
+    if not needed:
+        return ""
+    ends = [max(needed), min(needed)]
+    told = [f"{needed[gap]:g} bits for a gap of 10^{round(math.log10(gap))}" for gap in ends]
+    return f"Balls by themselves are never wrong from {told[0]} and from {told[1]} on."
+
+
+def _primes(chart: ChartRun) -> str:
+    steps = [step for step in chart.steps if step.sweep == "prime bits"]
+    if not steps:
+        return ""
+    wrong = sorted({step.value for step in steps if step.wrong})
+    values = sorted({step.value for step in steps})
+    lost = [v for v in values if not any(step.right or step.wrong for step in steps if step.value == v)]
+    if not wrong:
+        return f"`field` was wrong with no size of its primes, from {values[0]:g} bits on."
+    count, asked = sum(s.wrong for s in steps), sum(s.trials for s in steps if s.value in wrong)
+    above = next((v for v in values if v > wrong[-1]), None)
+    told = f"`field` by itself was wrong {count} times in {_spaced(asked)}, with primes of {_span(wrong)} bits"
+    told += "" if above is None else f", and never from {above:g} bits on"
+    return told + (f"; with {_span(lost)} bits it decided nothing." if lost else ".")
+
+
+def _cost(chart: ChartRun) -> str:
+    points = [p for p in chart.points if (p.family, p.question, p.method) == ("Henneberg", "dof", AUTO)]
+    curve = sorted(points, key=lambda p: p.size)
+    if len(curve) < 2:
+        return ""
+    first, last = curve[0], curve[-1]
+    return (
+        f"A framework of {first.size} joints takes `auto` {_milliseconds(first.seconds)}, one of {last.size} joints "
+        f"{_milliseconds(last.seconds)}."
+    )
+
+
+def _reductions(chart: ChartRun) -> str:
+    whole = {row.scene: row for row in chart.reductions if not row.off}
+    pairs = [(row, whole[row.scene]) for row in chart.reductions if row.off and row.scene in whole]
+    if not pairs:
+        return ""
+    titles = {str(key): reduction.title for key, reduction in REDUCTIONS.items()}
+    changed = sum(not row.unchanged for row, _ in pairs)
+    off, on = max(((o, w) for o, w in pairs if o.family == o.off), key=lambda pair: pair[0].seconds / pair[1].seconds)
+    return (
+        f"Left out one by one in {_spaced(len(pairs))} cases, the reductions change {changed or 'no'} "
+        f"answer{'s' * (changed > 1)}; the most that one saves of the time on scenes made for it is a factor of "
+        f"{off.seconds / on.seconds:.2g} ({titles[off.off]})."
+    )
+
+
+def _total(chart: ChartRun, method: str) -> Score | None:
+    """A method on all questions together."""
+    rows = [score for score in chart.scores if score.method == method and score.family == ALL]
+    counts = {name: sum(getattr(row, name) for row in rows) for name in ("trials", "right", "wrong")}
+    return rows[0].model_copy(update=counts) if rows else None
+
+
+def _milliseconds(seconds: float) -> str:
+    value = 1000 * seconds
+    return f"{value:.1f} ms" if value < 10 else f"{value:.0f} ms"
+
+
+def _percent(count: float, trials: float) -> str:
+    """Never rounded to 0 or 100 where it is not."""
+    value = 100 * count / trials
+    if 0 < value < 0.1:
+        return "less than 0.1 %"
+    if 99.9 < value < 100:
+        return "more than 99.9 %"
+    return f"{value:.1f} %" if 0 < value < 10 or 90 < value < 100 else f"{value:.0f} %"
+
+
+def _span(values: Sequence[float]) -> str:
+    return f"{values[0]:g}" if len(values) == 1 else f"{values[0]:g} to {values[-1]:g}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    quoted = [f'"{name}"' for name in names]
+    return quoted[0] if len(quoted) == 1 else ", ".join(quoted[:-1]) + " and " + quoted[-1]
+
+
+def _word(number: int) -> str:
+    return _NUMBERS[number] if number < len(_NUMBERS) else str(number)
+
+
+def _spaced(number: int) -> str:
+    return f"{number:,}".replace(",", " ")

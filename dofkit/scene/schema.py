@@ -1,0 +1,134 @@
+"""The JSON Schema of a scene, for editors: what stands in a place is told by its type, so that a fault is one line.
+
+Pydantic's ``anyOf`` answers "is not valid under any of the given schemas". Here the kinds of JSON values that are taken
+are a list under ``type``, and the branch of each follows by ``if`` and ``then``; a constraint's by its own ``type``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic import TypeAdapter
+
+from dofkit.scene.constraints import TYPES
+from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.scene import Scene
+from dofkit.scene.synonyms import SYNONYMS, other_keys
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+_TEXT: dict[str, Any] = TypeAdapter(str).json_schema()
+_AXIS = {**_TEXT, "pattern": "^[-+]?[xyz]$"}
+_CONSTRAINT = "Constraint"
+
+
+def identified(schema: Mapping[str, Any], name: str) -> dict[str, Any]:
+    """A schema that says which dialect of JSON Schema it is in, and which schema it is."""
+    return {"$schema": DIALECT, "$id": f"urn:dofkit:schema:{name}", **schema}
+
+
+def scene_schema() -> dict[str, Any]:
+    """The schema of a scene's file, with the other words that are read."""
+    schema = Scene.model_json_schema()
+    known = schema["$defs"]
+    for cls in TYPES.values():
+        known[cls.__name__] = _with_other_words(known[cls.__name__], cls.kind())
+    known["Force"]["properties"]["direction"] = _with_letters(known["Force"]["properties"]["direction"])
+    constraints = {**schema["properties"]["constraints"], "items": {"$ref": f"#/$defs/{_CONSTRAINT}"}}
+    schema["properties"]["constraints"] = constraints
+    schema["properties"]["joints"] = {**constraints, "description": "another section of constraints"}
+    found: dict[str, Any] = told_by_type(schema)
+    found["$defs"][_CONSTRAINT] = _any_constraint()
+    return identified(found, "scene")
+
+
+def told_by_type(schema: Any) -> Any:
+    """A schema in which every union is told apart by the kind of JSON value."""
+    if isinstance(schema, list):
+        return [told_by_type(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    union = next((key for key in ("anyOf", "oneOf") if key in schema), None)
+    plain = {key: told_by_type(part) for key, part in schema.items() if key != union}
+    return plain if union is None else {**plain, **_union([told_by_type(branch) for branch in schema[union]])}
+
+
+def _union(branches: list[dict[str, Any]]) -> dict[str, Any]:
+    """One schema for several, of which each takes another kind of JSON values."""
+    kinds = [_kinds(branch) for branch in branches]
+    if len({kind for own in kinds for kind in own}) < sum(map(len, kinds)):
+        return {"anyOf": branches}
+    rest = [
+        {"if": {"type": own if len(own) > 1 else own[0]}, "then": branch}
+        for own, branch in zip(kinds, branches, strict=True)
+        if branch.keys() - {"type"}
+    ]
+    return {"type": [kind for own in kinds for kind in own], **({"allOf": rest} if rest else {})}
+
+
+def _kinds(branch: Mapping[str, Any]) -> list[str]:
+    """The kinds of JSON values that a schema takes; what it refers to is an object."""
+    found = branch.get("type", "object" if "$ref" in branch else "any")
+    return [found] if isinstance(found, str) else list(found)
+
+
+def _any_constraint() -> dict[str, Any]:
+    """A text, or a mapping of which its `type` says the keys."""
+    words: dict[str, list[str]] = {kind: [kind] for kind in TYPES}
+    for word, kind in SYNONYMS.items():
+        words[kind].append(word)
+    by_type = [
+        {
+            "if": {"properties": {"type": {"enum": words[kind]}}, "required": ["type"]},
+            "then": {"$ref": f"#/$defs/{cls.__name__}"},
+        }
+        for kind, cls in TYPES.items()
+    ]
+    untyped = {"not": {"required": ["type"]}}
+    equation = {
+        "if": {"required": ["text"], **untyped},
+        "then": {"$ref": f"#/$defs/{Equation.__name__}"},
+        "else": {"required": ["type"]},
+    }
+    mapping = {
+        "properties": {"type": {"enum": [word for known in words.values() for word in known]}},
+        "allOf": [{"if": untyped, "then": equation}, *by_type],
+    }
+    return {
+        "description": "a text is an equation; a mapping says its `type`",
+        "type": [_TEXT["type"], "object"],
+        "if": {"type": "object"},
+        "then": mapping,
+    }
+
+
+def _with_other_words(schema: dict[str, Any], kind: str) -> dict[str, Any]:
+    """The schema of a type with the other words for it and for its keys."""
+    properties = dict(schema["properties"])
+    words = [kind, *(word for word, meant in SYNONYMS.items() if meant == kind)]
+    properties["type"] = {key: part for key, part in properties["type"].items() if key != "const"} | {"enum": words}
+    if "axis" in properties:
+        properties["axis"] = _with_letters(properties["axis"])
+    found = {**schema, "properties": properties}
+    moved = dict(_moved(schema, other_keys(kind)))
+    if moved:
+        found["required"] = [key for key in schema.get("required", ()) if key not in moved.values()]
+        found["allOf"] = [
+            {"if": {"not": {"required": [other]}}, "then": {"required": [key]}} for other, key in moved.items()
+        ]
+    for other, key in other_keys(kind).items():
+        if key in properties:
+            properties.setdefault(other, {**properties[key], "description": f"another word for `{key}`"})
+    return found
+
+
+def _moved(schema: Mapping[str, Any], others: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """Other words for keys that are required."""
+    for other, key in others.items():
+        if key in schema.get("required", ()):
+            yield other, key
+
+
+def _with_letters(vector: Mapping[str, Any]) -> dict[str, Any]:
+    """The schema of a direction that may also be a letter, such as ``-z``."""
+    return {**vector, "anyOf": [*vector["anyOf"], _AXIS]}

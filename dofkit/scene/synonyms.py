@@ -1,0 +1,197 @@
+"""Other words that people use: a scene in them is rewritten into the standard words, where they mean one thing only.
+
+``joints`` is a section like ``constraints``; a hinge is a ``revolute`` joint; ``direction`` may stand for ``axis``, and
+``axis: x`` for its vector; a mapping with a ``text`` and no ``type`` is an equation; ``x₁`` is the name ``x_1``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cache
+from typing import Any, NamedTuple
+
+from dofkit.expressions.text.characters import GREEK_LETTERS, SUBSCRIPTS
+from dofkit.scene.constraints import TYPES
+from dofkit.scene.constraints.equations import Equation
+
+Path = tuple[str | int, ...]
+
+#: Another word for a type -> the type.
+SYNONYMS: dict[str, str] = {word: kind for kind, cls in TYPES.items() for word in cls.synonyms}
+#: Keys that tell types apart: a word means a type only where these are its own.
+_TELLING = ("point", "body", "members")
+_SECTIONS = ("constraints", "joints")
+_AXIS = re.compile(r"\s*([-+−]?)\s*([xyz])\s*")
+#: What is said of a scene: prose, in which nothing is replaced.
+SAID = frozenset({"title", "source", "notes"})
+_NAME = re.compile(
+    rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}]*[{''.join(SUBSCRIPTS)}][A-Za-z0-9_{GREEK_LETTERS}{''.join(SUBSCRIPTS)}]*"
+)
+_BELOW = re.compile(f"_?([{''.join(SUBSCRIPTS)}]+)")
+
+
+class StandardWords(NamedTuple):
+    """A scene's document in the standard words; ``places``: paths in it -> where that was written."""
+
+    value: dict[str, Any]
+    places: Mapping[Path, Path]
+
+    def written(self, where: Path) -> Path:
+        """A path in the standard words as a path of what was written."""
+        for size in range(len(where), 0, -1) if self.places else ():
+            found = self.places.get(where[:size])
+            if found is not None:
+                return (*found, *where[size:])
+        return where
+
+
+def standard_words(value: Mapping[str, Any]) -> StandardWords:
+    """A scene's document with the words that people use replaced by the standard ones; nothing given is changed.
+
+    >>> standard_words({"joints": [{"type": "pin", "between": ["ground", "a"], "axis": "z"}]}).value
+    {'constraints': [{'type': 'revolute', 'between': ['ground', 'a'], 'axis': [0, 0, 1]}]}
+    """
+    places: dict[Path, Path] = {}
+    found = dict(value)
+    if _subscripted(value):
+        found = {key: part if key in SAID else _named(part, (key,), places) for key, part in value.items()}
+    if "joints" in found:
+        found = _one_section(found, places)
+    d = dimension_of(found)
+    for key, entry in (("constraints", _constraint), ("forces", _force)):
+        if isinstance(found.get(key), (list, tuple)):
+            found[key] = [
+                entry(one, (key, i), d, places) if isinstance(one, Mapping) else one for i, one in enumerate(found[key])
+            ]
+    return StandardWords(found, places)
+
+
+def dimension_of(value: Mapping[str, Any]) -> int:
+    """The dimension that a document gives, 3 where it gives none that is one."""
+    given = value.get("dimension", 3)
+    return int(given) if not isinstance(given, str) and given in (1, 2, 3) else 3
+
+
+def _one_section(value: dict[str, Any], places: dict[Path, Path]) -> dict[str, Any]:
+    """`constraints` and `joints` as one list, in the order in which they stand."""
+    sections = [key for key in value if key in _SECTIONS and value[key] is not None]
+    odd = [key for key in sections if not isinstance(value[key], (list, tuple))]
+    if odd:
+        places[("constraints",)] = (odd[0],)
+        merged: Any = value[odd[0]]
+    else:
+        written = [(key, i) for key in sections for i in range(len(value[key]))]
+        moved: dict[Path, Path] = {
+            ("constraints", n): path for n, path in enumerate(written) if ("constraints", n) != path
+        }
+        names = [(path, places.pop(path)) for path in list(places) if path[0] in _SECTIONS]
+        stands: dict[Path, Path] = {path: ("constraints", n) for n, path in enumerate(written)}
+        places.update(moved)
+        places.update({(*stands[path[:2]], *path[2:]): origin for path, origin in names if path[:2] in stands})
+        merged = [value[key][i] for key, i in written]
+    first = next(key for key in value if key in _SECTIONS)
+    kept = {
+        ("constraints" if key == first else key): part
+        for key, part in value.items()
+        if key == first or key not in _SECTIONS
+    }
+    return {**kept, "constraints": merged}
+
+
+def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: dict[Path, Path]) -> Mapping[str, Any]:
+    kind = entry.get("type")
+    if kind is None and isinstance(entry.get("text"), str):
+        kind = Equation.kind()
+    elif isinstance(kind, str) and kind in SYNONYMS:
+        fields = TYPES[SYNONYMS[kind]].model_fields
+        kind = kind if any(key in entry and key not in fields for key in _TELLING) else SYNONYMS[kind]
+    if kind != entry.get("type"):
+        entry = {**entry, "type": kind}
+    known = other_keys(kind) if isinstance(kind, str) else {}
+    if not known.keys().isdisjoint(entry):
+        meant = {key: known[key] for key in entry if key in known and known[key] not in entry}
+        origin = places.get(here, here)
+        places.update({(*here, key): (*origin, written) for written, key in meant.items()})
+        entry = {meant.get(key, key): part for key, part in entry.items()}
+    if isinstance(entry.get("axis"), str):
+        entry = {**entry, "axis": _vector(entry["axis"], dimension)}
+    if isinstance(entry.get("axes"), (list, tuple)):
+        entry = {**entry, "axes": [_vector(axis, dimension) for axis in entry["axes"]]}
+    return entry
+
+
+@cache
+def other_keys(kind: str) -> Mapping[str, str]:
+    """Other words for the fields of a type."""
+    cls = TYPES.get(kind)
+    if cls is None:
+        return {}
+    return {**({"direction": "axis"} if "axis" in cls.model_fields else {}), **cls.other_keys}
+
+
+def _force(entry: Mapping[str, Any], here: Path, dimension: int, places: dict[Path, Path]) -> Mapping[str, Any]:
+    del here, places
+    if isinstance(entry.get("direction"), str):
+        return {**entry, "direction": _vector(entry["direction"], dimension)}
+    return entry
+
+
+def _vector(axis: Any, dimension: int) -> Any:
+    """``x``, ``-z`` as a vector; anything else as it is."""
+    match = _AXIS.fullmatch(axis) if isinstance(axis, str) else None
+    if match is None or match[2] not in "xyz"[:dimension]:
+        return axis
+    sign = -1 if match[1] in ("-", "−") else 1
+    return [sign if letter == match[2] else 0 for letter in "xyz"[:dimension]]
+
+
+def _subscripted(value: Any) -> bool:
+    """Does a subscript digit stand anywhere in a document?"""
+    left = [value]
+    while left:
+        part = left.pop()
+        if isinstance(part, str):
+            if not part.isascii() and not SUBSCRIPTS.keys().isdisjoint(part):
+                return True
+        elif isinstance(part, (list, tuple)):
+            left += part
+        elif isinstance(part, Mapping):
+            left += part
+            left += part.values()
+    return False
+
+
+def _named(value: Any, here: Path, places: dict[Path, Path]) -> Any:
+    """A value in which ``x₁`` as a whole name, and as a key, is ``x_1``; the very value where there is none."""
+    if isinstance(value, str):
+        return value if value.isascii() else standard_name(value)
+    if isinstance(value, Mapping):
+        found = {}
+        for key, part in value.items():
+            name = standard_name(key) if isinstance(key, str) else key
+            if name != key and name in value:
+                name = key
+            if name != key:
+                places[(*here, name)] = (*places.get(here, here), key)
+            found[name] = _named(part, (*here, name), places)
+        same = all(a is b for a, b in zip(found, value, strict=True)) and all(found[k] is value[k] for k in value)
+        return value if same else found
+    if isinstance(value, (list, tuple)):
+        listed = [_named(part, (*here, i), places) for i, part in enumerate(value)]
+        return value if all(a is b for a, b in zip(listed, value, strict=True)) else listed
+    return value
+
+
+def standard_name(name: str) -> str:
+    """A name with its subscript digits as ``_1``; any other text as it is.
+
+    >>> standard_name("θ₁₂"), standard_name("x₁ + 1")
+    ('θ_12', 'x₁ + 1')
+    """
+    return with_plain_subscripts(name) if not name.isascii() and _NAME.fullmatch(name) else name
+
+
+def with_plain_subscripts(text: str) -> str:
+    """A text with its subscript digits as ``_1``."""
+    return _BELOW.sub(lambda match: "_" + "".join(SUBSCRIPTS[digit] for digit in match[1]), text)

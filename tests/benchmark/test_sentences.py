@@ -1,0 +1,121 @@
+"""What charts say and show: sentences worked out by hand, headings and hardness, labels that cover nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from importlib.util import find_spec
+from itertools import combinations
+
+import pytest
+from benchmark.test_chart import DATA, line
+
+from dofkit.benchmark.record import AUTO, Fit, Outcome, TrialLine
+from dofkit.benchmark.sentences import sentences
+from dofkit.benchmark.summary import summary
+from dofkit.benchmark.trials import FAMILIES, GLOSSES, HEADINGS
+
+drawn = pytest.mark.skipif(find_spec("matplotlib") is None, reason="needs matplotlib")
+
+
+def step(knob: str, value: float, group: str, outcomes: Sequence[Outcome]) -> list[TrialLine]:
+    """Trials at one value of a knob."""
+    method = {"scene tolerance": AUTO, "tolerance": "numeric", "bits": "balls"}.get(knob, "field")
+    told = [line(f"t{i}", method, outcome, 0.001) for i, outcome in enumerate(outcomes)]
+    return [replace(one, knob=knob, value=value, group=group) for one in told]
+
+
+SWEEPS = [
+    *step("scene tolerance", 1e-3, "3", ["right", "right", "undecided", "right"]),
+    *step("scene tolerance", 1e-6, "3", ["wrong", "right", "wrong", "right"]),
+    *step("tolerance", 1e-3, "3", ["wrong", "right", "wrong", "wrong"]),
+    *step("tolerance", 1e-6, "3", ["right", "right", "wrong", "wrong"]),
+    *step("bits", 16, "0.001", ["wrong", "right"]),
+    *step("bits", 32, "0.001", ["right", "right"]),
+    *step("bits", 16, "1e-06", ["wrong", "right"]),
+    *step("bits", 32, "1e-06", ["wrong", "right"]),
+    *step("bits", 64, "1e-06", ["right", "right"]),
+    *step("prime bits", 3, "dof", ["undecided", "undecided"]),
+    *step("prime bits", 8, "dof", ["wrong", "right"]),
+    *step("prime bits", 10, "dof", ["right", "wrong"]),
+    *step("prime bits", 12, "dof", ["right", "right"]),
+]
+
+
+def test_sentences_by_hand() -> None:
+    told = sentences(summary(replace(DATA, sweeps=SWEEPS)))
+    assert told["trials"].endswith("of the answers of `auto` none is wrong and 0 % are left open.")
+    assert told["count"] == "`count` is wrong on 25 % and leaves 50 % open."
+    assert told["tolerance"] == (
+        "With the tolerance equal to the rounding dofkit finds what was rounded in 75 % of the trials and is wrong in "
+        "0 %; singular values with that tolerance find it in 25 %, and with the best one for all drawings in 50 %."
+    )
+    assert told["bits"] == (
+        "Balls by themselves are never wrong from 32 bits for a gap of 10^-3 and from 64 bits for a gap of 10^-6 on."
+    )
+    assert told["primes"] == (
+        "`field` by itself was wrong 2 times in 4, with primes of 8 to 10 bits, and never from 12 bits on; with 3 bits "
+        "it decided nothing."
+    )
+    assert "in 1 cases, the reductions change no answer" in told["reductions"]
+    assert told["reductions"].endswith("is a factor of 5 (independent blocks).")
+    assert "cost" not in told
+
+
+def test_every_family_has_its_heading_and_says_what_it_is() -> None:
+    assert set(HEADINGS) == set(FAMILIES) == set(GLOSSES)
+    assert len(set(HEADINGS.values())) == 5
+    assert all(GLOSSES.values())
+
+
+@drawn
+def test_families_stand_under_their_headings_the_hardest_last() -> None:
+    from dofkit.benchmark.figures import matrix
+
+    lines = [
+        *(replace(line("a", "count", "right", 0.1), family=family) for family in ("trailers", "time", "walls")),
+        *(replace(line("b", "count", "wrong", 0.1), family=family) for family in ("time", "time")),
+        *(replace(line("b", "count", "wrong", 0.1), family=family) for family in ("trailers",)),
+    ]
+    cells = matrix.together(score for score in summary(replace(DATA, lines=lines)).scores if score.family != "all")
+    differential, equations = HEADINGS["time"], HEADINGS["walls"]
+    assert matrix.in_order(cells) == ["all", differential, "trailers", "time", equations, "walls"]
+    assert (cells["all", "count"].trials, cells["all", "count"].wrong) == (6, 3)
+
+
+@drawn
+def test_an_exponent_stands_where_a_power_law_fits() -> None:
+    from dofkit.benchmark.figures import cost
+
+    fit = Fit(question="dof", family="trailers", method=AUTO, exponent=2, error=0.1, factor=1, points=5)
+    assert cost.holds(fit)
+    assert not cost.holds(fit.model_copy(update={"error": 0.3}))
+    assert not cost.holds(fit.model_copy(update={"points": 3}))
+    assert not cost.holds(fit.model_copy(update={"exponent": -0.15, "error": 0.07}))
+
+
+@drawn
+def test_labels_cover_no_mark_and_no_other_label() -> None:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    from matplotlib.offsetbox import AnnotationBbox
+    from matplotlib.transforms import Bbox
+
+    from dofkit.benchmark.figures.labels import Label, Piece, place
+
+    figure = Figure(figsize=(5, 4))
+    FigureCanvasAgg(figure)
+    axes = figure.subplots()
+    axes.set_xlim(0, 10)
+    axes.set_ylim(0, 10)
+    marks = [(5.0 + 0.5 * (k % 3), 5.0 + 0.4 * (k // 3)) for k in range(6)]
+    place(axes, [Label(at, ([Piece(f"method {k}", "#000000")],)) for k, at in enumerate(marks)], 4.0)
+    figure.canvas.draw()
+    boxes = [box for box in axes.get_children() if isinstance(box, AnnotationBbox)]
+    texts = [box.offsetbox.get_window_extent() for box in boxes]
+    assert len(texts) == 6
+    assert not [1 for one, other in combinations(texts, 2) if Bbox.intersection(one.padded(-1), other.padded(-1))]
+    middles = [axes.transData.transform(at) for at in marks]
+    assert not [1 for text in texts for x, y in middles if text.contains(x, y)]
+    inside = axes.get_window_extent()
+    assert all(inside.contains(text.x0, text.y0) and inside.contains(text.x1, text.y1) for text in texts)

@@ -1,0 +1,37 @@
+"""Lines of the report: what to give where the freedom is open, and sentences whose grammar follows the numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import dofkit
+
+#: Landau's centrifugal governor: two arms of equal length from the ground, two more to a sleeve below.
+_PLACES = {"A": ["a/2", 0, "-sqrt(3) a/2"], "B": ["-a/2", 0, "-sqrt(3) a/2"], "C": [0, 0, "-sqrt(3) a"]}
+
+
+def governor(*, drawn: bool) -> dict[str, Any]:
+    """It turns with Omega; every mass is drawn, or none."""
+    ends = [([0, 0, 0], "A"), ([0, 0, 0], "B"), ("A", "C"), ("B", "C")]
+    arms = [{"type": "link", "between": list(pair), "length": "a"} for pair in ends]
+    turning = [f"x_{m} sin(Omega t) = y_{m} cos(Omega t)" for m in "AB"]
+    return {
+        "parameters": {"a": "positive", "Omega": "nonzero"},
+        "particles": [{"name": m, "at": at} if drawn else {"name": m} for m, at in _PLACES.items()],
+        "constraints": [*arms, "x_C = 0", "y_C = 0", *turning],
+    }
+
+
+def test_what_is_undecided_for_want_of_a_drawing_says_so() -> None:
+    blind = dofkit.classify(governor(drawn=False))
+    assert blind.dof is None
+    assert any("give `at` for A, B, C" in warning for warning in blind.warnings)
+    seen = dofkit.classify(governor(drawn=True))
+    assert (seen.dof, seen.verdict) == (1, "proved")
+    assert not any("give `at`" in warning for warning in seen.warnings)
+
+
+def test_one_coordinate_and_one_equation_are_singular() -> None:
+    report = dofkit.classify({"coordinates": ["x"], "constraints": ["x = 1", "2 x = 2"]})
+    assert "1 coordinate in 1 independent part" in report.modelled
+    assert "only 1 is independent here" in (report.count.errs or "")

@@ -1,0 +1,88 @@
+"""The JSON Schema of a scene: it takes every scene, in any words, and tells one fault by one line."""
+
+from __future__ import annotations
+
+import json
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from dofkit.base.documents import read_document
+from dofkit.homework.schemas import SCHEMAS
+from dofkit.scene.schema import scene_schema
+
+ROOT = Path(__file__).parents[2]
+GOOD = sorted([*ROOT.glob("catalog/*/*.yaml"), *ROOT.glob("tests/scenes/[!b]*/*.yaml")])
+VALIDATOR = Draft202012Validator(scene_schema())
+
+
+def plain(value: Any) -> Any:
+    """A document as JSON has it."""
+    if isinstance(value, dict):
+        return {key: plain(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [plain(part) for part in value]
+    return float(value) if isinstance(value, Decimal) else value
+
+
+def complaints(text: str) -> list[str]:
+    found = VALIDATOR.iter_errors(plain(read_document(text, "x").value))
+    return [f"{error.json_path}: {error.message}" for error in found]
+
+
+def test_the_schemas_are_schemas_and_say_which() -> None:
+    Draft202012Validator.check_schema(scene_schema())
+    assert "anyOf" not in json.dumps(scene_schema())
+    for name, schema in {"scene": scene_schema, **SCHEMAS}.items():
+        assert schema()["$id"] == f"urn:dofkit:schema:{name}"
+        assert schema()["$schema"].endswith("2020-12/schema")
+
+
+@pytest.mark.parametrize("path", GOOD, ids=lambda path: path.stem)
+def test_every_scene_is_valid(path: Path) -> None:
+    assert complaints(path.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "{type: hinge, between: [ground, a], at: [0, 0, 0], axis: -z}",
+        "{type: slider, between: [ground, a], direction: x}",
+        "{type: string, between: [A, [0, 0, 0], B]}",
+        "{type: rod, between: [A, {on: a, at: [0, 0, 0]}], distance: 2}",
+        '{name: spin, text: "x = 1"}',
+        "x = 1",
+    ],
+)
+def test_other_words_are_valid(line: str) -> None:
+    for section in ("constraints", "joints"):
+        assert complaints(f"bodies: [a]\n{section}:\n- {line}\n") == []
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("{type: link, between: [A]}", "$.constraints[0].between: ['A'] is too short"),
+        ("{type: roll, body: a}", "$.constraints[0]: 'radius' is a required property"),
+        ("{type: string, length: 2}", "$.constraints[0]: 'along' is a required property"),
+        ("{between: [A, B]}", "$.constraints[0]: 'type' is a required property"),
+        (
+            "{type: revolute, between: [a, b], axis: 5}",
+            "$.constraints[0].axis: 5 is not of type 'array', 'null', 'string'",
+        ),
+        ("{type: revolute, between: [a, b], att: 5}", "$.constraints[0]: Additional properties are not allowed"),
+        ("5", "$.constraints[0]: 5 is not of type 'string', 'object'"),
+    ],
+)
+def test_a_fault_is_told_by_its_type(line: str, told: str) -> None:
+    (found,) = complaints(f"constraints:\n- {line}\n")
+    assert found.startswith(told)
+
+
+def test_an_unknown_type_lists_the_known_ones() -> None:
+    (found,) = complaints("constraints:\n- {type: pivot}\n")
+    assert found.startswith("$.constraints[0].type: 'pivot' is not one of [")
+    assert "'hinge'" in found
