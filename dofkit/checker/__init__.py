@@ -5,7 +5,7 @@ It shares nothing with the engines that made the claims, and imports nothing of 
 
 from __future__ import annotations
 
-from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import Verification, verify
 
 __all__ = ["CheckError", "Verification", "verify"]

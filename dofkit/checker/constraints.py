@@ -1,32 +1,132 @@
-"""Every type of constraint: the equations it stands for."""
+"""Every type of constraint: the equations it stands for, and the points, bodies and directions that it mentions."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import partial
 from itertools import combinations, pairwise
-from typing import NamedTuple
+from typing import Any
 
-from dofkit.checker.derivatives import TWO, in_velocities, substituted
-from dofkit.checker.errors import refuse
-from dofkit.checker.geometry import (
-    CheckedFrame,
-    MaterialPoint,
-    Vector,
-    apart,
-    cross,
-    dot,
-    length,
-    less,
-    rotation,
-    scaled,
-    square,
+from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector, apart, cross, dot, length, less, scaled, square
+from dofkit.checker.grammar import PI, KnownNames, Sided, parse, parse_relations
+from dofkit.checker.trees import (
+    MINUS,
+    ONE,
+    TWO,
+    ZERO,
+    Effort,
+    Tree,
+    add,
+    call,
+    difference,
+    negative,
+    power,
+    refuse,
+    symbol,
+    times,
 )
-from dofkit.checker.grammar import Sided, parse_relations
-from dofkit.checker.surroundings import Entry, Surroundings
-from dofkit.checker.trees import ZERO, Tree, add, call, difference, number, power, symbol, times
-from dofkit.checker.words import PI
+from dofkit.checker.values import evaluated, excludes_zero, in_velocities, substituted, symbols_in
 
-Read = Callable[[Surroundings, Entry], Iterator[Tree | Sided]]
+Entry = Mapping[str, Any]
+
+
+@dataclass
+class Surroundings:
+    """A scene as one constraint after the other sees it.
+
+    ``names``: what texts may mention; ``signs``: of the parameters that stay symbols. ``generic`` grows by a symbol for
+    each length or component that was left out; ``drawn`` by the bodies that the drawing places, ``welded`` by pairs.
+    ``index``: the place of the constraint that is read, from 1; ``made``: how many symbols of a stem it made.
+    """
+
+    dimension: int
+    frames: dict[str, CheckedFrame]
+    names: KnownNames = field(default_factory=KnownNames)
+    signs: dict[str, str] = field(default_factory=dict)
+    particles: dict[str, MaterialPoint] = field(default_factory=dict)
+    generic: list[str] = field(default_factory=list)
+    drawn: set[str] = field(default_factory=set)
+    welded: list[tuple[str, str]] = field(default_factory=list)
+    index: int = 0
+    made: Counter[str] = field(default_factory=Counter)
+
+    def expression(self, value: object, *allowed: str) -> Tree:
+        """A number or text that mentions parameters, and what is ``allowed`` besides."""
+        found = parse(value, self.names)
+        refuse(not symbols_in(found) <= {*self.signs, *allowed}, f"`{value}` mentions what cannot stand there")
+        return found
+
+    def moving(self, value: object) -> Tree:
+        """A length that may change with time and place."""
+        return self.expression(value, "t", *self.names.coordinates)
+
+    def vector(self, values: Any) -> Vector:
+        """A place or direction."""
+        refuse(not isinstance(values, list) or len(values) != self.dimension, "a place has as many components as space")
+        return tuple(map(self.expression, values))
+
+    def fresh(self, stem: str) -> Tree:
+        """A new generic symbol, named by the constraint it belongs to."""
+        name = f"{stem}_c{self.index}"
+        self.made[name] += 1
+        self.generic.append(name if self.made[name] == 1 else f"{name}_{self.made[name]}")
+        return symbol(self.generic[-1])
+
+    def place(self, values: object) -> Vector:
+        """A given place, or a generic one."""
+        return self.vector(values) if values is not None else tuple(self.fresh("place") for _ in range(self.dimension))
+
+    def point(self, written: Any) -> MaterialPoint:
+        """A particle, a point of the world, or a point of a body."""
+        if isinstance(written, Mapping):
+            known_fields(written, "on at")
+            self.drawn.add(written["on"])
+            return self.frames[written["on"]].point(self.vector(written["at"]))
+        listed = isinstance(written, list)
+        return self.frames["ground"].point(self.vector(written)) if listed else self.particles[str(written)]
+
+    def direction(self, values: object) -> tuple[Vector, tuple[Vector, ...]]:
+        """A direction n, given or generic, and d - 1 independent vectors across it."""
+        every = range(self.dimension)
+        n = self.vector(values) if values is not None else (ONE, *(self.fresh("axis") for _ in every[1:]))
+        sure = [i for i in every if nowhere_zero(n[i], self.signs, Effort())]
+        refuse(not sure and (self.dimension == 3 or not any(map(symbols_in, n))), "a direction may be 0")
+        k = min(sure, key=lambda i: n[i].head != "number", default=0)
+        rows = [{i: n[k], k: negative(n[i])} for i in every if i != k]
+        return n, tuple(tuple(row.get(j, ZERO) for j in every) for row in rows)
+
+    def on_places(self, texts: Any) -> list[Sided]:
+        """Relations in which x, y, z are the coordinates of a point; no velocity occurs."""
+        refuse(not isinstance(texts, list), "a curve is a list of texts")
+        letters = set("xyz"[: self.dimension])
+        values = {name: tree for name, tree in self.names.values.items() if name not in letters}
+        functions = {name: own for name, own in self.names.functions.items() if name not in letters}
+        own = KnownNames(self.names.coordinates.union(letters), values, functions)
+        found = [relation for text in texts for relation in parse_relations(text, own)]
+        allowed = own.coordinates.union(self.signs, "t")
+        refuse(any(not symbols_in(one.tree) <= allowed for one in found), "a surface mentions places, parameters and t")
+        return found
+
+
+def known_fields(entry: Entry, fields: str) -> None:
+    """Refuse an entry with a field that is not known: it would be read past."""
+    unknown = entry.keys() - set(fields.split())
+    refuse(unknown, f"there is no {' '.join(sorted(unknown))}; known are {fields}")
+
+
+def nowhere_zero(tree: Tree, signs: Mapping[str, str], effort: Effort, positive: bool = False) -> bool:
+    """Whether a tree is a product of powers of numbers and parameters that are not 0, or are positive."""
+    if not symbols_in(tree):
+        ball = evaluated(tree, {}, effort)
+        return bool(ball > 0) if positive else excludes_zero(ball)
+    if tree.head == "product":
+        return all(nowhere_zero(part, signs, effort, positive) for part in tree.below)
+    if tree.head == "power":
+        return nowhere_zero(tree.below[0], signs, effort, positive) and not symbols_in(tree.below[1])
+    sign = signs.get(str(tree.value)) if tree.head == "symbol" else ""
+    return sign == "positive" or (sign == "nonzero" and not positive)
 
 
 def equation(world: Surroundings, entry: Entry) -> Iterator[Sided]:
@@ -45,21 +145,17 @@ def on(world: Surroundings, entry: Entry) -> Iterator[Sided]:
 
 
 def cam(world: Surroundings, entry: Entry) -> Iterator[Tree]:
-    """The profile's equation at the point in the body's own coordinates R(theta)^T (P - p)."""
+    """The profile's equation at the point in the body's own coordinates."""
     point, frame = world.point(entry["point"]), world.frames[entry["body"]]
     (profile,) = world.on_places([entry["curve"]])
     refuse(profile.sign != "=", "a profile is one equation in x and y")
-    rows = rotation(2, 0, 1, symbol(list(frame.reference)[2]) if frame.reference else ZERO)
-    arm = less(point.place, frame.position)
-    own = [dot(column, arm) for column in zip(*rows, strict=True)]
-    yield substituted(profile.tree, dict(zip("xy", own, strict=True)))
+    yield substituted(profile.tree, dict(zip("xy", frame.own(point.place), strict=True)))
 
 
 def link(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """|A - B|^2 - length^2, times the square of the denominator of A - B."""
     first, second = map(world.point, entry["between"])
-    given = world.moving(entry["length"]) if "length" in entry else None
-    yield distance(world, first, second, given and power(given, TWO))
+    yield distance(world, first, second, power(world.moving(entry["length"]), TWO) if "length" in entry else None)
 
 
 def rigid(world: Surroundings, entry: Entry) -> Iterator[Tree]:
@@ -81,10 +177,8 @@ def string(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """The distances along the points add up to the length."""
     pairs = list(pairwise(map(world.point, entry["along"])))
     drawn = [length(less(b.start, a.start)) for a, b in pairs if a.start and b.start]
-    if "length" in entry:
-        total = world.moving(entry["length"])
-    else:
-        total = add(*drawn) if len(drawn) == len(pairs) else world.fresh("length")
+    given = world.moving(entry["length"]) if "length" in entry else None
+    total = given or (add(*drawn) if len(drawn) == len(pairs) else world.fresh("length"))
     yield difference(add(*(length(less(b.place, a.place)) for a, b in pairs)), total)
 
 
@@ -139,87 +233,47 @@ def gear(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     yield difference(second, times(world.expression(entry["ratio"]), first))
 
 
-#: What each joint keeps: no ``turn`` of one body against the other; the ``point`` together; the ``axis`` in its
-#: direction (in the plane it is); the point on the ``line``, or in the ``plane`` across the axis; the ``cross`` of two
-#: axes; the ``thread``.
-KEEPS = {
-    "revolute": "point axis", "prismatic": "turn line", "weld": "turn point", "cylindrical": "axis line",
-    "screw": "axis line thread", "universal": "point cross", "spherical": "point", "planar": "axis plane",
-}  # fmt: skip
+def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
+    """What a joint keeps, one after the other, and what its drive prescribes.
 
-
-class CheckedJoint(NamedTuple):
-    """The bodies of a joint, the place where they meet, a direction n that they keep, and vectors across n."""
-
-    first: CheckedFrame
-    second: CheckedFrame
-    place: Vector
-    n: Vector
-    across: tuple[Vector, ...]
-
-    def offset(self, direction: Vector) -> Tree:
-        """How far the place has moved along a direction of the first body."""
-        return self.first.offset(self.second.point(self.place), self.place, direction)
-
-    def shifted(self, by: Tree) -> Tree:
-        """How much more than by a given length the place has moved along n."""
-        under = times(self.first.under, self.second.point(self.place).under)
-        return difference(self.offset(self.n), times(under, length(self.n), by))
-
-    def turned(self) -> tuple[Tree, Tree]:
-        """The sine and cosine of the angle about n, times one positive factor."""
-        u, now = self.across[0], self.second.carry(self.across[0])
-        return dot(self.first.carry(cross(self.n, u)), now), times(length(self.n), dot(self.first.carry(u), now))
-
-    def turns(self) -> Tree:
-        """How often the second body has turned about n."""
-        return times(call("atan2", *self.turned()), power(times(TWO, PI), number(-1)))
-
-    def turned_by(self, angle: Tree) -> Tree:
-        """The angle about n is a given one."""
-        if not self.across:
-            return difference(difference(self.second.angle, self.first.angle), angle)
-        sine, cosine = self.turned()
-        return difference(times(sine, call("cos", angle)), times(cosine, call("sin", angle)))
-
-
-def joint(world: Surroundings, entry: Entry) -> Iterator[Tree]:
-    """What a joint keeps, one after the other, and what its drive prescribes."""
-    kind, keeps = entry["type"], KEEPS[entry["type"]].split()
+    No ``turn`` of one body against the other; the ``point`` together; the ``axis`` in its direction (in the plane it
+    is); the point on the ``line``, or in the ``plane`` across the axis; the ``cross`` of two axes; the ``thread``.
+    """
     first, second = (world.frames[name] for name in entry["between"])
     if not entry.keys().isdisjoint(("at", "axis", "axes")):
         world.drawn.update(entry["between"])
-    if kind == "weld":
+    if keeps == "turn point":
         world.welded.append((first.name, second.name))
     # what does not turn moves as its origin does
-    place = second.start if "turn" in keeps or kind == "planar" else world.place(entry.get("at"))
+    place = second.start if "turn" in keeps or "plane" in keeps else world.place(entry.get("at"))
     asks = "line" in keeps or ("axis" in keeps and world.dimension == 3)
     refuse(asks and "at" in entry and "axis" not in entry, "a joint with a place has an axis")
-    hinge = CheckedJoint(first, second, place, *(world.direction(entry.get("axis")) if asks else ((), ())))
+    n, across = world.direction(entry.get("axis")) if asks else ((), ())
+    moved = second.point(place)
+
+    def shifted(by: Tree) -> Tree:
+        return difference(first.offset(moved, place, n), times(first.under, moved.under, length(n), by))
+
     equations: dict[str, Callable[[], Iterable[Tree]]] = {
         "turn": lambda: parallel(first, second),
-        "point": lambda: apart(first.point(place), second.point(place))[0],
-        "axis": lambda: (dot(first.carry(u), second.carry(hinge.n)) for u in hinge.across),
-        "line": lambda: map(hinge.offset, hinge.across),
-        "plane": lambda: [hinge.offset(hinge.n)],
+        "point": lambda: apart(first.point(place), moved)[0],
+        "axis": lambda: (dot(first.carry(u), second.carry(n)) for u in across),
+        "line": lambda: (first.offset(moved, place, u) for u in across),
+        "plane": lambda: [first.offset(moved, place, n)],
         "cross": lambda: [crossed(world, entry, first, second)],
-        "thread": lambda: [hinge.shifted(times(world.expression(entry["pitch"]), hinge.turns()))],
+        "thread": lambda: [shifted(times(world.expression(entry["pitch"]), turns(first, second, n, across[0])))],
     }
-    for kept in keeps:
+    for kept in keeps.split():
         yield from equations[kept]()
     if "drive" in entry:
         law = world.expression(entry["drive"], "t")
-        yield hinge.turned_by(law) if kind in ("revolute", "screw") else hinge.shifted(law)
-
-
-def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
-    """No turn of one against the other: the angle; the Cayley parameters; or three entries of A1^T A2."""
-    if len(first.position) == 2:
-        return [difference(second.angle, first.angle)]
-    if first.cayley is not None and second.cayley is not None:
-        return less(second.cayley, first.cayley)
-    e = rotation(3, 0, 1)
-    return [dot(first.carry(e[i]), second.carry(e[j])) for i, j in ((0, 1), (1, 2), (2, 0))]
+        if keeps in ("turn line", "axis line"):
+            yield shifted(law)
+        elif not across:
+            yield difference(difference(second.angle, first.angle), law)
+        else:
+            sine, cosine = turned(first, second, n, across[0])
+            yield difference(times(sine, call("cos", law)), times(cosine, call("sin", law)))
 
 
 def crossed(world: Surroundings, entry: Entry, first: CheckedFrame, second: CheckedFrame) -> Tree:
@@ -232,16 +286,40 @@ def crossed(world: Surroundings, entry: Entry, first: CheckedFrame, second: Chec
     return dot(first.carry(a), second.carry(b))
 
 
+def turned(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> tuple[Tree, Tree]:
+    """The sine and cosine of the angle about n, times one positive factor; u is across n."""
+    now = second.carry(u)
+    return dot(first.carry(cross(n, u)), now), times(length(n), dot(first.carry(u), now))
+
+
+def turns(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> Tree:
+    """How often the second body has turned about n."""
+    return times(call("atan2", *turned(first, second, n, u)), power(times(TWO, PI), MINUS))
+
+
+def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
+    """No turn of one against the other: the angle; the Cayley parameters; or three entries of A1^T A2."""
+    if len(first.position) == 2:
+        return [difference(second.angle, first.angle)]
+    if first.cayley is not None and second.cayley is not None:
+        return less(second.cayley, first.cayley)
+    a, b = (tuple(zip(*frame.turn, strict=True)) for frame in (first, second))
+    return [dot(a[i], b[j]) for i, j in ((0, 1), (1, 2), (2, 0))]
+
+
+#: What each joint keeps, the fields it has beside ``between``, and the dimensions in which it is defined.
+JOINTS = {
+    "revolute": ("point axis", "at axis drive", "23"), "prismatic": ("turn line", "at axis drive", "23"),
+    "weld": ("turn point", "", "23"), "cylindrical": ("axis line", "at axis drive", "3"),
+    "screw": ("axis line thread", "at axis drive pitch", "3"), "planar": ("axis plane", "at axis", "3"),
+    "universal": ("point cross", "at axes", "3"), "spherical": ("point", "at axis", "3"),
+}  # fmt: skip
 #: Every type: how it is read, the fields it has, and the dimensions in which it is defined.
-TYPES: dict[str, tuple[Read, str, str]] = {
-    "equation": (equation, "text", "123"), "on": (on, "members surface curve", "123"),
-    "link": (link, "between length", "123"), "rigid": (rigid, "members", "123"),
-    "string": (string, "along length", "123"), "fixed": (fixed, "point body", "123"),
-    "coincident": (coincident, "between", "123"), "slot": (slot, "point body at axis", "23"),
-    "cam": (cam, "point body curve", "2"), "roll": (roll, "body radius", "23"),
-    "revolute": (joint, "between at axis drive", "23"), "prismatic": (joint, "between at axis drive", "23"),
-    "weld": (joint, "between", "23"), "cylindrical": (joint, "between at axis drive", "3"),
-    "screw": (joint, "between at axis drive pitch", "3"), "universal": (joint, "between at axes", "3"),
-    "spherical": (joint, "between at axis", "3"), "planar": (joint, "between at axis", "3"),
-    "gear": (gear, "between ratio carrier", "2"),
+TYPES: dict[str, tuple[Callable[[Surroundings, Entry], Iterator[Tree | Sided]], str, str]] = {
+    "equation": (equation, "text", "123"), "rigid": (rigid, "members", "123"), "fixed": (fixed, "point body", "123"),
+    "on": (on, "members surface curve", "123"), "link": (link, "between length", "123"),
+    "roll": (roll, "body radius", "23"), "string": (string, "along length", "123"),
+    "slot": (slot, "point body at axis", "23"), "coincident": (coincident, "between", "123"),
+    "gear": (gear, "between ratio carrier", "2"), "cam": (cam, "point body curve", "2"),
+    **{name: (partial(joint, keeps=keeps), f"between {own}", where) for name, (keeps, own, where) in JOINTS.items()},
 }  # fmt: skip

@@ -9,92 +9,44 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.checker.balls import CheckedPoint, excludes_zero
-from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.errors import refuse
+from dofkit.checker.curves import crossing, isolated
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.fields import Told, admissible, family, independent, involutive, of_word, span
-from dofkit.checker.texts import heads_in
+from dofkit.checker.fields import Told, admissible, independent, involutive, of_word, span
+from dofkit.checker.trees import refuse
+from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
+
+
+def _finite_minor(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
+    minor = evidence.minor(given["minor"])
+    moving = any(evidence.relation(row).kind != "finite" for row in minor.rows)
+    refuse(moving, "a row of velocities does not reduce dof by itself")
+    return minor
+
+
+#: What shows how many freedoms there are at most: as many as coordinates less rows, or one less.
+MOST = {"minor": _finite_minor, "frobenius": involutive, "isolated": isolated, "crossing": crossing}
+CURVED = ("isolated", "crossing")
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """dof or velocity_dof near a point, between two bounds."""
-    path, size = claim["path"], len(evidence.problem.coordinates)
-    one = {"minor": claim.get("minor")}
+    path, size, one = claim["path"], len(evidence.problem.coordinates), {"minor": claim.get("minor")}
     most, least = claim.get("most", {**one, "rule": "minor"}), claim.get("least", {**one, "rule": "regular"})
-    refuse(most["rule"] not in ("minor", "frobenius"), "an upper bound is `minor` or `frobenius`")
-    minor = involutive(evidence, most) if most["rule"] == "frobenius" else evidence.minor(most["minor"])
-    if most["rule"] == "minor" and path == "/dof":
-        _finite_rows(evidence, minor)
-    if least["rule"] == "regular":
+    refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
+    minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
+    above = size - len(minor.rows) - (most["rule"] in CURVED)
+    if least["rule"] == "crossing":
+        point, found = crossing(evidence, least).point, above
+    elif least["rule"] == "regular":
         other = evidence.accounts(evidence.minor(least["minor"]), evidence.equations)
         point, found = other.point, size - len(other.rows)
     else:
-        refuse(least["rule"] not in ("span", "family"), "a lower bound is `regular`, `span` or `family`")
-        given, longest = {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12
-        point, found = span(evidence, given, longest) if least["rule"] == "span" else family(evidence, given)
-    above = size - len(minor.rows)
+        refuse(least["rule"] != "span", "a lower bound is `regular`, `span` or `crossing`")
+        point, found = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
     evidence.is_about(claim["about"], point)
     verified[f"{path} at"] = "reference" if claim["about"] == "reference" else point.name
     return found
-
-
-def _finite_rows(evidence: CheckedEvidence, minor: CheckedMinor) -> None:
-    moving = any(evidence.relation(row).kind != "finite" for row in minor.rows)
-    refuse(moving, "a row of velocities does not reduce dof by itself")
-
-
-def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """The dimension of the whole set, from relations of three kinds, with a regular point where there are others.
-
-    ``order``: a relation gives a coordinate, a number times it and what is free or given before (a graph).
-    ``blocks``: a single analytic relation that is not 0 everywhere has zeros of dimension n - 1 at most.
-    ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
-    these the set is a manifold, of the rank that a cover of all shows (Sard 1942, Federer 3.4.3). Blocks, and the
-    generic relations together, share no free coordinate.
-    """
-    refuse(evidence.moving or claim.get("about") != "everywhere", "the rule is about everywhere, of finite relations")
-    order, blocks, generic = claim.get("order", []), claim.get("blocks", []), dict(claim.get("generic", []))
-    names, free = [*(name for name, _ in order), *blocks, *generic], _free(evidence, order)
-    refuse(sorted(names) != sorted(evidence.finite), "each finite relation stands in one place")
-    groups = [_coordinates(evidence, name, free) for name in blocks]
-    groups.append(frozenset().union(*(_coordinates(evidence, name, free) for name in generic)))
-    refuse(sum(map(len, groups)) != len(frozenset().union(*groups)), "two blocks share a coordinate")
-    for name, letter in generic.items():
-        refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
-    rank = len(names)
-    if blocks or generic:
-        minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.finite)
-        evidence.is_about("here", minor.point)
-        rank = len(minor.rows)
-    if blocks or rank < len(names):
-        lefts = [evidence.relation(name).left for name in names]
-        smooth = all(evidence.has_value_everywhere(left) and "apply" not in heads_in(left) for left in lefts)
-        refuse(not smooth, "a relation is not analytic everywhere")
-    if rank < len(names):
-        rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
-        refuse(blocks or sorted(rows) != sorted(names), "one cover of all finite relations is needed")
-    return len(evidence.problem.coordinates) - rank
-
-
-def _free(evidence: CheckedEvidence, order: list[list[str]]) -> dict[str, frozenset[str]]:
-    """On which coordinates those that are given depend."""
-    later, found = [q for _, q in order], dict[str, frozenset[str]]()
-    own = len(set(later)) == len(later) and set(later) <= set(evidence.problem.coordinates)
-    refuse(not own, "each relation gives a coordinate of its own")
-    for i, (name, q) in enumerate(order):
-        left = evidence.relation(name).left
-        gives = evidence.ring.rational(derivative(left, q)) and evidence.has_value_everywhere(left)
-        refuse(not gives, f"`{name}` does not give `{q}` everywhere")
-        refuse(not symbols_in(left).isdisjoint(later[i + 1 :]), f"`{name}` holds what is given later")
-        found[q] = _coordinates(evidence, name, found) - {q}
-    return found
-
-
-def _coordinates(evidence: CheckedEvidence, name: str, given: dict[str, frozenset[str]]) -> frozenset[str]:
-    held = symbols_in(evidence.relation(name).left) & set(evidence.problem.coordinates)
-    return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))
 
 
 def instantaneous(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -193,26 +145,41 @@ def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]
 
 
 def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """How many equations a constraint adds to those of the constraints before it; or how many finite ones there are."""
+    """How many equations a constraint adds to those of the constraints before it.
+
+    Of the last constraint: by how much the dimension falls, from a manifold to a dof that was verified there.
+    """
     minor, order = evidence.minor(claim["minor"]), owners(evidence)
     evidence.is_about("here", minor.point)
-    if claim["path"] == "/count/independent":
-        return _rank(evidence, minor, evidence.finite)
     place, own = order.index(claim["owner"]), len(evidence.owned(claim["owner"]))
     refuse(not own, "the constraint has no equations")
-    ranks = [_rank(evidence, minor, relations_of(evidence, order[:k])) for k in (place, place + 1)]
-    return min(own, ranks[1] - ranks[0])
+    before, upto = (relations_of(evidence, order[:k]) for k in (place, place + 1))
+    last = "last" in claim and "/dof at" in verified and not evidence.moving and set(upto) == set(evidence.finite)
+    after = _same_place(evidence, minor.point, verified) if last else _rank(evidence, minor, upto)
+    return min(own, after - _rank(evidence, minor, before))
 
 
 def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
     """The constraints named follow from the others near the point, and no more could be dropped.
 
     No more: of E equations with r independent rows E - r can be spared at most, where what depends does so by numbers,
-    or is a single relation that depends with cofactors none of which is 0.
+    or is a single relation that depends with cofactors none of which is 0. None is named where ``without`` any the rows
+    of the others are independent, and leave more than the dof that was verified there.
     """
-    minor, dropped = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations), names_told(claim)
+    dropped, every = names_told(claim), set(evidence.equations)
+    order = [owner for owner in owners(evidence) if evidence.owned(owner)]
+    if "without" in claim:
+        minors = {name: evidence.minor(claim["without"][name]) for name in order}
+        others = {name: every.difference(evidence.owned(name)) for name in order}
+        ranks = {_same_place(evidence, minor.point, verified) - len(minor.rows) for minor in minors.values()}
+        whole = all(set(minor.rows) == others[name] for name, minor in minors.items())
+        refuse(
+            evidence.moving or min(ranks, default=0) <= 0 or not whole or "/dof at" not in verified,
+            "without a constraint the others are no manifold, or as large",
+        )
+        return []
+    minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     evidence.is_about("here", minor.point)
-    order, every = [owner for owner in owners(evidence) if evidence.owned(owner)], set(evidence.equations)
     refuse(not set(dropped) <= set(order) or not set(minor.rows) <= every, "no constraints, or rows of no relations")
     kept = relations_of(evidence, [owner for owner in order if owner not in dropped])
     evidence.follow(relations_of(evidence, dropped), kept, minor.point, "what is kept")
@@ -252,12 +219,11 @@ def _same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) 
 
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
     """All other coordinates are functions of these near the point, whose number is dof there."""
-    minor = involutive(evidence, claim) if "fields" in claim else evidence.minor(claim["minor"])
-    if "fields" not in claim:
-        _finite_rows(evidence, minor)
-    others = set(evidence.problem.coordinates) - set(minor.columns)
-    refuse(set(names_told(claim)) != others, "the columns of the minor are not all the other coordinates")
-    refuse(_same_place(evidence, minor.point, verified) != len(minor.rows), "their number is not a verified dof")
+    minor = MOST[claim["rule"]](evidence, claim)
+    columns = {*minor.columns, *([claim["free"]] if claim["rule"] == "isolated" else [])}
+    whole = sorted((*columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
+    refuse(not whole, "the columns of the minor are not all the other coordinates")
+    refuse(_same_place(evidence, minor.point, verified) != len(columns), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names_told(claim)
 

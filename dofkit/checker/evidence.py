@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from functools import cached_property
+from collections.abc import Collection, Iterable
+from contextlib import suppress
 from typing import Any, NamedTuple
 
-from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, krawczyk, regular
-from dofkit.checker.derivatives import derivative, substituted, symbols_in
-from dofkit.checker.errors import CheckError, refuse
 from dofkit.checker.relations import FAULTS, CheckedRelations, told, total_derivative
-from dofkit.checker.trees import ONE, ZERO, Tree, symbol
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
+from dofkit.checker.values import CheckedPoint, derivative, evaluated, excludes_zero, linear_in, substituted, symbols_in
 
 __all__ = ["FAULTS", "CheckedEvidence", "CheckedMinor", "told"]
 
@@ -28,28 +26,16 @@ class CheckedMinor(NamedTuple):
 class CheckedEvidence(CheckedRelations):
     """The points and minors of a certificate, each looked at when it is used, and once."""
 
-    @cached_property
-    def seen(self) -> dict[Any, Any]:
-        """What was looked at: points and minors by their ids, relations that hold by names and points."""
-        return {}
-
-    @cached_property
-    def index(self) -> dict[str, dict[str, dict[str, Any]]]:
-        """The entries of every part by their ids."""
-        return {part: {str(one.get("id")): one for one in entries} for part, entries in self.parts.items()}
-
     def named(self, part: str, name: Any) -> dict[str, Any]:
         """A point, minor, field or cover by its id."""
-        if not isinstance(name, str) or name not in self.index[part]:
-            raise CheckError(f"no such entry of `{part}`: {str(name)[:60]!r}")
-        return self.index[part][name]
+        self.effort.spend(len(self.parts[part]))
+        found = [one for one in self.parts[part] if one["id"] == name]
+        refuse(not found, f"no such entry of `{part}`: {str(name)[:60]!r}")
+        return found[0]
 
     def point(self, name: Any) -> CheckedPoint:
         """A point by its id: exact, or certified by interval Newton."""
-        if ("points", name) not in self.seen:
-            self.seen["points", name] = self._point(self.named("points", name))
-        found: CheckedPoint = self.seen["points", name]
-        return found
+        return self.once(("points", name), lambda: self._point(self.named("points", name)))
 
     def _point(self, given: dict[str, Any]) -> CheckedPoint:
         values, columns, rows = dict[str, Tree](), given.get("columns", []), given.get("rows", [])
@@ -59,21 +45,19 @@ class CheckedEvidence(CheckedRelations):
         refuse(not square, "a box has as many rows as columns, each once, and not too many")
         for name, text in given["values"].items():
             values[name] = substituted(self.text(text), values)
-        functions = {
-            name: (tuple(f["arguments"]), self.text(f["text"], f["arguments"]))
-            for name, f in given.get("functions", {}).items()
-        }
-        for name, (arguments, text) in functions.items():
+        functions = dict[str, tuple[tuple[str, ...], Tree]]()
+        for name, choice in given.get("functions", {}).items():
+            arguments, text = tuple(choice["arguments"]), self.text(choice["text"], choice["arguments"])
             fits = len(set(arguments)) == self.problem.functions.get(name) and symbols_in(text) <= set(arguments)
             refuse(not fits, f"the choice for `{name}` is no function of its arguments")
+            functions[name] = arguments, text
         balls = {name: evaluated(tree, {}, self.effort) for name, tree in values.items()}
         exact = {name: tree for name, tree in values.items() if name not in columns}
         point = CheckedPoint(given["id"], exact, functions, self.effort, balls, frozenset(rows))
         if columns:
             radius = evaluated(self.text(given["radius"]), {}, self.effort)
             refuse(not radius > 0, "the radius of a box is positive")
-            equations, centre = [self.relation(name).left for name in rows], {name: balls[name] for name in columns}
-            point.balls |= krawczyk(equations, centre, radius.mid(), point.value_with)
+            point.settle([self.relation(name).left for name in rows], columns, radius.mid())
         for name, sign in self.problem.parameters.items():
             wrong = name in balls and not (balls[name] > 0 or (sign != "positive" and excludes_zero(balls[name])))
             refuse(wrong and sign in ("positive", "nonzero"), f"the parameter `{name}` is declared {sign}")
@@ -81,62 +65,61 @@ class CheckedEvidence(CheckedRelations):
 
     def holds(self, name: str, point: CheckedPoint) -> bool:
         """Whether a relation is 0 at a point, exactly."""
-        left, key = self.relation(name).left, ("holds", name, point.name)
-        if key not in self.seen:
-            near = bool(point.value(left).contains(0))
-            self.seen[key] = near and (name in point.rows or self.ring.vanishes(point.prepared(left)))
-        return bool(self.seen[key])
+        left = self.relation(name).left
+        return self.once(("holds", name, point.name), lambda: self._is_zero(left, point))
+
+    def _is_zero(self, left: Tree, point: CheckedPoint) -> bool:
+        """Whether a tree is 0 at a point: of a row of its box, or in the ring; and its ball holds 0."""
+        row = any(self.known[name].left == left for name in point.rows)
+        return bool(point.value(left).contains(0)) and (row or self.ring.vanishes(point.prepared(left)))
 
     def on_set(self, point: CheckedPoint, names: Iterable[str]) -> None:
-        """`CheckError` unless the relations hold at a point, but for integrals; forms are smooth there."""
+        """`CheckError` unless the relations hold at a point, but for integrals; forms are smooth there.
+
+        A nonlinear relation speaks of a state: all velocity relations and all rates hold at its velocities.
+        """
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
         finite = {one.name for one in wanted if one.kind == "finite"}
-        held = {*point.rows, *(name for name in finite if self.holds(name, point))}
-        self.follow(finite, held, point, f"what is shown to hold at `{point.name}`")
+        self.follow(finite, {*point.rows, *(name for name in finite if self.holds(name, point))}, point, "what holds")
+        states = not all(self.is_linear(one.name) for one in wanted)
         for one in wanted:
-            smooth = [one.left] if one.kind == "finite" else [derivative(one.left, v) for v in self.met_by(one.left)]
+            still = one.name in finite
+            smooth = [one.left] if still else [self.slope(one.name, v[:-3]) for v in self.met_by(one.left)]
             values = [point.value(tree) for tree in smooth]
-            wrong = one.kind == "finite" and excludes_zero(values[0])
-            refuse(wrong, f"`{one.name}` does not hold at the point `{point.name}`")
-        if not all(self.is_linear(one.name) for one in wanted):
-            self._is_state(point, [one.name for one in wanted])
+            wrong = still and excludes_zero(values[0])
+            if states:
+                wrong |= not self._is_zero(total_derivative(one.left, self.variables) if still else one.left, point)
+            refuse(wrong, f"`{one.name}` does not hold at the point `{point.name}`, or not for its velocities")
 
-    def met_by(self, tree: Tree) -> list[str]:
-        """The velocities that occur."""
-        return sorted(self.velocities & symbols_in(tree))
-
-    def _is_state(self, point: CheckedPoint, names: Iterable[str]) -> None:
-        """A nonlinear relation speaks of a state: all velocity relations and all rates hold at its velocities."""
-        for name in names:
-            one = self.relation(name)
-            left = one.left if one.kind == "velocity" else total_derivative(one.left, self.variables)
-            newton = any(self.known[row].left == left for row in point.rows)
-            refuse(
-                not point.value(left).contains(0) or not (newton or self.ring.vanishes(point.prepared(left))),
-                f"`{name}` is not shown to hold for the velocities of `{point.name}`",
-            )
-
-    def minor(self, given: Any, allowed: Iterable[str] | None = None) -> CheckedMinor:
+    def minor(self, given: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
         """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""
-        if isinstance(given, str) and allowed is None:
-            if ("minors", given) not in self.seen:
-                self.seen["minors", given] = self.minor(self.named("minors", given))
-            found: CheckedMinor = self.seen["minors", given]
-            return found
-        given = self.named("minors", given) if isinstance(given, str) else given
+        if isinstance(given, str):
+            key = ("minors", given, None if allowed is None else frozenset(allowed))
+            return self.once(key, lambda: self.minor(self.named("minors", given), allowed))
         point, rows, columns = self.point(given["at"]), tuple(given["rows"]), tuple(given["columns"])
         square = len({*rows}) == len(rows) == len(columns) == len({*columns}) <= LARGEST_MINOR
         refuse(not square, "a minor has as many rows as columns, each once, and not too many")
         refuse(not set(columns) <= set(self.problem.coordinates), "a column of a minor is no coordinate")
         self.follow(rows, self.equations if allowed is None else allowed, point, "the relations")
         self.on_set(point, rows)
-        self.is_regular([[self.slope(row, column) for column in columns] for row in rows], point)
+        point.is_regular([[self.slope(row, column) for column in columns] for row in rows])
         return CheckedMinor(point, rows, columns)
 
-    def is_regular(self, matrix: list[list[Tree]], point: CheckedPoint) -> None:
-        """`CheckError` unless a square matrix is regular at a point."""
-        values = [[point.value(tree) for tree in row] for row in matrix]
-        refuse(not regular(values, self.effort), "the minor may be 0")
+    def is_linear(self, name: str) -> bool:
+        """Whether a relation is finite, or a linear form in the velocities (dt included)."""
+        one = self.relation(name)
+
+        def look() -> bool:
+            parts = linear_in(one.left, self.velocities)
+            return parts is not None and self.ring.vanishes(parts[1])
+
+        return one.kind != "velocity" or self.once(("linear", name), look)
+
+    def slope(self, row: str, column: str) -> Tree:
+        """The entry of a row: by a coordinate, or by its velocity."""
+        one = self.relation(row)
+        name = column if one.kind == "finite" else column + "dot"
+        return self.once(("slope", row, column), lambda: derivative(one.left, name))
 
     def accounts(self, minor: CheckedMinor, wanted: Iterable[str]) -> CheckedMinor:
         """The minor; `CheckError` unless relations hold at its point, and near it wherever its rows do."""
@@ -159,9 +142,8 @@ class CheckedEvidence(CheckedRelations):
         """A generic symbol (or one of ``letters``) of one relation alone, in which it is never stationary."""
         left = self.relation(name).left
         others = [symbols_in(one.left) for one in self.problem.relations if one.name != name]
-        for letter in sorted(
-            symbols_in(left) & set(self.problem.generic if letters is None else letters) & self.chosen
-        ):
+        wanted = self.chosen.intersection(self.problem.generic if letters is None else letters)
+        for letter in sorted(symbols_in(left) & wanted):
             alone = not any(letter in held for held in others) and self.is_nowhere_zero(derivative(left, letter))
             if alone and self.has_value_everywhere(left):
                 return letter
@@ -181,25 +163,19 @@ class CheckedEvidence(CheckedRelations):
         if about == "component" or (about == "here" and off):
             refuse(not off, "the scene has a configuration: the claim has to be about it")
             return
-        refuse(about not in ("reference", "here"), "a claim is about `reference`, `component` or `everywhere`")
-        refuse(not self.problem.reference, "the scene has no configuration")
-        places = {q: self.problem.reference[q] for q in self.problem.coordinates}
-        places |= {"t": ZERO} if "t" in point.balls else {}
-        for name, tree in places.items():
+        refuse(about not in ("reference", "here") or not self.problem.reference, "the scene has no configuration")
+        time = {"t": ZERO} if "t" in point.balls else {}
+        for name, tree in {**self.problem.reference, **time}.items():
             told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
-        for name in self.finite:
-            if self.is_open(self.relation(name).left):
-                self.identity(self.at_reference(self.relation(name).left), ZERO, f"`{name}` at the configuration")
+        for left in (self.relation(name).left for name in self.finite):
+            if self.is_open(left):
+                self.identity(self.at_reference(left), ZERO, "a relation at the configuration")
 
     def _is_off(self, point: CheckedPoint) -> bool:
         """Whether the scene's configuration is shown not to meet its relations."""
         for name in self.finite:
-            try:
-                places = {q: point.value(tree) for q, tree in self.problem.reference.items()}
-                zero = point.value_with(ZERO, {})
-                if excludes_zero(point.value_with(self.relation(name).left, {**places, "t": zero})):
+            with suppress(CheckError):
+                if excludes_zero(point.value(self.at_reference(self.relation(name).left))):
                     return True
-            except CheckError:
-                continue
         return False

@@ -1,4 +1,4 @@
-"""Velocity fields: brackets and orbits, rows that integrate, blocks of constant rank, families of configurations.
+"""Velocity fields: brackets and orbits, rows that integrate, blocks of constant rank.
 
 The points that can be reached along fields form an immersed manifold, whose tangent space holds all their brackets
 there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to relations never leave them.
@@ -6,16 +6,14 @@ there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to rel
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
+from itertools import chain
 from typing import Any
 
-from dofkit.checker.balls import CheckedPoint, evaluated, excludes_zero, regular
-from dofkit.checker.derivatives import derivative, substituted, symbols_in
-from dofkit.checker.errors import refuse
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.relations import Consequence
-from dofkit.checker.texts import nodes_of
-from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, symbol, times
+from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse, times
+from dofkit.checker.values import CheckedPoint, along, excludes_zero, nodes_of, substituted, symbols_in
 
 LARGEST_CRAMER, LONGEST_WORD, MOST_FIELDS, LARGEST_FIELD = 5, 12, 40, 20_000
 VelocityField = dict[str, Tree]
@@ -45,35 +43,25 @@ def _determinant(rows: list[list[Tree]]) -> Tree:
     return add(*(times(rows[0][j] if j % 2 == 0 else negative(rows[0][j]), one) for j, one in enumerate(below)))
 
 
-def along(field: VelocityField, tree: Tree) -> Tree:
-    """The derivative of a tree along a field."""
-    held = symbols_in(tree)
-    return add(*(times(value, derivative(tree, name)) for name, value in field.items() if name in held))
-
-
 def bracket(first: VelocityField, second: VelocityField) -> VelocityField:
     """[X, Y] = (DY) X - (DX) Y."""
-    return {
-        name: add(along(first, second.get(name, ZERO)), negative(along(second, first.get(name, ZERO))))
-        for name in dict.fromkeys([*first, *second])
-    }
+    names, (x, y) = dict.fromkeys([*first, *second]), (first, second)
+    return {q: add(along(x, y.get(q, ZERO)), negative(along(y, x.get(q, ZERO)))) for q in names}
 
 
 def of_word(evidence: CheckedEvidence, word: Any, allowed: Iterable[str], longest: int = LONGEST_WORD) -> VelocityField:
     """The left-normed bracket of a word of the fields that are allowed: [A, B, C] is [[A, B], C]."""
     short = isinstance(word, list) and 1 <= len(word) <= longest and set(word) <= set(allowed)
     refuse(not short, "a word is a list of the fields, not too long")
-    key = ("words", *word)
-    if key not in evidence.seen:
-        last, start = field_named(evidence, word[-1]), word[:-1]
-        evidence.seen[key] = paid(evidence, of_word(evidence, start, allowed), last) if start else last
-    found: VelocityField = evidence.seen[key]
-    return found
+    start, last = word[:-1], field_named(evidence, word[-1])
+    return evidence.once(
+        ("word", *word), lambda: paid(evidence, of_word(evidence, start, allowed), last) if start else last
+    )
 
 
 def paid(evidence: CheckedEvidence, first: VelocityField, second: VelocityField) -> VelocityField:
     """A bracket, at the price of the size of its fields; large ones are refused."""
-    sizes = [sum(len(nodes_of(tree)) for tree in field.values()) for field in (first, second)]
+    sizes = [sum(1 for tree in field.values() for _ in nodes_of(tree)) for field in (first, second)]
     evidence.effort.spend(sizes[0] * len(second) + sizes[1] * len(first) + 1)
     refuse(max(sizes) > LARGEST_FIELD, "a bracket is too large")
     return bracket(first, second)
@@ -100,7 +88,7 @@ def independent(evidence: CheckedEvidence, fields: Sequence[VelocityField], colu
     """`CheckError` unless the fields have a minor at the point that is not 0."""
     square = len(fields) == len(columns) == len(set(columns)) and set(columns) <= set(evidence.variables)
     refuse(not square, "as many columns as fields are needed, each once")
-    evidence.is_regular([[field.get(column, ZERO) for column in columns] for field in fields], point)
+    point.is_regular([[field.get(column, ZERO) for column in columns] for field in fields])
 
 
 def admissible(
@@ -108,16 +96,15 @@ def admissible(
 ) -> tuple[CheckedPoint, list[VelocityField]]:
     """Fields whose curves through a point are motions: tangent to rows that account for ``wanted``, smooth there."""
     point, names, rows = evidence.point(given["at"]), given["fields"], given["rows"]
-    refuse(not 0 < len(names) <= MOST_FIELDS, "there are no fields, or too many")
+    refuse(len(names) > MOST_FIELDS, "there are too many fields")
     fields = [field_named(evidence, name) for name in names]
     tangent(evidence, fields, rows)
     evidence.on_set(point, [*rows, *wanted])
     evidence.follow(rows, wanted, point, "the relations")
     evidence.follow(wanted, rows, point, "the rows of the fields")
     evidence.settled(point, wanted, given)
-    for field in fields:
-        for value in field.values():
-            point.value(value)
+    for value in (value for field in fields for value in field.values()):
+        point.value(value)
     return point, fields
 
 
@@ -132,19 +119,17 @@ def span(evidence: CheckedEvidence, given: Told, longest: int) -> tuple[CheckedP
     return point, len(words) - bool(times_of)
 
 
-def involutive(evidence: CheckedEvidence, given: Told, allowed: Iterable[str] | None = None) -> CheckedMinor:
+def involutive(evidence: CheckedEvidence, given: Told, allowed: Collection[str] | None = None) -> CheckedMinor:
     """Rows whose kernel is spanned by fields that are closed under brackets: they integrate (Frobenius 1877)."""
-    minor = evidence.minor(given["minor"], allowed)
+    minor, fields = evidence.minor(given["minor"], allowed), [field_named(evidence, name) for name in given["fields"]]
     timed = evidence.holds_time(minor.rows)
-    fields = [field_named(evidence, name) for name in given["fields"]]
     missing = len(evidence.problem.coordinates) + timed - len(minor.rows)
     refuse(len(fields) != missing or not all(map(evidence.is_linear, minor.rows)), f"the kernel has {missing} fields")
     moves = not timed and any(field.get("t", ZERO) != ZERO for field in fields)
     refuse(moves, "a field moves time, which does not occur")
     independent(evidence, fields, given["columns"], minor.point)
     brackets = (paid(evidence, first, second) for i, first in enumerate(fields) for second in fields[:i])
-    tangent(evidence, fields, minor.rows)
-    tangent(evidence, brackets, minor.rows)
+    tangent(evidence, chain(fields, brackets), minor.rows)
     return minor
 
 
@@ -160,10 +145,10 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> None:
     minor, rows = evidence.minor(given["minor"]), [row for block in given["blocks"] for row in block["rows"]]
     once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
     refuse(not once, "the blocks do not hold each finite relation once, or the minor has other rows")
-    refuse("t" in frozenset().union(*(symbols_in(evidence.relation(row).left) for row in rows)), "rows that hold time")
     for row in rows:
-        chosen = evidence.is_open(evidence.relation(row).left) and not evidence.own_symbol(row)
-        refuse(chosen, f"`{row}` holds what the point chose: it may be met for that alone")
+        left = evidence.relation(row).left
+        chosen = "t" in symbols_in(left) or (evidence.is_open(left) and not evidence.own_symbol(row))
+        refuse(chosen, f"`{row}` holds time, or what the point chose: it may be met for that alone")
     evidence.on_set(minor.point, rows)
     for block in given["blocks"]:
         fields = [field_named(evidence, field) for field in block["fields"]]
@@ -177,30 +162,3 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> None:
     evidence.seen["covers", name] = rows
     for row in set(rows) - set(minor.rows):
         evidence.consequences.append(Consequence(row, minor.rows, at=minor.point.name))
-
-
-def family(evidence: CheckedEvidence, given: Told) -> tuple[CheckedPoint, int]:
-    """A family q(u) of configurations through the point, with as many directions there as parameters."""
-    refuse(evidence.moving or evidence.timed, "a family is for finite relations without time")
-    point, names, columns = evidence.point(given["at"]), given["parameters"], given["columns"]
-    coordinates = evidence.problem.coordinates
-    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen}
-    refuse(not taken.isdisjoint(names), "a parameter of a family has a name that is taken")
-    refuse(not set(columns) <= given["q"].keys() <= set(coordinates), "a family has what is no coordinate")
-    evidence.on_set(point, evidence.finite)
-    own = {name: tree for name, tree in point.exact.items() if name in coordinates}
-    path = {
-        q: substituted(evidence.text(given["q"][q], names) if q in given["q"] else symbol(q), own) for q in coordinates
-    }
-    for name in evidence.finite:
-        evidence.identity(substituted(evidence.relation(name).left, path), ZERO, f"`{name}` on the family")
-    start = {u: evidence.text(given["values"][u]) for u in names}
-    balls = {u: evaluated(tree, {}, evidence.effort) for u, tree in start.items()}
-    for q, tree in path.items():
-        evidence.identity(point.prepared(substituted(tree, start)), point.prepared(symbol(q)), f"the family's `{q}`")
-        point.value_with(tree, balls)
-    square = len(columns) == len(names) == len(set(columns)) == len(set(names))
-    refuse(not square, "as many columns as parameters are needed, each once")
-    slopes = [[point.value_with(derivative(path[q], u), balls) for q in columns] for u in names]
-    refuse(not regular(slopes, evidence.effort), "the family may be slower at the point than its parameters")
-    return point, len(names)

@@ -7,7 +7,7 @@ says ``"cayley": true``), ``relations`` (steps), ``points``, ``minors``, ``field
 (``c4``, ``c4.1``) or a step. Steps, points, minors and fields are looked at only where a claim uses them.
 
 STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of the scene and of steps before it).
-"Needs" is asked at the point of the claim that uses the step, or of the reason ``nonzero``, where that is given.
+"Needs" is asked at the point of the claim that uses the step.
 
 =========== =============================================== ==================================================
 by          fields                                          meaning (identities in the ring of `ring.py`)
@@ -17,17 +17,16 @@ branch      of, factors [TEXT], chosen (place), power       of = product of fact
                                                             other factors not 0
 sos         of, terms [[c, a]]                              of = sum c a^2 or its negative, all c > 0; ids ``id.1``,
                                                             ``id.2``, ... are the a, which have a value everywhere
-implied     of (or ``text``: a new relation), h, c {ID:     h * of = sum c[i] * i; id (and ``of``) follows from
-            TEXT}                                           the i. Needs h not 0, the c defined. The c of a
-                                                            velocity relation may hold velocities
+implied     of, h, c {ID: TEXT}                             h * of = sum c[i] * i: ``of`` follows from the i.
+                                                            Needs h not 0, the c defined. The c of a velocity
+                                                            relation may hold velocities
 rate        of (finite, or an integral)                                     its time derivative, with qdot and tdot
 integral    function (f), h, c {ID: TEXT}                   h * (df/dt) = sum c[i] * i: f keeps its value. Needs
                                                             h not 0, the c defined. A finite relation of the leaf
 =========== =============================================== ==================================================
 
 ``h`` is 1 where left out. Not 0 by itself is a product of powers of numbers and of parameters declared nonzero or
-positive; else ``nonzero``: ``{"sos": [[c, a], ...], "plus": c}`` (the factor, or h, is that sum or the negative of it;
-c > 0, plus > 0, the a have a value everywhere). All texts of a step need a value at the point, as they are written.
+positive. All texts of a step need a value at the point, as they are written.
 
 POINTS ``{"id", "values": {symbol: TEXT}, "functions": {h: {"arguments": [s], "text": TEXT}}}``: coordinates, ``t``,
 parameters, generic lengths, velocities ``qdot`` (``tdot`` is 1), each a TEXT of numbers and of parameters given before
@@ -63,16 +62,21 @@ frobenius   minor, fields [id], columns [coordinate       most n - rows of dof: 
                                                           occurs in the rows, less rows), is involutive
 regular     minor                                         least n - rows: all relations are rows or follow from rows
                                                           by steps (implied, branch, sos, factor, square)
-family      at, parameters [u], values {u: TEXT},         least the number of u: q(u) meets all relations identically
-            q {coordinate: TEXT}, columns [coordinate]    (also in parameters, generic lengths and functions) and is
-                                                          the point at ``values``; minor of dq/du. No velocity
-                                                          relations
 span        at, fields [id], rows [ID], words [WORD],     least the words (less 1 where a field moves t): fields
             columns [coordinate or t]                     tangent to rows identically, rows account for all
                                                           relations, all at the point; the words' columns are
                                                           independent. Where finite relations hold parameters: minor
                                                           (that of ``most`` does) whose rows account for them. Where
                                                           t or tdot occurs a field's t is not 0 at the point
+isolated    minor, zero ID, free coordinate, fields [id],  most the number of fields (of dof): finite rows without t;
+            pins [coordinate], order (2 to 8)             columns, free and pins are all coordinates; the fields are
+                                                          tangent to rows and zero, pins a minor of them; while pins
+                                                          rest and free has the speed 1, rows stay 0 and the derivative
+                                                          of zero of that order is not 0
+crossing    minor, zero ID, speeds [{coordinate: TEXT}]   most and least n - rows - 1 (of dof): rows and zero are
+                                                          finite, without t, all follow from them; the second
+                                                          derivative of zero is positive for the first speeds,
+                                                          negative for the second
 =========== ============================================= ======================================================
 
 CLAIMS ``{"path", "value", "rule", ..., "about", "cayley"}``. ``about`` (dof, velocity_dof): ``reference`` (the point
@@ -82,10 +86,9 @@ NAME is a constraint's name, with ``~1`` for ``/`` and ``~0`` for ``~``.
 ======================================= ============== ==========================================================
 path                                    rule           fields
 ======================================= ============== ==========================================================
-/consistent true                        point          at; all relations hold; at rest, for all t. ``q``
-                                                       {coordinate: TEXT in t and parameters}: a motion that meets
-                                                       them identically. ``inequalities`` {NAME or ID: POINT}: each
-                                                       holds at a point by itself. Where parameters or functions
+/consistent true                        point          at; all relations hold; at rest, for all t.
+                                                       ``inequalities`` {NAME or ID: POINT}: each holds at a point by
+                                                       itself. Where parameters or functions
                                                        occur in finite relations (but for a generic symbol of its
                                                        own): minor as well, whose rows account for these, and rest
                                                        is identical in the coordinates
@@ -100,16 +103,18 @@ path                                    rule           fields
 /dof, /velocity_dof                     squeeze        most, least (above); about
 /dof, /velocity_dof                     regular        minor; about (most and least in one, all rows of one kind)
 /velocity_dof                           count          equals /dof: no velocity relations
-/dof everywhere                         everywhere     order [[ID, coordinate]]: each gives its coordinate (a number
-                                                       times it and what is free or given before); blocks [ID]:
-                                                       single analytic relations; generic [[ID, symbol]]: each with
-                                                       a symbol of its own; every finite relation in one place;
-                                                       blocks and generic share no free coordinate. Where there are
-                                                       any: minor, whose rows account for all; as many rows as
-                                                       relations, or one cover of all in ``covers``, without blocks
+/dof, /velocity_dof                     everywhere     order [[ID, coordinate]]: each gives its coordinate, or its
+                                                       velocity, with a factor of numbers and parameters; those
+                                                       before do not hold it. One may give t instead. blocks [ID]:
+                                                       single analytic relations, or a single form; generic [[ID,
+                                                       symbol]]: each with a symbol of its own; every relation, or
+                                                       (dof) every finite one, in one place; blocks and generic
+                                                       share no free coordinate. minor of these, which accounts for
+                                                       all; as many rows as relations, or one cover of all in
+                                                       ``covers``. dof beside forms: most, least as for squeeze
 /instantaneous_dof                      rank           at: the reference. Rational rows: nothing more. Else minor,
                                                        of all relations
-/singular                               compare        (of verified /instantaneous_dof and /velocity_dof)
+/singular                               count          (of verified /instantaneous_dof and /velocity_dof)
 /holonomic, /scleronomic                count          (of the verified entries)
 /redundant_equations                    count          (of verified /velocity_dof)
 /redundancies                           count          (of verified /redundant_equations: 0, or all equations are of
@@ -119,43 +124,43 @@ path                                    rule           fields
 /integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of
                                                        the texts of the basis, in order; /dof verified before at the
                                                        same point. Nothing more where the basis is null
-/count/independent                      independent    minor: finite rows, all finite relations follow
-/generalized_coordinates                minor          minor (rows finite or integrals): columns are all the other
-                                                       coordinates; /dof verified before, at the same point. With
-                                                       fields, columns: frobenius as above, rows of velocities too
+/generalized_coordinates                minor,         as above, minor: rows finite or integrals; the columns (and
+                                        frobenius,     free) are all the other coordinates; /dof verified before, at
+                                        isolated       the same point
 /growth_vector                          span           spans: for each entry {"words", "columns"}; at, fields, rows,
                                                        minor (regular: all rows). Upper bounds: Witt, and /dof
                                                        verified before, at the same point
 /redundant                              cofactors      minor: rows are relations of the scene, all others follow from
                                                        them with numbers (or one, with cofactors not 0 at the
-                                                       point; or all are linear or have generic lengths, by covers)
+                                                       point; or all are linear or have generic lengths, by covers).
+                                                       []: without {NAME: minor}, of all rows but NAME's; /dof before
 /constraints/NAME/holonomic             finite, inequality
 /constraints/NAME/holonomic_alone       the same       of the constraint's own relations only (``alone`` is implied)
 .../holonomic true                      integral       at; integrals [ID of integral steps]: NAME's relations follow
                                                        from their rates, finite relations and theirs
 .../holonomic true                      frobenius      minor, fields, columns: NAME's relations are rows or follow
-.../holonomic false                     bracket        at, fields, rows, combination [[c, WORD]], pairs ID: the
+.../holonomic false                     bracket        at, fields, rows, word WORD, pairs ID: the
                                                        relation ID of NAME is not 0 there; minor as for ``span``
 .../holonomic_alone true, false         wedge          true: omega ^ d(omega) = 0 (one form); false: at, triple [x, y,
                                                        z] (``t`` for time)
-.../scleronomic, .../catastatic true    timeless       steps [ID of factor steps]: t, tdot do not occur in what is
-                                                       left; degree {ID: k}: of a nonlinear relation, homogeneous
-.../scleronomic false                   turns          at, relation ID; pair [x, y] for a form without tdot; euler
-                                                       true: a nonlinear relation that is no cone at the state ``at``
+.../scleronomic, .../catastatic true    timeless       t, tdot do not occur; degree {ID: k}: of a nonlinear
+                                                       relation, which is homogeneous
+.../scleronomic false                   turns          at, relation ID; pair [x, y] for a form without tdot
 .../catastatic false                    turns          at, relation ID: the coefficient of tdot is not 0
 .../exact true                          exact          closed
 .../exact false                         not exact      at, pair [x, y]; relation ID where there are several forms
 .../independent 0                       inequality     of nothing but inequalities
 .../integrating_factor                  integral       at; the value mu makes mu * form closed and is not 0 there
-.../integral                            integral       at (value is "function = C"); alone: d function =
-                                                       factor * form, factor TEXT. In the system: step ID of the
-                                                       integral, and NAME's relation follows from its rate
+.../integral                            integral       at (value is "function = C"); step ID of the integral;
+                                                       NAME's relation follows from its rate. integrals [ID] that
+                                                       it takes besides: minor of these, finite relations and one
+                                                       of NAME's
 .../circuit                             cofactors      at (a point of all); minimal {NAME: {"minor"} at that point:
                                                        rows of the other members that account for them, and one of
                                                        the constraint's own}
 .../independent                         independent    minor: rows of constraints up to this; those before follow from
                                                        rows before, and its own from all rows; at most as many as
-                                                       it has equations
+                                                       it has equations. last: of the last one, /dof before
 ======================================= ============== ==========================================================
 
 Local claims (holonomic, circuit, independent, ...) are made at the scene's configuration (with t = 0), where one is
@@ -168,7 +173,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from dofkit.checker.errors import CheckError, refuse
+from dofkit.checker.trees import CheckError, refuse
 
 LARGEST_TEXT, MOST_ENTRIES = 20_000_000, 20_000
 PARTS = ("relations", "points", "minors", "fields", "covers")

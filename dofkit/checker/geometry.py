@@ -11,8 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from dofkit.checker.derivatives import TWO
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, difference, negative, number, power, symbol, times
+from dofkit.checker.trees import ONE, TWO, ZERO, Tree, add, call, difference, negative, number, power, symbol, times
 
 Vector = tuple[Tree, ...]
 Matrix = tuple[Vector, ...]
@@ -121,6 +120,11 @@ class CheckedFrame:
             return MaterialPoint(self.position, ONE, a)
         return MaterialPoint(tuple(map(add, scaled(self.under, self.position), self.carry(arm))), self.under, a)
 
+    def own(self, a: Vector) -> Vector:
+        """R(theta)^T (a - p): a place of the plane in the body's own coordinates."""
+        turn = rotation(2, 0, 1, symbol(list(self.reference)[2]) if self.reference else ZERO)
+        return tuple(dot(column, less(a, self.position)) for column in zip(*turn, strict=True))
+
     def offset(self, point: MaterialPoint, place: Vector, direction: Vector) -> Tree:
         """How far a point is from a place of this body, along a direction of it, times both denominators."""
         now = dot(self.carry(direction), less(point.over, scaled(point.under, self.position)))
@@ -136,15 +140,12 @@ def ground(d: int) -> CheckedFrame:
 def body_frame(name: str, d: int, reference: Mapping[str, Tree], cayley: bool) -> CheckedFrame:
     """A body with its coordinates and their reference values."""
     moving, values = tuple(map(symbol, reference)), tuple(reference.values())
-    turning, initial, under, angle = moving[d:], values[d:], ONE, ZERO
-    turn = rotation(d, 0, 1)
+    turning, initial, under, angle, turn = moving[d:], values[d:], ONE, ZERO, rotation(d, 0, 1)
     if cayley:
         turn, under = cayley_turn(turning), add(ONE, square(turning))
     elif d == 2:
         angle = difference(turning[0], initial[0])
         turn = rotation(2, 0, 1, angle)
     elif d == 3:
-        turn = euler_turn(*turning)
-        if any(value != ZERO for value in initial):
-            turn = product(turn, tuple(zip(*euler_turn(*initial), strict=True)))
+        turn = product(euler_turn(*turning), tuple(zip(*euler_turn(*initial), strict=True)))
     return CheckedFrame(name, moving[:d], values[:d], turn, under, reference, angle, turning if cayley else None)

@@ -1,24 +1,62 @@
 """The grammar of texts: relations and values as people write them, read into trees.
 
-From loosest to tightest: relation, sum, term, factor, primary. What could be read in two ways is an error.
+Words first: what each name means, and how letters written together fall into names. Then, from loosest to tightest:
+relation, sum, term, factor, primary. What could be read in two ways is an error.
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import NamedTuple
 
-from dofkit.checker.derivatives import derivative, folded, over_time, symbols_in
-from dofkit.checker.errors import refuse
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
-from dofkit.checker.words import EULER, MOST_ORDERS, KnownNames, Lexeme, tokens_of
+from dofkit.checker.trees import FUNCTIONS, ONE, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
+from dofkit.checker.values import derivative, over_time, symbols_in
 
-DEEPEST, LARGEST_EXPONENT, MOST_BITS = 60, 64, 8192
-#: The nodes of a tree that is differentiated while a text is read.
-LARGEST = 400
-_TIME = symbol("t")
+#: The last: how often a declared function is differentiated.
+MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT, MOST_ORDERS = 20_000, 64, 60, 64, 6
+#: The last: a dot above the letter before it.
+PI, EULER, _TIME, DOT = Tree("pi"), call("exp", ONE), symbol("t"), "\u0307"
+_LATIN = (
+    "alpha beta gamma delta epsilon zeta eta theta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi phi "
+    "chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"
+)
+GREEK = dict(zip("αβγδεζηθϑικλμνξπρστυφϕχψωΓΔΘΛΞΠΣΦΨΩ", _LATIN.split(), strict=True))
+_DOTTED = zip("ȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏż", "abcdefghmnoprstwxyz", strict=True)
+_PLAIN = str.maketrans("−–·⋅×′’", "--***''") | {ord(dotted): letter + DOT for dotted, letter in _DOTTED}
+_LETTERS = "A-Za-z" + "".join(GREEK)
+DECIMAL = r"(?:\d{1,400}\.?\d{0,400}|\.\d{1,400})(?:[eE][+-]?\d{1,3})?"
+_TOKEN = re.compile(
+    rf"([ \t\u00a0\u2009]*)(?:(?P<word>[{_LETTERS}][{_LETTERS}0-9_{DOT}']*)|(?P<number>{DECIMAL})"
+    r"|(?P<relation>[<>]=?|==?|[≤≥])|(?P<sign>\*\*|[-+*/^(),\[\]{}])"
+    r"|(?P<raised>[²³])(?! *(?:[²³^]|\*\*))|(?P<unknown>.))",
+    re.ASCII | re.DOTALL,
+)
+_VELOCITY, _DIFFERENTIAL = re.compile(rf"(.+?)(?:_?dot|['{DOT}])([_0-9].*)?"), re.compile("d(.+)")
 _PAIRS = {"(": ")", "[": "]", "{": "}"}
-_BEGIN = ("value", "moving", "function", "declared", "operator", *_PAIRS)
+_BEGIN = ("value", "moving", "function", "declared", "derivative", *_PAIRS)
+
+
+class Lexeme(NamedTuple):
+    """A piece of a text; it may touch the one before it.
+
+    ``kind``: ``number``, ``value`` (a name), ``moving`` (a velocity or differential), ``function`` (elementary),
+    ``declared`` (a function, ``tree`` what it is by itself), ``derivative``, ``relation``, ``end`` or a sign.
+    """
+
+    kind: str
+    tree: Tree = ONE
+    name: str = ""
+    touching: bool = False
+
+
+BUILT_IN = {name: Lexeme("function", name=name) for name in FUNCTIONS}
+BUILT_IN |= {"pi": Lexeme("value", PI), "t": Lexeme("value", _TIME), "dt": Lexeme("moving", symbol("dt"))}
+BUILT_IN |= {"diff": Lexeme("derivative", name="diff")}
+_E = Lexeme("value", EULER)
 
 
 class Sided(NamedTuple):
@@ -29,31 +67,108 @@ class Sided(NamedTuple):
     strict: bool = False
 
 
-def parse(text: str, names: KnownNames) -> Tree:
+def spelled_out(name: str) -> str:
+    """A name with its Greek letters in Latin ones."""
+    return "".join(GREEK.get(c, c) for c in name)
+
+
+@dataclass(frozen=True)
+class KnownNames:
+    """What a text may mention.
+
+    ``coordinates`` have differentials ``dq`` and velocities ``qdot``: these are the names of their symbols. ``values``:
+    parameters, each a symbol or what it was given. ``functions``: the names of the arguments of each declared function.
+    """
+
+    coordinates: frozenset[str] = frozenset()
+    values: Mapping[str, Tree] = field(default_factory=dict)
+    functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    @cached_property
+    def words(self) -> dict[str, Lexeme]:
+        """What words mean, Greek letters spelled out; those of motions come besides."""
+        entries = [("t", _TIME), *((name, symbol(name)) for name in self.coordinates), *self.values.items()]
+        trees = {spelled_out(name): tree for name, tree in entries}
+        for name, arguments in self.functions.items():
+            given = tuple(trees[word] for word in map(spelled_out, arguments) if word in trees)
+            orders = range(MOST_ORDERS + 1 if len(arguments) == 1 else 1)
+            entries += [(name + "'" * k, Tree("apply", given, name, (k,) * len(arguments))) for k in orders]
+        kinds = {"apply": "declared"}
+        found = {spelled_out(name): Lexeme(kinds.get(tree.head, "value"), tree, name) for name, tree in entries}
+        refuse(len(found) < len(entries), "a name is declared twice")
+        return {**BUILT_IN, **found}
+
+    def moved(self, word: str) -> Lexeme | None:
+        """The velocity or differential of a coordinate; an index stands after the dot or before it."""
+        for form, pattern in (("{}dot", _VELOCITY), ("d{}", _DIFFERENTIAL)):
+            match = pattern.fullmatch(word)
+            base = self.words.get("".join(match.groups(""))) if match else None
+            if base and base.name in self.coordinates:
+                return Lexeme("value" if "'" in word else "moving", symbol(form.format(base.name)))
+        return None
+
+    def meaning(self, word: str) -> Lexeme | None:
+        """What a whole word means."""
+        word = spelled_out(word)
+        return self.words.get(word) or self.moved(word) or (_E if word == "E" else None)
+
+    def parts(self, word: str) -> list[Lexeme]:
+        """The factors of a word; an index, a dot and a prime belong to the letter before them."""
+        refuse(len(word) > LONGEST_NAME, f"a name of {len(word)} letters is too long")
+        if whole := self.meaning(word):
+            return [whole]
+        starts = [i for i, letter in enumerate(word) if letter.isalpha()]
+        ways: dict[int, list[list[Lexeme]]] = {0: [[]]}
+        for end in [*starts[1:], len(word)]:
+            pieces = [(start, self.meaning(word[start:end])) for start in starts if start < end]
+            ways[end] = [[*before, piece] for start, piece in pieces if piece for before in ways[start]][:2]
+        found = ways[len(word)]
+        refuse(len(found) != 1, f"`{word}` is {'a product in several ways' if found else 'not declared'}")
+        return found[0]
+
+
+def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
+    """The tokens of a text, closed by one of kind ``end``."""
+    refuse(not isinstance(text, (str, int)) or len(str(text)) > MOST_CHARACTERS, "a text of bounded length is needed")
+    found: list[Lexeme] = []
+    for match in _TOKEN.finditer(str(text).strip().translate(_PLAIN)):
+        kind = str(match.lastgroup)
+        word, touching = match[kind], not match[1]
+        if kind == "word":
+            found += [one._replace(touching=touching or i > 0) for i, one in enumerate(names.parts(word))]
+        elif kind == "number":
+            refuse(any(names.words.get(c, _E) != _E for c in "eE" if c in word), f"`{word}` may be a power of ten")
+            found.append(Lexeme(kind, number(Fraction(word)), word, touching))
+        elif kind == "raised":
+            found += [Lexeme("^"), Lexeme("number", number("²³".index(word) + 2))]
+        else:
+            refuse(kind == "unknown", f"`{word}` cannot be read")
+            found.append(Lexeme(kind if kind == "relation" else word.replace("**", "^"), ONE, word, touching))
+    return [*found, Lexeme("end")]
+
+
+def parse(text: object, names: KnownNames) -> Tree:
     """The value that a text writes."""
-    reader = _Reader(text, names)
-    found = reader.sum()
-    reader.take("end")
-    return found
+    return parse_relations(text, names, signs=False)[0].tree
 
 
-def parse_relations(text: str, names: KnownNames) -> list[Sided]:
+def parse_relations(text: object, names: KnownNames, signs: bool = True) -> list[Sided]:
     """The relations of a text, left less right side; a text without a sign is ``= 0``, a chain is several."""
     reader = _Reader(text, names)
     left, found = reader.sum(), []
-    while reader.next.kind == "relation":
-        sign, right = reader.take().name, reader.sum()
-        tree = add(right, negative(left)) if "<" in sign else add(left, negative(right))
-        found.append(Sided(tree, ">" if sign[0] in "<>" else "=", sign in ("<", ">")))
+    while signs and (sign := reader.accepted("relation").name):
+        right = reader.sum()
+        tree = add(right, negative(left)) if sign[0] in "<≤" else add(left, negative(right))
+        found.append(Sided(tree, "=" if sign[0] == "=" else ">", sign in "<>"))
         left = right
-    reader.take("end")
+    reader.needed("end")
     return found or [Sided(left)]
 
 
 class _Reader:
     """One text, read from left to right."""
 
-    def __init__(self, text: str, names: KnownNames) -> None:
+    def __init__(self, text: object, names: KnownNames) -> None:
         self.names, self.tokens = names, tokens_of(text, names)
         self.at = self.depth = 0
 
@@ -61,29 +176,34 @@ class _Reader:
     def next(self) -> Lexeme:
         return self.tokens[self.at]
 
-    def take(self, kind: str = "") -> Lexeme:
-        self.at += 1
-        token = self.tokens[self.at - 1]
-        refuse(kind and token.kind != kind, f"`{token.name or token.kind}` stands where `{kind}` is expected")
+    def accepted(self, *kinds: str) -> Lexeme:
+        """The next token, taken where it is of one of some kinds; else one of kind ``""``."""
+        token = self.next if self.next.kind in kinds else Lexeme("")
+        self.at += token.kind != ""
         return token
+
+    def needed(self, *kinds: str) -> Lexeme:
+        """The next token, which is of one of some kinds."""
+        refuse(self.next.kind not in kinds, f"`{self.next.name or self.next.kind}` cannot stand here")
+        return self.accepted(*kinds)
 
     def sum(self) -> Tree:
         """Terms, each with its sign before it."""
         terms = [self.term()]
         while self.next.kind in ("+", "-"):
             terms.append(self.term())
-        return terms[0] if len(terms) == 1 else add(*terms)
+        return add(*terms)
 
     def term(self) -> Tree:
         """Factors; a space after a quotient makes what follows a factor of all that was before."""
         factors, quotient = [self.factor()], False
         while self.next.kind in ("*", "/", *_BEGIN):
-            kind = self.next.kind
-            refuse(quotient and kind in _BEGIN and self.next.touching, "it is not clear what is under a fraction line")
-            self.at += kind in ("*", "/")
-            factor = self.factor()
-            quotient = kind == "/" and factor != symbol("dt")
-            if kind != "/":
+            refuse(
+                quotient and self.next.kind in _BEGIN and self.next.touching, "what a fraction line covers is unclear"
+            )
+            sign, factor = self.accepted("*", "/").kind, self.factor()
+            quotient = sign == "/" and factor != symbol("dt")
+            if sign != "/":
                 factors.append(factor)
             elif quotient:
                 factors.append(_power(factor, number(-1)))
@@ -96,68 +216,50 @@ class _Reader:
         self.depth += 1
         refuse(self.depth > DEEPEST, "a text is nested too deep")
         minus = False
-        while self.next.kind in ("+", "-"):
-            minus ^= self.take().kind == "-"
+        while sign := self.accepted("+", "-").kind:
+            minus ^= sign == "-"
         found = self.primary()
-        if self.next.kind == "^":
-            self.at += 1
+        if self.accepted("^").kind:
             found = _power(found, self.factor())
         self.depth -= 1
         return negative(found) if minus else found
 
     def primary(self) -> Tree:
         """A number, a name, a group, or a function of something."""
-        token = self.next
-        if token.kind in _PAIRS:
+        if self.next.kind in _PAIRS:
             found, *more = self.arguments()
             refuse(more, "a comma stands in a group")
             return found
-        self.at += 1
-        if token.kind == "number":
-            return token.tree
-        if token.kind in ("value", "moving"):
-            return self.named(token)
-        readers = {"function": self.function, "declared": self.declared, "operator": self.derivative}
-        refuse(token.kind not in readers, f"`{token.name or token.kind}` cannot stand here")
-        return readers[token.kind](token)
+        token = self.needed("number", *_BEGIN)
+        readers = {"function": self.function, "declared": self.declared, "derivative": self.derivative}
+        if token.kind in readers:
+            return readers[token.kind](token)
+        after = self.tokens[self.at : self.at + 3]
+        called = token.kind != "number" and [one.kind for one in after] in (["(", "value", ")"], ["(", "number", ")"])
+        refuse(called and (self.next.touching or after[1].tree == _TIME), "it may be a factor or a function")
+        return token.tree
 
     def arguments(self) -> list[Tree]:
         """Values in parentheses, with commas between them."""
-        opening = self.take().kind
-        refuse(opening not in _PAIRS, "parentheses are missing")
+        closing = _PAIRS[self.needed(*_PAIRS).kind]
         found = [self.sum()]
-        while self.next.kind == ",":
-            self.at += 1
+        while self.accepted(",").kind:
             found.append(self.sum())
-        self.take(_PAIRS[opening])
+        self.needed(closing)
         return found
 
-    def named(self, token: Lexeme) -> Tree:
-        """A name; ``x(y)`` is a question, as is ``x (t)``."""
-        after = self.tokens[self.at : self.at + 3]
-        called = [one.kind for one in after] in (["(", "value", ")"], ["(", "number", ")"])
-        doubtful = called and (self.next.touching or after[1].tree == _TIME)
-        refuse(doubtful, "a name before parentheses may be a factor or a function")
-        return token.tree
-
     def function(self, token: Lexeme) -> Tree:
-        """``sin(x)``, ``sin^2(x)``, ``sin x``."""
-        exponent = ONE
-        if self.next.kind == "^":
-            self.at += 1
-            exponent = self.next.tree
-            refuse(_whole(exponent) < 2, f"this power of `{token.name}` can be read in two ways")
-            self.at += 1
-        given = self.arguments() if self.next.kind in _PAIRS else [self.bare(token)]
+        """``sin(x)``, ``sin^2(x)``, ``sin x``; ``sin^-1(x)`` could be read in two ways."""
+        exponent = self.needed("number").tree if self.accepted("^").kind else ONE
+        given = self.arguments() if self.next.kind in _PAIRS else [self.bare()]
         refuse(len(given) != (2 if token.name == "atan2" else 1), f"`{token.name}` has {len(given)} arguments")
         return _power(ONE if (token.name, given) == ("exp", [ZERO]) else call(token.name, *given), exponent)
 
-    def bare(self, token: Lexeme) -> Tree:
+    def bare(self) -> Tree:
         """What a function without parentheses is taken of: one name, where nothing after it could belong to it."""
-        refuse(self.next.kind != "value", f"it is not clear what `{token.name}` is taken of")
-        taken, after = self.take(), self.next
+        taken, after = self.needed("value"), self.next
         unclear = after.kind in ("value", "number", "^", *_PAIRS) or (after.kind in ("*", "/") and after.touching)
-        refuse(unclear, f"it is not clear what `{token.name}` is taken of")
+        refuse(unclear, f"it is not clear where what is taken of `{taken.name}` ends")
         return taken.tree
 
     def declared(self, token: Lexeme) -> Tree:
@@ -168,35 +270,21 @@ class _Reader:
         refuse(len(given) != len(alone.orders), f"`{token.name}` is declared with {len(alone.orders)} arguments")
         return Tree("apply", given, alone.value, alone.orders)
 
-    def derivative(self, token: Lexeme) -> Tree:
-        """``diff(h(s), s)``, ``diff(h(s), s, 2)``; ``partial(h(x, x), 2)`` by the place of an argument."""
+    def derivative(self, _: Lexeme) -> Tree:
+        """``diff(h(s), s)``, ``diff(h(s), s, 2)``."""
         found, *steps = self.arguments()
         by: list[Tree] = []
         for step in steps:
-            again = by and token.name == "diff" and 0 < _whole(step) <= MOST_ORDERS
-            by += by[-1:] * (_whole(step) - 1) if again else [step]
-        refuse(not 0 < len(by) <= MOST_ORDERS, f"`{token.name}` needs what to differentiate and by what")
+            by += by[-1:] * (_TIMES[step] - 1) if by and step in _TIMES else [step]
+        refuse(not 0 < len(by) <= MOST_ORDERS, "a derivative needs what to differentiate, and by what")
         for step in by:
-            if token.name == "diff" and step == _TIME:
-                refuse(not symbols_in(found) <= {"t", *self.names.values}, "a derivative by time is not read")
-            found = _once(found, step)
+            doubtful = step == _TIME and not symbols_in(found) <= {"t", *self.names.values}
+            refuse(doubtful or step.head != "symbol", "a derivative is by a symbol, and not by time on the way")
+            found = derivative(found, str(step.value))
         return found
 
 
-def _whole(tree: Tree) -> int:
-    """A whole number; 0 for anything else."""
-    return int(tree.value) if isinstance(tree.value, Fraction) and tree.value.denominator == 1 else 0
-
-
-def _once(tree: Tree, step: Tree) -> Tree:
-    """One derivative, by a symbol or by the place of an argument."""
-    if step.head == "symbol":
-        size = folded(tree, lambda _, below: 1 + sum(below))
-        refuse(size > LARGEST, "a derivative of a long expression is not read")
-        return derivative(tree, str(step.value))
-    places = [i for i in range(len(tree.below)) if number(i + 1) == step]
-    refuse(tree.head != "apply" or not places, "a derivative is by a symbol, or of a declared function by its argument")
-    return Tree("apply", tree.below, tree.value, tuple(k + (i in places) for i, k in enumerate(tree.orders)))
+_TIMES = {number(k): k for k in range(1, MOST_ORDERS + 1)}
 
 
 def _power(base: Tree, exponent: Tree) -> Tree:
@@ -205,22 +293,9 @@ def _power(base: Tree, exponent: Tree) -> Tree:
     if base == EULER:
         return call("exp", exponent)
     if isinstance(value, Fraction):
-        deep: Fraction = abs(value) * folded(base, _nested)
-        large = max(abs(value.numerator), value.denominator) > LARGEST_EXPONENT
-        refuse(large or deep > LARGEST_EXPONENT, "an exponent is too large")
+        refuse(max(abs(value.numerator), value.denominator) > LARGEST_EXPONENT, "an exponent is too large")
         if isinstance(raised, Fraction):
-            refuse(raised == 0 and value <= 0, "0 stands in a denominator")
-            refuse(raised < 0 and value.denominator != 1, "a negative number stands under a root")
+            refuse(raised <= 0 and (value <= 0 if raised == 0 else value.denominator != 1), "there is no such power")
             if value.denominator == 1:
-                found = raised ** int(value)
-                size = max(found.numerator.bit_length(), found.denominator.bit_length())
-                refuse(size > MOST_BITS, "a number is too large")
-                return number(found)
+                return number(raised ** int(value))
     return power(base, exponent)
-
-
-def _nested(node: Tree, below: tuple[Fraction, ...]) -> Fraction:
-    """The largest product of exponents within each other."""
-    exponent = node.below[1].value if node.head == "power" else ""
-    own = abs(exponent) if isinstance(exponent, Fraction) else Fraction(1)
-    return max(own, Fraction(1)) * max(below, default=Fraction(1))

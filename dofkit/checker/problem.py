@@ -1,5 +1,8 @@
 """A scene's document as a problem: coordinates, scalar relations with their owners, and the reference.
 
+A document is YAML 1.2 or JSON, safe and bounded. Its canonical form leaves out what says nothing of the mathematics, so
+that one scene has one hash however it is written; in it whole numbers are numbers, others texts such as ``1/2``.
+
 This reads the contract a second time and shares nothing with the engines. Velocities of q are the symbols ``qdot``, the
 rate of time is ``tdot``. A generic symbol ``square_c3`` is the square of a length that was left out by the third
 constraint, ``length_c3`` the length of a string, ``place_c3`` and ``axis_c3`` components of a place or of an axis.
@@ -7,43 +10,119 @@ constraint, ``length_c3`` the length of a string, ``place_c3`` and ``axis_c3`` c
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import islice
-from typing import Any, Literal
+from fractions import Fraction
+from hashlib import sha256
+from itertools import chain, islice
+from typing import Any
 
-from dofkit.checker.constraints import TYPES
-from dofkit.checker.derivatives import TIME_RATE, symbols_in
-from dofkit.checker.document import canonical, document_of
-from dofkit.checker.errors import CheckError, refuse
+from ruamel.yaml import YAML
+from ruamel.yaml.error import YAMLError
+from ruamel.yaml.events import CollectionEndEvent, CollectionStartEvent, MappingEndEvent, ScalarEvent
+
+from dofkit.checker.constraints import TYPES, Entry, Surroundings, known_fields
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
-from dofkit.checker.grammar import Sided
-from dofkit.checker.surroundings import Entry, Surroundings, known_fields
-from dofkit.checker.trees import ONE, ZERO, Tree, symbol
-from dofkit.checker.words import BUILT_IN, KnownNames, spelled_out
+from dofkit.checker.grammar import BUILT_IN, DECIMAL, KnownNames, Sided, spelled_out
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
+from dofkit.checker.values import TIME_RATE, symbols_in
 
-__all__ = ["CheckedRelation", "Problem", "document_of", "read_problem"]
-
-MOST_RELATIONS = 20_000
+MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 20_000
+_NULLS = ("", "~", "null", "Null", "NULL")
+_VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
+#: Keys that say nothing of the mathematics, and values that are as good as left out.
+_SILENT, _DEFAULTS = ("name", "title", "source", "notes", "expect"), {"dimension": 3, "tolerance": 0}
+#: What a text alone stands for in these lists.
+_SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")
 ROLES = {1: ("x",), 2: ("x", "y", "theta"), 3: ("x", "y", "z", "phi", "theta", "psi")}
-FIELDS = {
-    "scene": "name title source notes dimension parameters functions particles bodies coordinates constraints forces "
-    "energies tolerance configuration expect",
-    "particles": "name coordinates at mass",
-    "bodies": "name coordinates mass inertia",
-}
-Kind = Literal["finite", "velocity", "inequality"]
+KEYS = "dimension parameters functions particles bodies coordinates constraints forces energies tolerance configuration"
+FIELDS = {"particles": "name coordinates at mass", "bodies": "name coordinates mass inertia"}
+
+
+def document_of(text: str) -> Any:
+    """The document that a text writes in YAML 1.2 or JSON; in YAML numbers stay texts."""
+    refuse(len(text) > MOST_CHARACTERS, f"a document of more than {MOST_CHARACTERS} characters is not read")
+    try:
+        try:
+            return json.loads(text, parse_float=str, object_pairs_hook=_mapping)
+        except json.JSONDecodeError:
+            return _from_yaml(text)
+    except (YAMLError, RecursionError, ValueError) as error:
+        raise CheckError(f"the document cannot be read: {str(error)[:200]}") from None
+
+
+def _mapping(pairs: list[tuple[Any, Any]]) -> dict[str, Any]:
+    found = dict(pairs) if all(isinstance(key, str) for key, _ in pairs) else {}
+    refuse(len(found) < len(pairs), "a key is no text, or stands twice in one mapping")
+    return found
+
+
+def _from_yaml(text: str) -> Any:
+    """A document from the events of a YAML text: no tags, no aliases, and nothing but texts and nulls."""
+    stack: list[list[Any]] = [[]]
+    for event in YAML(typ="safe", pure=True).parse(text):
+        odd = getattr(event, "tag", None) not in (None, "!") or getattr(event, "anchor", None)
+        refuse(odd or len(stack) > DEEPEST, "tags, aliases and depths are not read")
+        if isinstance(event, ScalarEvent):
+            stack[-1].append(None if event.value in _NULLS and not event.style else event.value)
+        elif isinstance(event, CollectionStartEvent):
+            stack.append([])
+        elif isinstance(event, CollectionEndEvent):
+            found = stack.pop()
+            pairs = list(zip(found[::2], found[1::2], strict=False))
+            stack[-1].append(_mapping(pairs) if isinstance(event, MappingEndEvent) else found)
+    refuse(len(stack[0]) != 1, "one document is needed")
+    return stack[0][0]
+
+
+def canonical(document: object) -> dict[str, Any]:
+    """The document without its name, titles, notes and empty entries, short forms written out and values exact."""
+    found = _canonical(document, "", 0)
+    refuse(not isinstance(found, dict), "a scene is a mapping")
+    return {key: part for key, part in found.items() if key not in _SILENT and part != _DEFAULTS.get(key)}
+
+
+def _canonical(value: Any, key: str, depth: int) -> Any:
+    """A part of a document that stands under ``key``."""
+    refuse(depth > DEEPEST, "a document is nested too deep")
+    if key == "parameters" and isinstance(value, list):
+        value = _mapping([(name, None) for name in value])
+    if isinstance(value, Mapping):
+        missing = "real" if key == "parameters" else None
+        parts = [(name, missing if part is None else part) for name, part in value.items()]
+        found = _mapping([(name, _canonical(part, name, depth + 1)) for name, part in parts])
+        return {name: part for name, part in found.items() if part not in (None, {}, [])}
+    if isinstance(value, (list, tuple)):
+        short, rest = _SHORT.get(key, ("", {}))
+        longer = [{**rest, short: one} if short and isinstance(one, str) else one for one in value]
+        return [_canonical(one, "" if short else key, depth + 1) for one in longer]
+    if value is None or isinstance(value, bool) or (key == "name" and isinstance(value, str)):
+        return value
+    match = _VALUE.fullmatch(str(value)) if len(str(value)) <= LONGEST_VALUE else None
+    refuse(match is None and not isinstance(value, str), f"{str(value)[:40]} cannot stand in a document")
+    exact = Fraction(match[1]) / int(match[2] or 1) if match else Fraction(0)
+    return value if match is None else int(exact) if exact == int(exact) else str(exact)
+
+
+def sha256_of(document: object) -> str:
+    """The hash of the canonical JSON of a document."""
+    text = json.dumps(canonical(document), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
 @dataclass(frozen=True)
 class CheckedRelation:
-    """One scalar relation: ``left`` = 0, or of an inequality ``left`` > 0 (``strict``) or >= 0."""
+    """One scalar relation: ``left`` = 0, or of an inequality ``left`` > 0 (``strict``) or >= 0.
+
+    ``kind``: ``finite``, ``velocity`` or ``inequality``.
+    """
 
     name: str
     owner: str
-    kind: Kind
+    kind: str
     left: Tree
     strict: bool = False
 
@@ -52,7 +131,6 @@ class CheckedRelation:
 class CheckedProblem:
     """What a scene says. ``parameters``: those that stay symbols; ``reference`` holds at t = 0, empty where none is."""
 
-    name: str
     dimension: int
     coordinates: tuple[str, ...]
     parameters: Mapping[str, str]
@@ -60,12 +138,6 @@ class CheckedProblem:
     relations: tuple[CheckedRelation, ...]
     generic: tuple[str, ...]
     reference: Mapping[str, Tree]
-    tolerance: str | None
-
-    @property
-    def rates(self) -> tuple[str, ...]:
-        """The names of the velocities."""
-        return tuple(f"{q}dot" for q in self.coordinates)
 
 
 Problem = CheckedProblem
@@ -74,48 +146,42 @@ Problem = CheckedProblem
 def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> CheckedProblem:
     """The problem of a document; bodies in ``cayley`` are read with Cayley parameters in the place of angles."""
     try:
-        known_fields(document, FIELDS["scene"])
         scene = canonical(document)
-        world, coordinates, reference = _surroundings(scene, cayley)
-        relations = tuple(_relations(world, scene.get("constraints", []), coordinates))
-        names = [*coordinates, *world.names.values, *world.names.functions, *world.generic]
-        twice = any(len({*told}) < len(told) for told in (names, [one.name for one in relations]))
-        refuse(twice, "a name is that of a generic symbol, or relations have one name")
-        return CheckedProblem(
-            name=str(document.get("name") or "scene"),
-            dimension=world.dimension,
-            coordinates=coordinates,
-            parameters=world.signs,
-            functions={name: len(given) for name, given in world.names.functions.items()},
-            relations=relations,
-            generic=tuple(world.generic),
-            reference={} if world.generic else _reference(world, coordinates, reference),
-            tolerance=str(scene["tolerance"]) if "tolerance" in scene else None,
-        )
-    except CheckError:
-        raise
+        known_fields(scene, KEYS)
+        world, coordinates, given = _surroundings(scene, cayley)
+        relations = tuple(_relations(world, scene, coordinates))
+        reference = {} if world.generic else _reference(world, coordinates, given)
     except (LookupError, TypeError, AttributeError, ValueError, RecursionError) as error:
-        raise CheckError(f"the scene cannot be read: {type(error).__name__} {str(error)[:80]}") from None
+        raise CheckError(f"the scene cannot be read: {type(error).__name__} {str(error)[:200]}") from None
+    names = [*coordinates, *world.names.values, *world.names.functions, *world.generic]
+    for told in (names, [one.name for one in relations]):
+        refuse(len({*told}) < len(told), "a name is that of a generic symbol, or relations have one name")
+    arity = {name: len(own) for name, own in world.names.functions.items()}
+    return CheckedProblem(world.dimension, coordinates, world.signs, arity, relations, tuple(world.generic), reference)
 
 
 def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, tuple[str, ...], dict[str, Tree]]:
     """The names, points and bodies of a scene; its coordinates; the values that its configuration gives."""
-    d = scene.get("dimension", 3)
+    d, others, functions = scene.get("dimension", 3), scene.get("coordinates", []), scene.get("functions", {})
     refuse(type(d) is not int or d not in ROLES, "a world has 1, 2 or 3 dimensions")
     world = Surroundings(d, {"ground": ground(d)})
     particles, bodies = _owners(scene, "particles", ROLES[d][:d]), _owners(scene, "bodies", ROLES[d])
     refuse(not cayley <= bodies.keys() or (cayley and d != 3), "Cayley parameters are of bodies of space")
     charts = bodies | {body: [*bodies[body][:3], *(f"{body}_{g}" for g in "abc")] for body in cayley}
-    written, coordinates = (
-        [q for names in (*particles.values(), *owned.values(), scene.get("coordinates", [])) for q in names]
-        for owned in (bodies, charts)
-    )
-    values = _parameters(world, scene.get("parameters", {}))
-    functions = {h: tuple(given) for h, given in scene.get("functions", {}).items()}
+    written = [*chain(*particles.values(), *bodies.values(), others)]
+    coordinates = (*chain(*particles.values(), *charts.values(), others),)
+    values: dict[str, Tree] = {}
+    for name, value in scene.get("parameters", {}).items():
+        if value in SIGNS:
+            world.signs[name] = value
+        values[name] = symbol(name) if value in SIGNS else world.expression(value)
+        world.names = KnownNames(values=dict(values))
+    refuse(not all(isinstance(given, list) for given in functions.values()), "a function has a list of arguments")
     own = [spelled_out(name) for name in (*written, *values, *functions)]
     every = KnownNames(frozenset([*written, *coordinates]), values, functions)
-    twice = any(len({*names}) < len(names) for names in ([*own, *BUILT_IN, TIME_RATE], coordinates))
-    plain = all(re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and not every.moved(name) for name in own)
+    twice = len({*own, *BUILT_IN, TIME_RATE}) <= len(own) + len(BUILT_IN)
+    names = (*own, *map(spelled_out, coordinates))
+    plain = all(re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and not every.moved(name) for name in names)
     refuse(twice or not plain, "a name is taken, or not made of letters and digits")
     given = {q: world.expression(value) for q, value in scene.get("configuration", {}).items()}
     refuse(not given.keys() <= {*written}, "the configuration mentions what is no coordinate")
@@ -128,7 +194,7 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
         world.frames[name] = body_frame(name, d, {q: given.get(q, ZERO) for q in chart}, name in cayley)
         if not given.keys().isdisjoint(bodies[name]):
             world.drawn.add(name)
-    return world, tuple(coordinates), given
+    return world, coordinates, given
 
 
 def _owners(scene: Entry, key: str, roles: Sequence[str]) -> dict[str, list[str]]:
@@ -142,23 +208,10 @@ def _owners(scene: Entry, key: str, roles: Sequence[str]) -> dict[str, list[str]
     return found
 
 
-def _parameters(world: Surroundings, given: Entry) -> dict[str, Tree]:
-    """The parameters: symbols, whose signs are noted, and values, in which those before may stand."""
-    found: dict[str, Tree] = {}
-    for name, value in given.items():
-        if value in SIGNS:
-            world.signs[name] = value
-        found[name] = symbol(name) if value in SIGNS else world.expression(value)
-        world.names = KnownNames(values=dict(found))
-    return found
-
-
-def _relations(
-    world: Surroundings, constraints: Sequence[Entry], coordinates: Sequence[str]
-) -> Iterator[CheckedRelation]:
+def _relations(world: Surroundings, scene: Entry, coordinates: Sequence[str]) -> Iterator[CheckedRelation]:
     """The relations of every constraint, in order."""
     rates, left, owners = {*(f"{q}dot" for q in coordinates), TIME_RATE}, MOST_RELATIONS, set[str]()
-    for world.index, entry in enumerate(constraints, 1):
+    for world.index, entry in enumerate(scene.get("constraints", []), 1):
         called = entry.get("type", "equation")
         read, fields, dimensions = TYPES[called]
         known_fields(entry, f"type name {fields}")
@@ -170,7 +223,7 @@ def _relations(
         owners.add(owner)
         for place, one in enumerate(found, 1):
             moving = not symbols_in(one.tree).isdisjoint(rates)
-            kind: Kind = "inequality" if one.sign != "=" else "velocity" if moving else "finite"
+            kind = "inequality" if one.sign != "=" else "velocity" if moving else "finite"
             name = owner if len(found) == 1 else f"{owner}.{place}"
             yield CheckedRelation(name, owner, kind, one.tree, one.strict)
 

@@ -7,23 +7,97 @@ point, and others to have a value there, so that it is true near the point.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Any
+from fractions import Fraction
+from typing import Any, TypeVar
 
 from flint import arb
 
-from dofkit.checker.balls import CheckedPoint, excludes_zero
-from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError, refuse
+from dofkit.checker.constraints import nowhere_zero
+from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import Problem
-from dofkit.checker.texts import CheckedTexts
-from dofkit.checker.trees import Tree, add, number, power, symbol, times
+from dofkit.checker.ring import CheckedRing
+from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
+from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, heads_in, substituted, symbols_in
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
+LONGEST_TEXT = 40_000
+Looked = TypeVar("Looked")
+_PLAIN = frozenset(("symbol", "sum", "product", "sin", "cos", "exp", "apply"))
+
+
+class CheckedTexts:
+    """The texts that a certificate may write about a problem, their signs, and where they have a value."""
+
+    def __init__(self, problem: Problem, effort: Effort) -> None:
+        self.problem, self.effort = problem, effort
+        self.ring = CheckedRing(effort, 2 * len(problem.coordinates) + len(problem.parameters) + len(problem.generic))
+        self.seen: dict[Any, Any] = {}
+        self.variables: tuple[str, ...] = (*problem.coordinates, "t")
+        self.velocities = frozenset(name + "dot" for name in self.variables)
+        self.chosen = frozenset((*problem.parameters, *problem.generic))
+        self.functions = {name: tuple(f"a{i}" for i in range(k)) for name, k in problem.functions.items()}
+        taken = self.chosen.union(problem.coordinates)
+        self.forms = {f"d{q}": symbol(f"{q}dot") for q in self.variables if f"d{q}" not in taken}
+
+    def once(self, key: Any, look: Callable[[], Looked]) -> Looked:
+        """What was looked at under a key before, or is now."""
+        if key not in self.seen:
+            self.seen[key] = look()
+        found: Looked = self.seen[key]
+        return found
+
+    def text(self, text: Any, extra: Iterable[str] = ()) -> Tree:
+        """The tree of a text; ``extra`` are further names it may mention."""
+        refuse(not isinstance(text, str) or len(text) > LONGEST_TEXT, "an expression is a text of moderate length")
+        return self.once(("text", text, *extra), lambda: self._read(text, tuple(extra)))
+
+    def _read(self, text: str, extra: tuple[str, ...]) -> Tree:
+        self.effort.spend(10 * len(text) + 1)
+        values = {name: symbol(name) for name in (*sorted(self.chosen), "tdot", *extra)}
+        names = KnownNames(frozenset(self.problem.coordinates), values, self.functions)
+        return substituted(parse(text, names), self.forms)
+
+    def identity(self, left: Tree, right: Tree, what: str) -> None:
+        """`CheckError` unless two trees are the same in the ring."""
+        refuse(not self.same(left, right), f"{what}: the two sides are not the same")
+
+    def same(self, left: Tree, right: Tree) -> bool:
+        """Whether two trees are the same in the ring."""
+        return self.ring.vanishes(add(left, negative(right)))
+
+    def squares(self, terms: Any) -> Tree:
+        """A sum of squares, which have a value everywhere, with positive coefficients."""
+        pairs = [(self.text(c), self.text(a)) for c, a in terms]
+        refuse(not all(self.is_nowhere_zero(c, True) for c, _ in pairs), "a coefficient of a square is not positive")
+        refuse(not all(self.has_value_everywhere(a) for _, a in pairs), "a square has no value everywhere")
+        return add(*(times(c, power(a, TWO)) for c, a in pairs))
+
+    def is_open(self, tree: Tree) -> bool:
+        """Whether parameters, generic lengths or unknown functions occur, for which a point chooses values.
+
+        A claim is about almost all of them: what holds for the chosen ones has to hold for those near them.
+        """
+        return not self.chosen.isdisjoint(symbols_in(tree)) or "apply" in heads_in(tree)
+
+    def met_by(self, tree: Tree) -> list[str]:
+        """The velocities that occur."""
+        return sorted(self.velocities & symbols_in(tree))
+
+    def is_nowhere_zero(self, tree: Tree, positive: bool = False) -> bool:
+        """Whether a tree is a product of powers of numbers and parameters that are not 0, or are positive."""
+        return nowhere_zero(tree, self.problem.parameters, self.effort, positive)
+
+    def has_value_everywhere(self, tree: Tree) -> bool:
+        """Whether a tree is smooth (analytic, but for declared functions) at all real values of its symbols."""
+        if not symbols_in(tree):
+            return evaluated(tree, {}, self.effort) is not None
+        exponent = tree.below[1].value if tree.head == "power" else None
+        plain = isinstance(exponent, Fraction) and exponent.denominator == 1 and exponent > 0
+        plain |= tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True)
+        return (plain or tree.head in _PLAIN) and all(map(self.has_value_everywhere, tree.below))
 
 
 @dataclass(frozen=True)
@@ -38,7 +112,7 @@ class Consequence:
     nonzero: tuple[Tree, ...] = ()
     defined: tuple[Tree, ...] = ()
     step: str = ""
-    at: str = ""
+    at: str | None = None
 
 
 @dataclass(frozen=True)
@@ -56,8 +130,7 @@ Made = tuple[list[DerivedRelation], list[Consequence]]
 
 def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
     """The derivative by time along a motion."""
-    held = symbols_in(tree)
-    return add(*(times(derivative(tree, name), symbol(name + "dot")) for name in names if name in held))
+    return along({name: symbol(name + "dot") for name in names}, tree)
 
 
 class CheckedRelations(CheckedTexts):
@@ -68,23 +141,23 @@ class CheckedRelations(CheckedTexts):
         self.parts = parts
         self.known = {one.name: DerivedRelation(one.name, one.kind, one.left) for one in problem.relations}
         refuse(len(self.known) < len(problem.relations), "two relations of the scene have one name")
+        self.finite, self.moving = self.owned(None, ("finite",)), self.owned(None, ("velocity",))
+        self.equations = (*self.finite, *self.moving)
+        self.timed = self.holds_time(self.equations)
         self.consequences: list[Consequence] = []
         self.faults: dict[str, str] = {}
-        self.met: dict[tuple[int, str], bool] = {}
-        self.slopes: dict[tuple[str, str], Tree] = {}
-        self.linear: dict[str, bool] = {}
         self._take_steps()
 
     def _take_steps(self) -> None:
         makers = {"branch": self._branch, "sos": self._squares, "rate": self._rate}
+        makers |= {"implied": self._implied, "integral": self._implied}
         for step in self.parts["relations"]:
             name = step["id"]
             try:
                 if "of" in step:
                     refuse(self.relation(step["of"]).kind == "inequality", "a step is made from an equation")
                     refuse(self.known[step["of"]].leaf and step["by"] != "rate", "an integral has a rate, and no more")
-                refuse(step["by"] not in (*makers, "implied", "integral"), "no such step")
-                relations, consequences = makers.get(step["by"], self._implied)(step)
+                relations, consequences = makers[step["by"]](step)
                 taken = not self.known.keys().isdisjoint((name, *(one.name for one in relations)))
                 refuse(taken, "a name of this step is taken")
                 self.known.update({one.name: one for one in relations})
@@ -92,8 +165,8 @@ class CheckedRelations(CheckedTexts):
             except FAULTS as error:
                 self.faults[name] = f"step `{name[:60]}`: {told(error)}"
 
-    def _derived(self, name: str, left: Tree, leaf: bool = False) -> DerivedRelation:
-        return DerivedRelation(name, "velocity" if self.has_velocities(left) else "finite", left, leaf)
+    def _derived(self, name: str, left: Tree) -> DerivedRelation:
+        return DerivedRelation(name, "velocity" if self.met_by(left) else "finite", left)
 
     def _branch(self, step: dict[str, Any]) -> Made:
         """A product is 0 where a factor is, and where the others are not 0 only there; so is a power of the factor."""
@@ -103,46 +176,39 @@ class CheckedRelations(CheckedTexts):
         refuse(type(exponent) is not int or not 1 <= exponent <= 64, "a power is a whole number from 1")
         base = factors.pop(chosen)
         self.identity(of.left, times(power(base, number(exponent)), *factors), "the product of the factors")
-        others = [one for one in factors if one != symbol("tdot")]
-        refuse(any(map(self.has_velocities, others)), "another factor holds velocities")
-        free = all(self.reason(step.get("nonzero"), one) for one in others)
+        others = [one for one in factors if one != symbol("tdot") and not self.is_nowhere_zero(one)]
+        refuse(any(map(self.met_by, others)), "another factor holds velocities")
         new, defined = self._derived(step["id"], base), (base, *factors)
-        down = Consequence(new.name, (of.name,), () if free else tuple(others), defined)
+        down = Consequence(new.name, (of.name,), tuple(others), defined)
         return [new], [down, Consequence(of.name, (new.name,), (), defined)]
 
     def _squares(self, step: dict[str, Any]) -> Made:
         """A sum of squares with coefficients of one sign is 0 where every square is."""
         of, total = self.relation(step["of"]), self.squares(step["terms"])
-        if not self.same(of.left, times(number(-1), total)):
+        if not self.same(of.left, negative(total)):
             self.identity(of.left, total, "the sum of squares")
         new = [self._derived(f"{step['id']}.{i}", self.text(a)) for i, (_, a) in enumerate(step["terms"], 1)]
-        return new, [
-            *(Consequence(one.name, (of.name,)) for one in new),
-            Consequence(of.name, tuple(one.name for one in new)),
-        ]
+        names = tuple(one.name for one in new)
+        return new, [*(Consequence(name, (of.name,)) for name in names), Consequence(of.name, names)]
 
     def _implied(self, step: dict[str, Any]) -> Made:
-        """h g = sum c_i r_i: g is 0 where all r_i are and h is not; an integral with the rate g keeps its value.
+        """h g = sum c_i r_i: g is 0 where all r_i are and h is not; a function with the rate g keeps its value.
 
         Integrals: along every motion near a point where h is not 0.
         """
-        leaf, known = step["by"] == "integral", "of" in step
-        refuse(leaf and known, "an integral is a function of its own")
-        of = self.relation(step["of"]) if known else None
-        left = of.left if of else self.text(step["function" if leaf else "text"])
+        leaf = step["by"] == "integral"
+        left = self.text(step["function"]) if leaf else self.relation(step["of"]).left
         sources = [self.relation(name) for name in step["c"]]
         refuse(any(one.leaf or one.kind == "inequality" for one in sources), "an inequality or integral to start from")
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
-        refuse(
-            self.has_velocities(h) or (leaf and self.has_velocities(left)), "the factor or integral holds velocities"
-        )
+        refuse(self.met_by(h) or (leaf and self.met_by(left)), "the factor or integral holds velocities")
         change = total_derivative(left, self.variables) if leaf else left
         total = add(*(times(c, one.left) for c, one in zip(cofactors, sources, strict=True)))
         self.identity(times(h, change), total, "the cofactors")
-        needs = () if self.reason(step.get("nonzero"), h) else (h,)
-        new, defined = self._derived(step["id"], left, leaf), (h, *cofactors) if known else (h, *cofactors, left)
-        follows = Consequence(new.name, tuple(one.name for one in sources), needs, defined)
-        return [new], [follows, replace(follows, target=of.name)] if of else [follows]
+        needs, target = () if self.is_nowhere_zero(h) else (h,), step["id" if leaf else "of"]
+        defined = (h, *cofactors, left) if leaf else (h, *cofactors)
+        new = [DerivedRelation(target, "finite", left, True)] if leaf else []
+        return new, [Consequence(target, tuple(step["c"]), needs, defined)]
 
     def _rate(self, step: dict[str, Any]) -> Made:
         """What is constantly 0, or keeps its value, has the derivative 0."""
@@ -156,29 +222,9 @@ class CheckedRelations(CheckedTexts):
         found = (one for one in self.problem.relations if one.kind in kinds)
         return tuple(one.name for one in found if owner is None or one.owner == owner)
 
-    @cached_property
-    def finite(self) -> tuple[str, ...]:
-        """The finite relations of the scene."""
-        return self.owned(None, ("finite",))
-
-    @cached_property
-    def moving(self) -> tuple[str, ...]:
-        """The velocity relations of the scene."""
-        return self.owned(None, ("velocity",))
-
-    @cached_property
-    def equations(self) -> tuple[str, ...]:
-        """The finite relations, then those of velocities."""
-        return (*self.finite, *self.moving)
-
     def holds_time(self, names: Iterable[str]) -> bool:
         """Whether time or dt occurs in a relation."""
         return any(not {"t", "tdot"}.isdisjoint(symbols_in(self.relation(name).left)) for name in names)
-
-    @cached_property
-    def timed(self) -> bool:
-        """Whether time or dt occurs in an equation."""
-        return self.holds_time(self.equations)
 
     def relation(self, name: Any) -> DerivedRelation:
         """A relation by its id."""
@@ -188,55 +234,36 @@ class CheckedRelations(CheckedTexts):
 
     def closure(self, start: Iterable[str], point: CheckedPoint | None) -> set[str]:
         """All that holds near a point (or, without one, everywhere) where ``start`` does, by the steps."""
-        found, grew = set(start), True
-        while grew:
-            grew = False
+        found, size = set(start), -1
+        while len(found) > size:
+            size = len(found)
             for i, one in enumerate(self.consequences):
                 if one.target not in found and found.issuperset(one.sources) and self._met(i, point):
                     found.add(one.target)
-                    grew = True
             self.effort.spend(len(self.consequences) + 1)
         return found
 
     def follow(self, wanted: Iterable[str], start: Iterable[str], point: CheckedPoint | None, what: str) -> None:
         """`CheckError` unless all that is wanted holds near a point where ``start`` does."""
         left = set(wanted) - set(start)
-        left -= self.closure(start, point) if left else set()
-        if left:
-            raise CheckError(f"`{min(left)}` is not shown to follow from {what}")
+        left = left and left - self.closure(start, point)
+        refuse(left, f"`{min(left, default='')}` is not shown to follow from {what}")
 
     def _met(self, place: int, point: CheckedPoint | None) -> bool:
         one = self.consequences[place]
         if point is None:
-            return not one.at and not one.nonzero and all(map(self.has_value_everywhere, one.defined))
-        key = (place, point.name)
-        if key not in self.met:
+            return one.at is None and not one.nonzero and all(map(self.has_value_everywhere, one.defined))
+        wide = {v: arb(0, 10**30) for v in self.velocities - point.balls.keys()}
+
+        def look() -> bool:
             try:
-                nonzero = one.at in ("", point.name) and all(excludes_zero(point.value(tree)) for tree in one.nonzero)
-                wide = {v: arb(0, 10**30) for v in self.velocities - point.balls.keys()}
-                self.met[key] = nonzero and all(point.value_with(tree, wide) is not None for tree in one.defined)
+                values = [point.value_with(tree, wide) for tree in (*one.nonzero, *one.defined)]
             except CheckError:
                 refuse(self.effort.left < 0, "the work that a certificate may cost is used up")
-                self.met[key] = False
-        return self.met[key]
+                return False
+            return one.at in (None, point.name) and all(map(excludes_zero, values[: len(one.nonzero)]))
 
-    def is_linear(self, name: str) -> bool:
-        """Whether a relation is finite, or a linear form in the velocities (dt included)."""
-        if name not in self.linear:
-            one = self.relation(name)
-            slopes = {v: derivative(one.left, v) for v in sorted(self.velocities & symbols_in(one.left))}
-            form = add(*(times(symbol(v), slope) for v, slope in slopes.items()))
-            self.linear[name] = one.kind != "velocity" or (
-                not any(map(self.has_velocities, slopes.values())) and self.same(one.left, form)
-            )
-        return self.linear[name]
-
-    def slope(self, row: str, column: str) -> Tree:
-        """The entry of a row: by a coordinate, or by its velocity."""
-        if (row, column) not in self.slopes:
-            one = self.relation(row)
-            self.slopes[row, column] = derivative(one.left, column if one.kind == "finite" else column + "dot")
-        return self.slopes[row, column]
+        return self.once(("met", place, point.name), look)
 
 
 def told(error: Exception) -> str:

@@ -1,4 +1,4 @@
-"""Expression trees: what a text says, node by node, with exact numbers.
+"""Expression trees: what a text says, node by node, with exact numbers; what is refused, and what work may cost.
 
 Heads: ``number`` (``value`` a Fraction), ``symbol`` (``value`` its name), ``sum``, ``product``, ``power`` (base and
 exponent), the name of an elementary function (``sin``, ``atan2``, ...), and ``apply`` (``value`` the name of a declared
@@ -7,19 +7,40 @@ function, ``orders`` how often it is differentiated by each argument). ``pi`` is
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import prod
 
-from dofkit.checker.errors import refuse
+_NAMES = "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh exp log sqrt abs"
+FUNCTIONS = tuple(_NAMES.split())
 
-FUNCTIONS = (
-    *("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh"),
-    *("exp", "log", "sqrt", "abs"),
-)
+#: The size of a tree: its nodes, each as often as powers repeat it, and 64 bits of a number for one; that of a number.
+LARGEST, LARGEST_NUMBER = 50_000, 512
+#: Units of work of a whole certificate: about products of terms of polynomials, or nodes evaluated.
+MOST_WORK = 60_000_000
 
-#: Nodes of a tree as it is written, and bits of a number.
-MOST_NODES, MOST_BITS = 50_000, 32_768
+
+class CheckError(ValueError):
+    """A text, a scene or a certificate that cannot be read: nothing about it is verified."""
+
+
+def refuse(when: object, why: str) -> None:
+    """`CheckError` where something is so that must not be."""
+    if when:
+        raise CheckError(why)
+
+
+class Effort:
+    """A purse of units of work, the same on every machine: who has spent them all is refused."""
+
+    def __init__(self, units: int = MOST_WORK) -> None:
+        self.left = units
+
+    def spend(self, units: int) -> None:
+        """Take units out of the purse."""
+        self.left -= units
+        refuse(self.left < 0, "the work that a certificate may cost is used up")
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,17 +54,16 @@ class Tree:
     size: int = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Parts may be shared, so that a short text writes a huge tree, and a few products a huge number."""
-        size = 1 + sum(part.size for part in self.below)
-        refuse(size > MOST_NODES, f"an expression of more than {MOST_NODES} terms and factors is not read")
-        if isinstance(self.value, Fraction):
-            bits = max(self.value.numerator.bit_length(), self.value.denominator.bit_length())
-            refuse(bits > MOST_BITS, f"a number of more than {MOST_BITS} bits is not read")
-        object.__setattr__(self, "size", size)
+        """Parts may be shared, so that a short text writes a huge tree, and powers of powers a huge number."""
+        exponent = self.below[1].value if self.head == "power" else 1
+        often = max(1, int(abs(exponent))) if isinstance(exponent, Fraction) else 1
+        digits = self.value.as_integer_ratio() if isinstance(self.value, Fraction) else (0,)
+        own = 1 + max(map(int.bit_length, digits)) // 64
+        object.__setattr__(self, "size", own + often * sum(part.size for part in self.below))
+        refuse(self.size > LARGEST or own > LARGEST_NUMBER, "an expression or a number is too large")
 
 
-ZERO = Tree("number", (), Fraction(0))
-ONE = Tree("number", (), Fraction(1))
+ZERO, ONE = (Tree("number", (), Fraction(k)) for k in (0, 1))
 
 
 def number(value: Fraction | int) -> Tree:
@@ -56,19 +76,24 @@ def symbol(name: str) -> Tree:
     return Tree("symbol", (), name)
 
 
+def _split(parts: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
+    """The numbers among terms or factors, and the others."""
+    refuse(sum(p.size - 1 for p in parts if p.head == "number") > LARGEST_NUMBER, "a number is too large")
+    return [p.value for p in parts if isinstance(p.value, Fraction)], [p for p in parts if p.head != "number"]
+
+
 def add(*terms: Tree) -> Tree:
     """A sum; numbers are added up and 0 is left out."""
-    constant = sum((t.value for t in terms if isinstance(t.value, Fraction)), Fraction(0))
-    rest = [t for t in terms if t.head != "number"]
-    if constant:
+    numbers, rest = _split(terms)
+    if constant := sum(numbers, Fraction(0)):
         rest.append(number(constant))
     return rest[0] if len(rest) == 1 else Tree("sum", tuple(rest)) if rest else ZERO
 
 
 def times(*factors: Tree) -> Tree:
     """A product; numbers are multiplied and 1 is left out, 0 is 0."""
-    constant = prod((f.value for f in factors if isinstance(f.value, Fraction)), start=Fraction(1))
-    rest = [f for f in factors if f.head != "number"]
+    numbers, rest = _split(factors)
+    constant = prod(numbers, start=Fraction(1))
     if constant == 0:
         return ZERO
     if constant != 1 or not rest:
@@ -94,5 +119,23 @@ def power(base: Tree, exponent: Tree) -> Tree:
 
 
 def call(name: str, *arguments: Tree) -> Tree:
-    """An elementary function of ``arguments``."""
-    return Tree(name, arguments)
+    """An elementary function, told by sines, cosines, exponentials, logarithms, powers and ``atan2``."""
+    return _MEANINGS[name](*arguments) if name in _MEANINGS else Tree(name, arguments)
+
+
+TWO, _HALF, MINUS = number(2), number(Fraction(1, 2)), number(-1)
+#: Each is the same real number, and has a value and is smooth at the same places.
+_MEANINGS: dict[str, Callable[..., Tree]] = {
+    "tan": lambda u: times(call("sin", u), call("sec", u)),
+    "cot": lambda u: times(call("cos", u), call("csc", u)),
+    "sec": lambda u: power(call("cos", u), MINUS),
+    "csc": lambda u: power(call("sin", u), MINUS),
+    "sqrt": lambda u: power(u, _HALF),
+    "abs": lambda u: power(power(u, TWO), _HALF),
+    "asin": lambda u: call("atan2", u, call("sqrt", difference(ONE, power(u, TWO)))),
+    "acos": lambda u: call("atan2", call("sqrt", difference(ONE, power(u, TWO))), u),
+    "atan": lambda u: call("atan2", u, ONE),
+    "sinh": lambda u: times(_HALF, difference(call("exp", u), call("exp", negative(u)))),
+    "cosh": lambda u: times(_HALF, add(call("exp", u), call("exp", negative(u)))),
+    "tanh": lambda u: times(call("sinh", u), power(call("cosh", u), MINUS)),
+}

@@ -8,32 +8,33 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from dofkit.checker import dimension_rules as numbers
-from dofkit.checker import emptiness_rules as emptiness
 from dofkit.checker import label_rules as labels
-from dofkit.checker.document import document_of, sha256_of
-from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError, refuse
+from dofkit.checker import whole_rules as whole
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import take_cover
 from dofkit.checker.format import PARTS, certificate_of
-from dofkit.checker.problem import Problem, read_problem
+from dofkit.checker.problem import Problem, canonical, document_of, read_problem, sha256_of
 from dofkit.checker.relations import FAULTS, told
+from dofkit.checker.trees import CheckError, Effort, refuse
 
 Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
 #: The rules: paths of the report (fields of an entry, without ``/``), names of rules, and what looks at them.
 TABLE: tuple[tuple[str, str, Rule], ...] = (
-    ("/consistent, /feasible", "point, regular", emptiness.consistent),
-    ("/consistent", "nullstellensatz", emptiness.inconsistent),
-    ("/conflicting", "conflict", emptiness.conflict),
+    ("/consistent, /feasible", "point, regular", whole.consistent),
+    ("/consistent", "nullstellensatz", whole.inconsistent),
+    ("/conflicting", "conflict", whole.conflict),
     ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds),
-    ("/dof", "everywhere", numbers.everywhere),
-    ("/velocity_dof, /holonomic, /scleronomic, /redundant_equations, /redundancies", "count", numbers.counted),
-    ("/singular", "compare", numbers.counted),
+    ("/dof, /velocity_dof", "everywhere", whole.everywhere),
+    (
+        "/velocity_dof, /holonomic, /scleronomic, /redundant_equations, /redundancies, /singular",
+        "count",
+        numbers.counted,
+    ),
     ("/instantaneous_dof", "rank", numbers.instantaneous),
     ("/redundant", "cofactors", numbers.redundant),
-    ("/count/independent, independent", "independent", numbers.independence),
+    ("independent", "independent", numbers.independence),
     ("/integrable_part", "integrals", numbers.integrable_part),
-    ("/generalized_coordinates", "minor", numbers.generalized_coordinates),
+    ("/generalized_coordinates", "minor, frobenius, isolated", numbers.generalized_coordinates),
     ("/growth_vector", "span", numbers.growth),
     ("circuit", "cofactors", numbers.circuit),
     ("holonomic, holonomic_alone", "finite", labels.finite),
@@ -44,7 +45,8 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("scleronomic, catastatic", "timeless", labels.timeless),
     ("scleronomic, catastatic", "turns", labels.turns),
     ("exact", "exact, not exact", labels.exact),
-    ("integral, integrating_factor", "integral", labels.integral),
+    ("integrating_factor", "integral", labels.factor),
+    ("integral", "integral", labels.integral),
 )
 RULES = {(path, rule): look for paths, rules, look in TABLE for path in paths.split(", ") for rule in rules.split(", ")}
 #: What may be false of poses near the configuration alone.
@@ -87,7 +89,7 @@ class Verifier:
         other = given["scene"].get("sha256") != sha256_of(document)
         refuse(other, "the certificate is of another scene, or of this one before it was edited")
         self.problem = problem or read_problem(document)
-        refuse(self.problem.tolerance is not None, "what is measured up to a tolerance is not proved")
+        refuse("tolerance" in canonical(document), "what is measured up to a tolerance is not proved")
         self.evidences: dict[bool, CheckedEvidence] = {}
         self.verified: dict[str, Any] = {}
 
@@ -112,7 +114,7 @@ class Verifier:
             except FAULTS as error:
                 failed.append({"path": path, "rule": rule, "why": told(error)})
             seen.add(path)
-        name, count = str(self.given["scene"].get("name", self.problem.name))[:200], len(self.given["claims"])
+        name, count = str(self.given["scene"].get("name", self.document.get("name")))[:200], len(self.given["claims"])
         return Verification(name, count, count - len(failed), failed, list(self.given["uncovered"]))
 
     def check(self, claim: dict[str, Any]) -> None:

@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from dofkit.base.verdicts import OPEN, VERDICTS, ArgumentKey, Claim, least, together
-from dofkit.classification.generalized_coordinates import regular_at_witness
+from dofkit.classification.generalized_coordinates import orbit_at_reference, regular_at_witness
 from dofkit.classification.study import Study
 from dofkit.integrability.growth_vector import is_free
 from dofkit.relations.answer import BITS
@@ -141,12 +141,18 @@ def _dependence(study: Study, free: Claim, some: bool) -> Claim:
 def _chosen(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
     """Of the generalized coordinates: the others have independent rows, at the reference or at a generic point.
 
-    Where the set may have several parts the point may lie on another one.
+    Where the set may have several parts the point may lie on another one. At a singular reference the set is known
+    where it is the orbit of the whole as one body; elsewhere it may be no graph over any coordinates.
     """
     parts = []
     for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
-        if a.about == "reference" or a.argument in ALIKE or not a.dof:
+        if a.argument in ALIKE or not a.dof or (a.about == "reference" and a.instantaneous == a.velocity_dof):
             parts.append(_counted(a.claim))
+        elif a.about == "reference":
+            orbit = orbit_at_reference(block, a, study.setting)
+            sure = orbit is not None and orbit.rank(chosen) == a.dof
+            near = Claim("probable", "generic points", bits=BITS, about="component")
+            parts.append(_counted(a.claim) if sure else together(a.claim, near))
         elif regular_at_witness(block.coordinates, a, chosen):
             parts.append(replace(a.claim, about="component"))
         else:

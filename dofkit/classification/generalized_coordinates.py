@@ -10,6 +10,7 @@ import numpy as np
 from dofkit.base.deadline import expired
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
 from dofkit.configuration.drawing.at_reference import ball_point
+from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.configuration.local.neighbourhood import damped
@@ -60,8 +61,17 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return direct if len(direct) == a.dof and not turning else None
     if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear:
         return direct if len(direct) == a.dof else None
+    orbit = None if turning else orbit_at_reference(block, a, setting)
+    if orbit is not None:
+        return orbit.chart_of()
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
     return found if found is not None else (direct if len(direct) == a.dof and not turning else None)
+
+
+def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
+    """Where a drawing is singular and yet moves as one body alone: its orbit. None elsewhere."""
+    alone = a.about == "reference" and a.instantaneous != a.velocity_dof and not block.forms and not block.nonlinear
+    return RigidOrbit.at_reference(make_chart(block, setting), setting, a.dof) if alone and a.dof else None
 
 
 def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -> bool | None:

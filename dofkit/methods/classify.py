@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from dofkit.base.arguments import require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.base.errors import ArgumentError
@@ -53,10 +55,12 @@ def classify(
 def with_certificate(scene: Scene, report: Report) -> Report:
     """The report with its certificate; what a second program finds otherwise is undecided.
 
-    What makes certificates is imported where one is asked for.
+    It is probable where points over GF(p) alone say what the evidence does. What makes certificates is imported where
+    one is asked for.
     """
     homes = {"with_certificate": "dofkit.methods.certificates.lowering"}
-    certified: Report = handed_on(__name__, homes, "with_certificate")(scene, report)
+    again = partial(classified, scene, DEFAULT_SECONDS, "field")
+    certified: Report = handed_on(__name__, homes, "with_certificate")(scene, report, again)
     return certified
 
 

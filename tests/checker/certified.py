@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from dofkit.checker.document import sha256_of
+from dofkit.checker.problem import sha256_of
 from dofkit.checker.verification import verify
 
 Parts = dict[str, Any]

@@ -50,26 +50,24 @@ def along_y(most: Any) -> dict[str, Any]:
 BOTH = {"id": "m", "at": "P", "rows": ["c1", "k"], "columns": ["x", "y"]}
 IN_Y = {"id": "m", "at": "P", "rows": ["c1"], "columns": ["y"]}
 FACTOR_X = {"id": "k", "by": "factor", "of": "c1", "factor": "x", "rest": "y"}
-#: The whole family of y, at one moment.
-FAMILY = {"rule": "family", "at": "P", "parameters": ["u"], "values": {"u": "0"}, "q": {"y": "u"}, "columns": ["y"]}
 #: x = 0 leaves y free.
 A_LINE: dict[str, Attack] = {
     "a cofactor y/x at x = 0": (
-        plane("x = 0"),
-        [regular(0)],
+        plane("x = 0", "y = 0"),
+        [regular(1)],
         {
-            "relations": [{"id": "k", "by": "implied", "text": "y", "c": {"c1": "y/x"}}],
+            "relations": [{"id": "k", "by": "implied", "of": "c2", "c": {"c1": "y/x"}}],
             "points": [POINT],
-            "minors": [BOTH],
+            "minors": [MINOR],
         },
     ),
     "a cofactor with a logarithm of 0": (
-        plane("x = 0"),
-        [regular(0)],
+        plane("x = 0", "y = 0"),
+        [regular(1)],
         {
-            "relations": [{"id": "k", "by": "implied", "text": "y", "c": {"c1": "y/x + 0*log(x)"}}],
+            "relations": [{"id": "k", "by": "implied", "of": "c2", "c": {"c1": "y/x + log(x) - log(x)"}}],
             "points": [POINT],
-            "minors": [BOTH],
+            "minors": [MINOR],
         },
     ),
     "a square of what is not real nearby": (
@@ -102,18 +100,18 @@ A_LINE: dict[str, Attack] = {
         plane("x + y = 0"),
         [regular(0)],
         {
-            "relations": [{"id": "k", "by": "implied", "text": "2*x + 2*y", "c": {"c1": "2"}}],
+            "relations": [{"id": "k", "by": "branch", "of": "c1", "factors": ["2*x + 2*y", "1/2"], "chosen": 0}],
             "points": [POINT],
             "minors": [BOTH],
         },
     ),
     "a row that follows from nothing": (
-        plane("x^2 = 2"),
-        [regular(0)],
+        plane("x^2 = 2", "y = 0"),
+        [regular(1)],
         {
-            "relations": [{"id": "k", "by": "implied", "text": "y", "h": "0*x", "c": {"c1": "0"}}],
+            "relations": [{"id": "k", "by": "implied", "of": "c2", "h": "0*x", "c": {"c1": "0"}}],
             "points": [{"id": "P", "values": {"x": "sqrt(2)", "y": "0"}}],
-            "minors": [BOTH],
+            "minors": [MINOR],
         },
     ),
     "a factor x that is said to be nowhere 0": (
@@ -154,11 +152,6 @@ NO_MOTION: dict[str, Attack] = {
             "covers": [{"id": "v", "minor": "m", "blocks": [{"rows": ["c1", "c2"], "fields": [], "columns": []}]}],
         },
     ),
-    "a family at one moment": (
-        plane("x = 0", "x = t"),
-        [dof(1, "squeeze", most={"rule": "minor", "minor": "m"}, least=FAMILY)],
-        {"points": [START], "minors": [MINOR]},
-    ),
     "a field at one moment": (
         plane("x = 0", "x = t"),
         [along_y("m")],
@@ -198,6 +191,23 @@ NO_MOTION: dict[str, Attack] = {
     ),
 }
 NOT_AT_THE_POINT: dict[str, Attack] = {
+    "a box across the cut of atan2": (
+        # no angle is 3.2; the branch that goes on through y = 0 has this value at y = 0.0584..
+        plane("x = -1", "atan2(y, x) = 16/5"),
+        [regular(0)],
+        {
+            "points": [
+                {
+                    "id": "P",
+                    "values": {"x": "-1", "y": "1/1000000"},
+                    "rows": ["c2"],
+                    "columns": ["y"],
+                    "radius": "1/10",
+                }
+            ],
+            "minors": [{"id": "m", "at": "P", "rows": ["c1", "c2"], "columns": ["x", "y"]}],
+        },
+    ),
     "fields along a row that does not hold": (
         # near (1, 0, 0) the set is the axis of x
         space("x*(y^2 + z^2) = 0", configuration={"x": 1, "y": 0, "z": 0}),
@@ -296,7 +306,7 @@ TIME: dict[str, Attack] = {
         {
             "relations": [
                 {"id": "s", "by": "factor", "of": "c1", "factor": "x - t", "rest": "1"},
-                {"id": "s.1", "by": "implied", "text": "x - x", "c": {"c1": "0"}, "nonzero": {"number": True}},
+                {"id": "s.1", "by": "implied", "of": "c1", "c": {"c1": "0"}, "nonzero": {"number": True}},
             ]
         },
     ),

@@ -9,12 +9,10 @@ import pytest
 from checker.values import of_engine, of_tree
 
 from dofkit.base.errors import TextError
-from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.errors import CheckError
-from dofkit.checker.grammar import parse, parse_relations
+from dofkit.checker.grammar import EULER, PI, KnownNames, parse, parse_relations
 from dofkit.checker.trees import FUNCTIONS as HEADS
-from dofkit.checker.trees import ONE, ZERO, Tree, add, call, negative, number, power, symbol, times
-from dofkit.checker.words import EULER, PI, KnownNames
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, call, negative, number, power, symbol, times
+from dofkit.checker.values import derivative, symbols_in
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import num, parameter
 
@@ -92,7 +90,7 @@ READ: dict[str, Tree] = {
     "sin^2(x)": squared(call("sin", x)),
     "sin²(x)": squared(call("sin", x)),
     "atan2(y, x)": call("atan2", y, x),
-    "ln(x) + arcsin(y)": add(call("log", x), call("asin", y)),
+    "log(x) + asin(y)": add(call("log", x), call("asin", y)),
     "sqrt(x^2 + y^2)": call("sqrt", add(squared(x), squared(y))),
     # motions
     "dx": dx,
@@ -118,8 +116,7 @@ READ: dict[str, Tree] = {
     "diff(h(s), s, 2)": h(s, 2),
     "diff(h(2x), x)": times(two, h(times(two, x), 1)),
     "w": w((0, 0), x, t),
-    "partial(w(x, t), t)": w((0, 1), x, t),
-    "partial(w(x, x), 2)": w((0, 1), x, x),
+    "diff(w(x, y), y)": w((0, 1), x, y),
 }
 
 
@@ -169,6 +166,9 @@ MISTAKEN = (
         "x.__class__",
         "\\frac{x}{y}",
         "partial(x, 1)",
+        "diff(x, 1.5)",
+        "diff(x, 2, y)",
+        "diff(x, x, 99)",
         "x // y",
         "x*** y",
         "h(s",
@@ -181,7 +181,7 @@ FOREIGN = (
     *("dh", "dh/dt", "hdot", "diff(w(x, t), t)", "diff(x^2, t)", "sin 2 x", "sin2x", "log sin x", "sqrt3"),
 )
 HOSTILE = (
-    *("9**9**9", "2**2**40", "64^64^64", "x^65", "x^(1/65)", "((x+1)^9)^9", "(((2^64)^64)^64)", "1e999999999"),
+    *("9**9**9", "2**2**40", "64^64^64", "x^65", "x^(1/65)", "(((x+1)^9)^64)^64", "(((2^64)^64)^64)", "1e999999999"),
     *("(" * 10**5, "(" * 100 + "x" + ")" * 100, "sin(" * 500, "9" * 10**6, "a" * 10**6, "ab" * 900, "|" * 1000),
     *(
         "x^" * 400 + "x",
@@ -345,7 +345,6 @@ def test_what_both_readings_take_they_take_alike(seed: int) -> None:
 def test_what_the_engines_print_is_read_back() -> None:
     for text in (
         "h''(x + y)",
-        "partial(w(x*y, y), 1)",
         "diff(w(x, t), x)",
         "1/sqrt(x)",
         "-3*x*y/2",

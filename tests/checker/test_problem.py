@@ -15,12 +15,9 @@ from checker.values import of_tree, rows_of_trees
 from shared.known_scenes import SCENES, few, scene_of, stem
 
 import dofkit
-from dofkit.checker.document import canonical, document_of, exact_document, sha256_of
-from dofkit.checker.errors import CheckError
-from dofkit.checker.grammar import parse
-from dofkit.checker.problem import Problem, read_problem
-from dofkit.checker.trees import number
-from dofkit.checker.words import KnownNames
+from dofkit.checker.grammar import KnownNames, parse
+from dofkit.checker.problem import Problem, canonical, document_of, read_problem, sha256_of
+from dofkit.checker.trees import CheckError, number
 
 
 def read(text: str, *cayley: str) -> Problem:
@@ -34,7 +31,8 @@ def said(problem: Problem) -> dict[str, str]:
 def agrees(problem: Problem, name: str, text: str, factor: float = 1) -> None:
     """The relation is ``text`` times a number, at random places."""
     (relation,) = (relation for relation in problem.relations if relation.name == name)
-    names = [*problem.coordinates, *problem.rates, *problem.parameters, *problem.generic, "t", "tdot"]
+    rates = [f"{q}dot" for q in problem.coordinates]
+    names = [*problem.coordinates, *rates, *problem.parameters, *problem.generic, "t", "tdot"]
     known = KnownNames(frozenset(names) - {"t"})
     for seed in range(4):
         values = {q: random.Random(f"{q} {seed}").uniform(0.2, 1.2) for q in names}
@@ -109,7 +107,7 @@ particles: [{name: A, at: [0, 3]}, {name: B, at: [4, 0]}]
 constraints:
 - {type: string, along: [A, [0, 0], B]}
 - {type: string, along: [A, B], length: L - t}
-- {type: "on", members: [A, B], curve: "y = x^2 + t"}
+- {type: "on", members: [A, B], curve: ["y = x^2 + t"]}
 - {type: fixed, point: A}
 - {type: coincident, between: [A, B]}
 """)
@@ -186,14 +184,20 @@ def test_a_hinge_of_space_with_cayley_parameters_is_rational() -> None:
     assert problem.reference == dict.fromkeys(problem.coordinates, number(0))
 
 
+def test_names_may_be_greek() -> None:
+    problem = read("coordinates: [θ, x_φ]\nconstraints: [θ̇ = 2 x_phi]")
+    assert (problem.coordinates, said(problem)) == (("θ", "x_φ"), {"c1": "velocity"})
+
+
 MISTAKEN: dict[str, str] = {
-    "an unknown key": "constrants: []",
+    "an unknown key": "constrants: [x]",
     "an unknown field": "coordinates: [x]\nconstraints: [{type: equation, text: x, lenght: 2}]",
     "an unknown type": "constraints: [{type: revolut}]",
     "an undeclared name": "coordinates: [x]\nconstraints: [x = y]",
     "a name given twice": "coordinates: [x, x]",
     "a name of a velocity": "coordinates: [x, xdot]",
     "a greek twin": "coordinates: [θ, theta]",
+    "a name of a differential beside a chart": "coordinates: [A_a, dA_a]",
     "a reserved name": "coordinates: [t]",
     "a generic name": "coordinates: [square_c1]\nparticles: [A, B]\nconstraints: [{type: link, between: [A, B]}]",
     "two constraints of one name": "coordinates: [x]\nconstraints: [{name: c2, type: equation, text: x}, 0 <= x < 1]",
@@ -213,6 +217,8 @@ MISTAKEN: dict[str, str] = {
     "no mapping": "[1, 2]",
     "deep": "[" * 1000,
     "deep json": '{"a":' * 100_000,
+    "letters for arguments": "coordinates: [x, y]\nfunctions: {h: xy}",
+    "letters for texts": "coordinates: [x]\nconstraints: [{type: 'on', members: [[0, 0, 0]], curve: xy}]",
     "planar in the plane": "dimension: 2\nbodies: [A]\nconstraints: [{type: planar, between: [ground, A]}]",
 }
 
@@ -231,10 +237,11 @@ def test_a_text_that_mentions_an_angle_refuses_the_cayley_chart() -> None:
 
 
 def test_numbers_are_exact_and_words_are_words() -> None:
-    found = document_of('y: [0.5, 1e-6, 017, "0.5", on, yes, ~, true, -3., 2.0]')
-    assert found == {"y": ["1/2", "1/1000000", 17, "0.5", "on", "yes", None, True, -3, 2]}
-    assert exact_document({"a": 0.1, "b": Fraction(4, 2)}) == {"a": "1/10", "b": 2}
-    assert document_of('{"y": [0.5, 1e-6, "on"]}') == {"y": ["1/2", "1/1000000", "on"]}
+    found = canonical(document_of('{name: 0.5, y: [0.5, 1e-6, 017, "0.5", "6 / 4", on, yes, ~, "~", true, -3., 2.0]}'))
+    assert found == {"y": ["1/2", "1/1000000", 17, "1/2", "3/2", "on", "yes", None, "~", "true", -3, 2]}
+    assert canonical({"a": 0.1, "b": Fraction(4, 2), "c": True}) == {"a": "1/10", "b": 2, "c": True}
+    assert canonical(document_of('{"y": [0.5, 1e-6, "on"]}')) == {"y": ["1/2", "1/1000000", "on"]}
+    assert canonical({"bodies": [{"name": "1.0"}]}) == {"bodies": [{"name": "1.0"}]}
 
 
 def test_one_scene_has_one_hash() -> None:

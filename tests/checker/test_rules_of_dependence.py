@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from checker.certified import accepted, certificate, faults
 
-from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import verify
 
 APART: dict[str, Any] = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1", "y = 2"]}

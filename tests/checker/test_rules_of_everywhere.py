@@ -184,10 +184,6 @@ def test_what_is_feasible_together():
 def test_motions_through_time():
     scene = {"coordinates": ["x", "y"], "constraints": ["x = sin(t)", "xdot = cos(t) + y*0"]}
     at = [{"id": "P", "values": {"x": "0", "y": "0", "t": "0"}}]
-    claim = {"path": "/consistent", "value": True, "rule": "point", "q": {"x": "sin(t)", "y": "0"}, "at": "P"}
-    assert faults(scene, [claim], points=at) == {}
-    assert not accepted(scene, [{**claim, "q": {"x": "t", "y": "0"}}], points=at)
-    assert not accepted(scene, [{**claim, "q": {"y": "0"}}], points=at)
     assert not accepted(scene, [{"path": "/consistent", "value": True, "rule": "point", "at": "P"}], points=at)
     moment = {"coordinates": ["x"], "constraints": ["x*t = 0", "x = 0", "t = 0"]}
     start = [{"id": "P", "values": {"x": "0", "t": "0"}}]
@@ -279,8 +275,7 @@ def test_at_a_single_moment_there_is_no_freedom():
         "fields": [{"id": "X", "components": {"x": "1"}}],
     }
     span = {"rule": "span", "at": "P", "fields": ["X"], "rows": ["c1"], "words": [["X"]], "columns": ["x"]}
-    family = {"rule": "family", "at": "P", "parameters": ["u"], "values": {"u": "0"}, "q": {"x": "u"}, "columns": ["x"]}
-    for least in (span, family, {"rule": "regular", "minor": "0"}):
+    for least in (span, {"rule": "regular", "minor": "0"}):
         most = {"rule": "minor", "minor": "0"}
         claim = {"path": "/dof", "value": 1, "rule": "squeeze", "most": most, "least": least, "about": "component"}
         assert not accepted(scene, [claim], **parts)

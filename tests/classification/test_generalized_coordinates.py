@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from shared.known_scenes import SCENES
 
 import dofkit
 
@@ -109,3 +110,28 @@ def test_of_a_body_on_a_ball_joint_somewhere_not_all_places_are_chosen() -> None
     report = dofkit.classify({"bodies": ["b"], "constraints": [{"type": "spherical", "between": ["ground", "b"]}]})
     assert report.dof == 3
     assert report.generalized_coordinates == ["x_b", "y_b", "phi_b"]
+
+
+@pytest.mark.parametrize(
+    ("scene", "wanted"),
+    [
+        # AB lies along x: at the drawing x_B - x_A is stationary in every turn of the whole
+        ("desargues-perspective", ["x_A", "y_A", "y_B"]),
+        ("collinear-one-one-two", ["x_A", "y_A", "y_B"]),
+        # J0 - J1 along y, J0 - J2 along x: turns move x_J1 (about z), z_J1 (about x), z_J2 (about y)
+        ("jessen-orthogonal-icosahedron", ["x_J0", "y_J0", "z_J0", "x_J1", "z_J1", "z_J2"]),
+    ],
+)
+def test_at_a_singular_drawing_that_is_rigid_the_orbit_is_a_graph_over_the_choice(
+    scene: str, wanted: list[str]
+) -> None:
+    report = dofkit.classify(next(path for path in SCENES if path.stem == scene))
+    assert report.generalized_coordinates == wanted
+    assert report.verdicts["generalized_coordinates"].verdict == "proved"
+
+
+@pytest.mark.parametrize("scene", ["kite-folded", "rhombus-folded", "four-bar-change-point"])
+def test_where_branches_cross_the_choice_is_not_told_as_proved(scene: str) -> None:
+    report = dofkit.classify(next(path for path in SCENES if path.stem == scene))
+    assert report.verdicts["dof"].verdict == "proved"
+    assert report.verdicts["generalized_coordinates"].verdict == "probable"

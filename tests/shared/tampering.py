@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from dofkit.checker import CheckError, Verification, verify
-from dofkit.checker.document import sha256_of
 from dofkit.checker.format import PARTS
+from dofkit.checker.problem import sha256_of
 
 #: Where a value stands: keys and places.
 Place = tuple[Any, ...]
@@ -202,7 +202,7 @@ def _fault(path: str, value: Any, about: Any, report: Mapping[str, Any], choices
     owner = parts[2].replace("~1", "/").replace("~0", "~") if len(parts) == 4 else ""
     entry: Any = next((one for one in report["constraints"] if one["name"] == owner), None) if owner else report
     if entry is None or parts[-1] not in entry:
-        return "" if path == "/count/independent" else f"{path}: nothing of the kind is told"
+        return f"{path}: nothing of the kind is told"
     verdict = entry["verdicts"].get(parts[-1], {})
     if verdict.get("verdict") != "proved":
         inconsistent = report["consistent"] is False and parts[-1] in ("dof", "velocity_dof")

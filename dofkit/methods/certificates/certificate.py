@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
-from dofkit.checker.document import canonical, sha256_of
-from dofkit.checker.errors import CheckError
 from dofkit.checker.format import PARTS
-from dofkit.checker.problem import Problem, read_problem
+from dofkit.checker.problem import Problem, canonical, read_problem, sha256_of
+from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates import emptiness, forms, freedom, labels
+from dofkit.methods.certificates.contradictions import (
+    Contradiction,
+    as_if,
+    exclusions,
+    is_decisive,
+    is_of_largest_part,
+    is_told_of_less,
+    other_reports,
+)
 from dofkit.methods.certificates.estimates import NoEstimateError
 from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.scenery import Scenery
@@ -17,13 +25,14 @@ from dofkit.methods.certificates.trial import ClaimTrial
 from dofkit.report import ConstraintEntry, Report
 
 Maker = Callable[[Room], Iterator[Told]]
+Found = TypeVar("Found")
 
 NUMBERS: dict[str, Maker] = {
     "consistent": freedom.consistent,
     "dof": freedom.dof,
     "velocity_dof": freedom.velocity_dof,
     "instantaneous_dof": freedom.instantaneous,
-    "singular": freedom.compared,
+    "singular": freedom.counted,
     "holonomic": freedom.counted,
     "scleronomic": freedom.counted,
     "redundant_equations": freedom.counted,
@@ -76,6 +85,7 @@ class Certifying:
         self.rooms: list[Room] = []
         self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}
+        self.shown: dict[str, Any] = {}
 
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
@@ -86,27 +96,56 @@ class Certifying:
                 self.trial.admit(room.scenery)
         except CheckError:
             self.rooms = []
+        left = []
         for path, value, make in sorted(_asked(self.report), key=lambda asked: asked[0] in LAST):
             claim = self._made(path, value, make)
-            if claim is None and path not in self.contradictions:
+            if claim is None:
                 self.found["uncovered"].append(path)
-            elif claim is not None:
+                left.append((path, value, make))
+            else:
                 self.found["claims"].append(claim)
                 self._compare_about(path, claim)
-        return _without_spare_parts(self.found)
+        written = _without_spare_parts(self.found)
+        for path, value, make in left:
+            self._look_for_others(path, value, make)
+        written["uncovered"] = [path for path in written["uncovered"] if path not in self.contradictions]
+        return written
+
+    def _look_for_others(self, path: str, value: Any, make: Maker) -> None:
+        """Write down why a claim without evidence cannot be, where something shows it."""
+        if path not in self.contradictions and path in LAST:
+            self._made(path, value, make)
+        for room in self.rooms:
+            found = next(_guarded(self._others(room, path, value)), None)
+            found = found or next(_guarded(exclusions(room, self.report, path, value)), None)
+            if found is not None:
+                self.contradictions.setdefault(path, found.why)
+                self.shown.setdefault(path, found.shown)
+
+    def _others(self, room: Room, path: str, value: Any) -> Iterator[Contradiction]:
+        """Another value of a claim, shown where the claim is told of."""
+        for report in other_reports(self.report, path, value, len(room.problem.coordinates)):
+            asked = next(one for one in _asked(report) if one[0] == path)
+            for evidence in _tried(asked[2], as_if(room, report)):
+                claim = self._claim(room, path, asked[1], evidence)
+                if is_decisive(room, claim) and self.trial and self.trial.outcome(claim) == "shown":
+                    yield Contradiction(f"the evidence gives {asked[1]!r}, not {str(value)[:80]!r}", asked[1])
+
+    @staticmethod
+    def _claim(room: Room, path: str, value: Any, evidence: Told) -> Told:
+        return {"path": path, "value": value, **evidence, **({"cayley": True} if room.scenery.cayley else {})}
 
     def _made(self, path: str, value: Any, make: Maker) -> Told | None:
         """A claim that is shown; None where none is. What the evidence contradicts is written down elsewhere."""
         contradicted = ""
         for room in self.rooms:
             for evidence in _tried(make, room):
-                claim = {"path": path, "value": value, **evidence}
-                if room.scenery.cayley:
-                    claim["cayley"] = True
+                claim = self._claim(room, path, value, evidence)
                 outcome = self.trial.outcome(claim) if self.trial else "open"
                 if outcome == "shown":
                     return claim
-                if outcome == "contradicted" and self.trial and self._counts(room, claim):
+                counts = outcome == "contradicted" and (self._counts(room, claim) or is_decisive(room, claim))
+                if counts and self.trial:
                     contradicted = contradicted or self.trial.reasons[path]
         if contradicted:
             self.contradictions[path] = contradicted
@@ -119,14 +158,16 @@ class Certifying:
         vanishes at the configuration may be told of what it was reduced to.
         """
         path = claim["path"]
-        if room.scenery.reduced_from or (path == "/instantaneous_dof" and room.has_empty_row):
+        if is_told_of_less(room, path[1:]):
             return False
-        if path == "/dof" and self.trial and not room.problem.reference:
+        told = self.report.verdicts.get(path[1:])
+        whole = told is not None and told.about == "everywhere"
+        if path == "/dof" and whole and self.trial and not room.problem.reference:
             number = self.trial.reasons[path].removeprefix("the evidence gives ").partition(",")[0]
             if number.isdigit() and int(number) > claim["value"]:
                 return True
         pointed = any(key in claim for key in ("minor", "at", "most")) and path.rpartition("/")[2] in OF_A_POINT
-        return not pointed or room.at_reference or claim.get("about") == "everywhere"
+        return not pointed or room.at_reference or is_of_largest_part(room, claim)
 
     def _compare_about(self, path: str, claim: Told) -> None:
         """A number shown near a point only, that is told of everywhere, is uncovered in that."""
@@ -137,8 +178,13 @@ class Certifying:
 
 def _tried(make: Maker, room: Room) -> Iterator[Told]:
     """The evidence of one reading, one after another."""
+    yield from _guarded(make(room))
+
+
+def _guarded(found: Iterator[Found]) -> Iterator[Found]:
+    """What is found, until something stands in the way."""
     try:
-        yield from make(room)
+        yield from found
     except HINDRANCES:
         return
 

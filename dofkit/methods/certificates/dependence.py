@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates.elimination import echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.found_points import FoundPoint
@@ -20,7 +20,7 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
     if own.kind == "velocity":
         kinds += [rate for row in rows if row not in kinds and (rate := rate_of(scenery, row))]
     step = f"{scenery.label}{name} from others"
-    if step in scenery.evidence.known:
+    if scenery.has_step(step):
         return True
     try:
         factors = constant_cofactors(scenery, name, kinds, point)

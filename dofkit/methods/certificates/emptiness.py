@@ -8,9 +8,8 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.checker.derivatives import substituted
-from dofkit.checker.errors import CheckError
-from dofkit.checker.trees import ONE, Tree
+from dofkit.checker.trees import ONE, CheckError, Tree
+from dofkit.checker.values import substituted
 from dofkit.methods.certificates.dependence import rate_of
 from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.texts import number_text
@@ -79,7 +78,7 @@ def polynomials(room: Room, trees: Sequence[Tree]) -> tuple[list[Polynomial], li
     found = []
     for normal in normals:
         under = normal.below.leading_coefficient()
-        terms = {key: value / under for key, value in normal.above.to_dict().items()}
+        terms = {key[::-1]: value / under for key, value in normal.above.to_dict().items()}
         found.append({key: Fraction(int(value.p), int(value.q)) for key, value in terms.items()})
     return found, list(trees)
 

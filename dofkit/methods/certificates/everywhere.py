@@ -2,52 +2,98 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from dofkit.checker.derivatives import derivative, symbols_in
-from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import CheckError
+from dofkit.checker.values import symbols_in
+from dofkit.methods.certificates.forms import orbit
 from dofkit.methods.certificates.rigid_fields import backing
-from dofkit.methods.certificates.room import Room, Told
+from dofkit.methods.certificates.room import Room, Standing, Told
 
 Order = list[list[str]]
 
 
 def everywhere(room: Room) -> Iterator[Told]:
-    """dof of the whole set."""
-    evidence, standing = room.scenery.evidence, room.standing
-    if evidence.moving or room.scenery.cayley or standing is None:
+    """dof of the whole set; with forms from that near the main point."""
+    if room.scenery.cayley or room.standing is None:
         return
-    order, left = graph_order(room)
-    found: Told = {"rule": "everywhere", "about": "everywhere", "order": order}
+    evidence, finite = room.scenery.evidence, room.finite_standing
+    if not evidence.moving:
+        yield from _of_set(room, room.standing)
+        return
+    for local in orbit(room):
+        for parts in _of_forms(room):
+            yield {**local, **parts}
+        for parts in _of_set(room, finite) if finite is not None else ():
+            yield {**local, **parts}
+
+
+def velocities_everywhere(room: Room) -> Iterator[Told]:
+    """The independent velocities, at the whole set."""
+    if not room.scenery.cayley and room.standing is not None:
+        yield from _of_forms(room)
+
+
+def _of_forms(room: Room) -> Iterator[Told]:
+    """All relations in an order; or the finite ones, and a single form."""
+    evidence, standing = room.scenery.evidence, room.standing
+    if standing is None or not standing.accounted:
+        return
+    found = {"rule": "everywhere", "about": "everywhere", "minor": room.minor(standing)}
+    order, left = graph_order(room, _needed(standing, evidence.equations))
+    moving = _needed(standing, evidence.moving)
     if not left:
-        yield found
+        yield {**found, "order": order}
+    elif len(moving) == 1:
+        order, left = graph_order(room, _needed(standing, evidence.finite))
+        if not left:
+            yield {**found, "order": order, "blocks": moving}
+
+
+def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
+    """Relations without those that follow from the rows."""
+    return [name for name in names if not (standing.accounted and name in standing.dependent)]
+
+
+def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
+    """What the finite relations leave."""
+    evidence = room.scenery.evidence
+    finite = _needed(standing, evidence.finite)
+    order, left = graph_order(room, finite, columns=["t"])
+    found: Told = {"rule": "everywhere", "about": "everywhere"}
+    if not left:
+        yield {**found, "order": order}
+    found["minor"] = room.minor(standing)
+    if not left:
+        yield {**found, "order": order}
     own = own_symbols(room)
-    if not standing.dependent:
-        for tried, rest in ((order, left), given_first(room), ([], list(evidence.finite))):
+    if not standing.dependent or standing.accounted:
+        for tried, rest in ((order, left), given_first(room, finite), ([], finite)):
             blocks, generic = _split(room, tried, rest, own)
             if all(name in own for name in generic):
-                pairs = [[name, own[name]] for name in generic]
-                parts = {"order": tried, "blocks": blocks, "generic": pairs}
-                yield {**found, **parts, "minor": room.minor(standing)}
+                yield {**found, "order": tried, "blocks": blocks, "generic": [[name, own[name]] for name in generic]}
     if all(name in own for name in evidence.finite) and (backed := backing(room, standing)):
-        pairs = [[name, own[name]] for name in evidence.finite]
-        minor = room.minor(standing)
-        yield {"rule": "everywhere", "about": "everywhere", "order": [], "generic": pairs, "minor": minor, **backed}
+        yield {**found, "generic": [[name, own[name]] for name in evidence.finite], **backed}
 
 
-def graph_order(room: Room) -> tuple[Order, list[str]]:
-    """Relations with a coordinate that each alone gives, once those after it are taken away; and those left over."""
-    evidence = room.scenery.evidence
-    left = list(evidence.finite)
-    held = {name: symbols_in(evidence.relation(name).left) for name in left}
+def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequence[str] = ()) -> tuple[Order, list[str]]:
+    """Relations with a coordinate that each alone gives, once those after it are taken away; and those left over.
+
+    ``names``: the finite ones where it is left out; ``columns``: what may be given besides coordinates.
+    """
+    left, columns = (
+        list(room.scenery.evidence.finite if names is None else names),
+        [*room.problem.coordinates, *columns],
+    )
+    held = {name: _moved(room, name) for name in left}
     order: Order = []
     found: list[str] | None = []
     while left and found is not None:
         found = next(
             (
                 [name, q]
+                for q in columns
                 for name in left
-                for q in room.problem.coordinates
                 if q in held[name]
                 and not any(q in held[other] for other in left if other != name)
                 and _gives(room, name, q)
@@ -60,11 +106,19 @@ def graph_order(room: Room) -> tuple[Order, list[str]]:
     return order, left
 
 
-def given_first(room: Room) -> tuple[Order, list[str]]:
+def _moved(room: Room, name: str) -> set[str]:
+    """The variables of a finite relation; those with velocities in another."""
+    one = room.scenery.evidence.relation(name)
+    held = symbols_in(one.left)
+    if one.kind == "finite":
+        return set(held) & set(room.scenery.evidence.variables)
+    return {q for q in room.problem.coordinates if f"{q}dot" in held}
+
+
+def given_first(room: Room, names: Sequence[str]) -> tuple[Order, list[str]]:
     """Relations that give a coordinate which those chosen before do not hold, short ones first; and the others."""
-    evidence = room.scenery.evidence
     coordinates = room.problem.coordinates
-    held = {name: symbols_in(evidence.relation(name).left) & set(coordinates) for name in evidence.finite}
+    held = {name: symbols_in(room.scenery.evidence.relation(name).left) & set(coordinates) for name in names}
     order: Order = []
     taken: set[str] = set()
     for name in sorted(held, key=lambda one: len(held[one])):
@@ -72,13 +126,16 @@ def given_first(room: Room) -> tuple[Order, list[str]]:
         if fit:
             order.append([name, fit[0]])
             taken |= held[name]
-    return order, [name for name in evidence.finite if all(name != chosen for chosen, _ in order)]
+    return order, [name for name in names if all(name != chosen for chosen, _ in order)]
 
 
 def _gives(room: Room, name: str, q: str) -> bool:
+    """Whether a relation gives a coordinate with a factor of numbers and parameters."""
     evidence = room.scenery.evidence
     try:
-        return bool(evidence.ring.rational(derivative(evidence.relation(name).left, q)))
+        slope = evidence.slope(name, q)
+        plain = symbols_in(slope) <= evidence.chosen and room.point is not None and room.differs(slope, room.point)
+        return plain or bool(evidence.ring.rational(slope))
     except CheckError:
         return False
 

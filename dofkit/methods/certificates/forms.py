@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.errors import CheckError
 from dofkit.checker.fields import LARGEST_CRAMER, VelocityField, bracket, field_named
-from dofkit.checker.trees import Tree
+from dofkit.checker.trees import CheckError, Tree
+from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError, Values
 from dofkit.methods.certificates.found_points import FoundPoint

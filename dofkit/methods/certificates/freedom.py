@@ -7,11 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 from dofkit.methods.certificates.emptiness import inconsistent
-from dofkit.methods.certificates.everywhere import everywhere
+from dofkit.methods.certificates.everywhere import everywhere, velocities_everywhere
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, orbit
 from dofkit.methods.certificates.integrals import integral_of_text
 from dofkit.methods.certificates.rigid_fields import backing
 from dofkit.methods.certificates.room import Room, Told
+from dofkit.methods.certificates.stationary import isolations, stationary
 from dofkit.report import ConstraintEntry
 
 
@@ -57,6 +58,7 @@ def _near(room: Room) -> Iterator[Told]:
     standing = room.standing
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "regular", "minor": room.minor(standing), "about": room.about, **backed}
+    yield from stationary(room)
 
 
 def velocity_dof(room: Room) -> Iterator[Told]:
@@ -64,6 +66,8 @@ def velocity_dof(room: Room) -> Iterator[Told]:
     if not room.scenery.evidence.moving:
         yield {"rule": "count"}
         return
+    if room.report.verdicts["velocity_dof"].about == "everywhere":
+        yield from velocities_everywhere(room)
     standing = room.standing
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "regular", "minor": room.minor(standing), "about": room.about, **backed}
@@ -76,18 +80,13 @@ def instantaneous(room: Room) -> Iterator[Told]:
         return
     found: dict[str, Any] = {"rule": "rank", "at": standing.point.name}
     if not standing.dependent and standing.rows:
-        yield {**found, "minor": room.minor(standing), "dependent": {}}
+        yield {**found, "minor": room.minor(standing)}
     yield found
 
 
 def counted(room: Room) -> Iterator[Told]:
     """What follows from other claims."""
     yield {"rule": "count"}
-
-
-def compared(room: Room) -> Iterator[Told]:
-    """Two numbers that differ, or do not."""
-    yield {"rule": "compare"}
 
 
 def redundant(room: Room) -> Iterator[Told]:
@@ -97,6 +96,19 @@ def redundant(room: Room) -> Iterator[Told]:
     standing = room.accounted(names)
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "cofactors", "minor": room.minor(standing), **backed}
+    elif not dropped:
+        yield from _needed(room)
+
+
+def _needed(room: Room) -> Iterator[Told]:
+    """For every constraint a minor of all rows of the others."""
+    minors = {}
+    for owner in dict.fromkeys(map(room.owner, room.equations)):
+        standing = room.standing_of([name for name in room.equations if room.owner(name) != owner])
+        if standing is None or standing.dependent:
+            return
+        minors[owner] = room.minor(standing)
+    yield {"rule": "cofactors", "without": minors}
 
 
 def generalized_coordinates(room: Room) -> Iterator[Told]:
@@ -110,7 +122,10 @@ def generalized_coordinates(room: Room) -> Iterator[Told]:
         yield {"rule": "minor", "minor": room.minor(solving)}
     if room.scenery.evidence.moving:
         for found in involutive_rows(room, integrable_names(room), others):
-            yield {**found, "rule": "minor"}
+            yield found
+    for found in isolations(room):
+        if set(found["pins"]) == set(chosen):
+            yield found
 
 
 def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -130,6 +145,8 @@ def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told
     upto.accounted = standing.accounted or not dependent
     if (backed := backing(room, upto)) is not None:
         yield {"rule": "independent", "minor": room.minor(upto), **backed}
+    if last == len(owners) - 1:
+        yield {"rule": "independent", "minor": room.minor(upto), "last": True}
 
 
 def circuit(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:

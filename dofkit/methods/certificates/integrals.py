@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dofkit.checker.derivatives import derivative
-from dofkit.checker.errors import CheckError
 from dofkit.checker.fields import LARGEST_CRAMER
-from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, times
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, negative, times
+from dofkit.checker.values import derivative
 from dofkit.methods.certificates.dependence import rate_of
 from dofkit.methods.certificates.elimination import echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
@@ -57,7 +56,7 @@ def moving_rows(room: Room) -> list[str]:
 def follows_from_integrals(room: Room, name: str, steps: Sequence[str]) -> bool:
     """Whether a step was found by which a form follows from integrals and finite relations."""
     step = f"{room.scenery.label}{name} from integrals"
-    if step in room.scenery.evidence.known:
+    if room.scenery.has_step(step):
         return True
     sources = [rate for one in (*steps, *room.scenery.evidence.finite) if (rate := rate_of(room.scenery, one))]
     found = cofactors(room, components(room, name), sources)

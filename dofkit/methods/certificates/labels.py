@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from dofkit.checker.derivatives import derivative, homogeneous_degree
-from dofkit.checker.errors import CheckError
-from dofkit.checker.trees import Tree, add, negative, number, power, times
+from dofkit.checker.trees import CheckError, Tree, add, negative, number, power, times
+from dofkit.checker.values import derivative, homogeneous_degree
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, reach, words_of
 from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.integrals import combined_integral, follows_from_integrals
@@ -73,7 +72,7 @@ def _reached(room: Room, owner: str, alone: bool) -> Told | None:
     for name in evidence.owned(owner, ("velocity",)):
         for word, vector in zip(words.words, words.vectors, strict=True):
             if len(word) > 1 and abs(pairing(room, name, standing.point, vector)) > FAR:
-                used = {"fields": words.fields, "rows": words.rows, "combination": [["1", word]], "pairs": name}
+                used = {"fields": words.fields, "rows": words.rows, "word": word, "pairs": name}
                 if any(map(evidence.is_open, (evidence.relation(one).left for one in evidence.finite))):
                     used["minor"] = room.minor(standing)
                 return {"rule": "bracket", "at": standing.point.name, **used}
@@ -100,10 +99,7 @@ def integral_step(room: Room, entry: ConstraintEntry, name: str) -> str | None:
     try:
         room.scenery.add_step({"id": ids[0], "by": "integral", "function": function, "c": {name: factor}})
         room.scenery.add_step({"id": ids[1], "by": "rate", "of": ids[0]})
-        follows = {"id": ids[2], "by": "implied", "of": name, "h": factor, "c": {ids[1]: "1"}}
-        if factor.lstrip("-").isdigit():
-            follows["nonzero"] = {"number": True}
-        room.scenery.add_step(follows)
+        room.scenery.add_step({"id": ids[2], "by": "implied", "of": name, "h": factor, "c": {ids[1]: "1"}})
     except CheckError:
         return None
     return ids[0]
@@ -140,17 +136,21 @@ def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     function = integral_text(entry)
     if len(names) != 1 or room.point is None or function is None:
         return
-    found = {"rule": "integral", "at": room.point.name, "function": function}
-    if factor := factor_text(room, entry, names[0]):
-        yield {**found, "factor": factor}
+    found = {"rule": "integral", "at": room.point.name}
+    if alone := integral_step(room, entry, names[0]):
+        yield {**found, "step": alone}
+        if other := room.search.somewhere(room.scenery.evidence.finite, room.problem.coordinates, seed=1):
+            yield {**found, "step": alone, "at": room.add_point(other)}
     if (step := combined_integral(room, function)) is None:
         return
     if follows_from_integrals(room, names[0], [step]):
         yield {**found, "step": step}
     texts = [one for other in room.report.constraints if (one := integral_text(other))]
-    steps = [step, *(one for text in texts if (one := combined_integral(room, text)) and one != step)]
-    if follows_from_integrals(room, names[0], steps):
-        yield {**found, "step": step, "integrals": steps}
+    others = [one for text in texts if (one := combined_integral(room, text)) and one != step]
+    others = list(dict.fromkeys(others))
+    standing = room.standing_of([*room.scenery.evidence.finite, *others, names[0]])
+    if follows_from_integrals(room, names[0], [step, *others]) and standing is not None and names[0] in standing.rows:
+        yield {**found, "step": step, "integrals": others, "minor": room.minor(standing)}
 
 
 def integrating_factor(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:

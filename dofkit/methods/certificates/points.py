@@ -6,7 +6,7 @@ import random
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
-from dofkit.checker.errors import CheckError
+from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates.elimination import least_step
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.found_points import FoundPoint
@@ -15,6 +15,8 @@ from dofkit.methods.certificates.settling import ITERATIONS, NEAR, PointSettling
 from dofkit.methods.certificates.texts import number_text, text_of
 
 ATTEMPTS = 5
+#: Of a hundred attempts for an inequality so many start afar, those after them near the origin.
+AFAR = 12
 
 
 class PointSearch:
@@ -66,7 +68,7 @@ class PointSearch:
     def meeting(self, name: str, seed: int = 100) -> FoundPoint | None:
         """A point at which an inequality holds, and the finite relations."""
         finite = self.scenery.evidence.finite
-        for attempt in range(seed, seed + 12):
+        for attempt in range(seed, seed + AFAR + 6):
             point = self.somewhere(finite, self.problem.coordinates, attempt)
             if point is None:
                 return None
@@ -78,7 +80,7 @@ class PointSearch:
     def open_points(self, seed: int = 200) -> Iterator[FoundPoint]:
         """Points at which the finite relations and all inequalities hold."""
         names = [one.name for one in self.problem.relations if one.kind == "inequality"]
-        for attempt in range(seed, seed + 12):
+        for attempt in range(seed, seed + AFAR + 6):
             point = self.somewhere(self.scenery.evidence.finite, self.problem.coordinates, attempt)
             if point is not None and all(self._is_positive(point, name) for name in names):
                 point.name = f"P{attempt}"
@@ -115,6 +117,8 @@ class PointSearch:
             found |= {name: self.witness[name] for name in self.problem.coordinates if name in self.witness}
         elif attempt == 1:
             found |= {name: abs(found[name]) for name in self.problem.coordinates}
+        elif attempt >= 100 and attempt % 100 >= AFAR:
+            found |= {name: found[name] / 16 for name in self.problem.coordinates}
         return found
 
     def _approached(

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.errors import CheckError
-from dofkit.checker.trees import Tree, number
+from dofkit.checker.trees import CheckError, Tree, number
+from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.scenery import Scenery
 from dofkit.methods.certificates.texts import number_text, text_of
 

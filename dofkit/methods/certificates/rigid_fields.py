@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.errors import CheckError
 from dofkit.checker.fields import field_named, on_row
+from dofkit.checker.trees import CheckError
+from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates
 from dofkit.methods.certificates.room import Room, Standing, Told
@@ -79,6 +79,17 @@ def covering(room: Room, standing: Standing) -> list[Told] | None:
             return None
         blocks.append({"rows": names, "fields": ids, "columns": [column for _, column in columns]})
     return blocks
+
+
+def kept_motions(room: Room, columns: Sequence[str]) -> dict[str, str]:
+    """Motions of all together that keep all finite relations, each with a column: independent at the main point."""
+    scenery, estimates = room.scenery, Estimates(room.point.floats if room.point else {})
+    finite = list(scenery.evidence.finite)
+    ids = [field_id(scenery, {"components": one}) for one in motions(room.document, room.problem.dimension)]
+    kept = [one for one in ids if _kept(scenery, [one], finite)]
+    fields = [field_named(scenery.evidence, one) for one in kept]
+    rows = [{q: estimates.value(tree) for q, tree in one.items() if q in columns} for one in fields]
+    return {kept[p.row]: p.column for p in echelon(rows).pivots}
 
 
 def parts_of(scenery: Scenery, names: list[str]) -> list[list[str]]:

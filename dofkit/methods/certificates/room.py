@@ -7,11 +7,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.errors import CheckError
 from dofkit.checker.label_rules import form_of
 from dofkit.checker.problem import Problem
-from dofkit.checker.trees import Tree
+from dofkit.checker.trees import CheckError, Tree
+from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.dependence import accounted, rate_of
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
@@ -134,7 +133,7 @@ class Room(RoomParts):
             return None
         found = self._reference or self._searched()
         if found is not None and self._squared and not self.scenery.timed:
-            found.values |= dict.fromkeys(self.problem.rates, "0")
+            found.values |= dict.fromkeys((f"{q}dot" for q in self.problem.coordinates), "0")
         if found is not None:
             found.name = f"{self.scenery.label}{found.name}"
             self.scenery.parts["points"].append(found.entry())
@@ -147,7 +146,7 @@ class Room(RoomParts):
         if self.nonlinear:
             names += [name for name in self.equations if name not in names]
             names += [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
-            unknowns += problem.rates
+            unknowns += [f"{q}dot" for q in problem.coordinates]
         finite = not self.scenery.evidence.moving and self.report.dof is not None
         rank = len(problem.coordinates) - (self.report.dof or 0) if finite else None
         return self.search.somewhere(names, unknowns, rank=rank)

@@ -7,31 +7,16 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from dofkit.checker.balls import with_functions
-from dofkit.checker.derivatives import symbols_in
-from dofkit.checker.effort import Effort
-from dofkit.checker.errors import CheckError
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import Problem
-from dofkit.checker.trees import Tree
+from dofkit.checker.trees import CheckError, Effort, Tree
+from dofkit.checker.values import substituted, symbols_in
 
 #: Units of the checker's work that looking for the evidence of one scene may cost.
 WORK = 12_000_000
 #: Scenes with more relations or coordinates than this are left to what needs no numbers.
 MOST_ROWS = 160
 _CHOICES = tuple(map(Fraction, ("2", "3", "3/2", "5/2", "4/3", "7/4", "5/3", "9/4", "7/3", "11/4")))
-
-
-class GrowingEvidence(CheckedEvidence):
-    """Evidence to whose parts further entries are added."""
-
-    def named(self, part: str, name: Any) -> dict[str, Any]:
-        """An entry by its id, looked for again where it is new."""
-        try:
-            return super().named(part, name)
-        except CheckError:
-            self.__dict__.pop("index", None)
-            return super().named(part, name)
 
 
 class Scenery:
@@ -41,7 +26,7 @@ class Scenery:
         self.problem, self.cayley, self.parts = problem, cayley, parts
         self.effort = Effort(WORK)
         self._view = dict(parts)
-        self.evidence = GrowingEvidence(problem, self._view, self.effort)
+        self.evidence = CheckedEvidence(problem, self._view, self.effort)
         self._prepared: dict[str, Tree] = {}
         self.reduced_from: dict[str, str] = {}
 
@@ -90,7 +75,11 @@ class Scenery:
             name: (tuple(f["arguments"]), self.evidence.text(f["text"], f["arguments"]))
             for name, f in self.functions.items()
         }
-        return with_functions(tree, made)
+        return substituted(tree, {}, made)
+
+    def has_step(self, name: str) -> bool:
+        """Whether there is such a step."""
+        return any(step["id"] == name for step in self.parts["relations"])
 
     def add_step(self, step: dict[str, Any]) -> None:
         """A further step, if it stands up; `CheckError` where it does not."""

@@ -12,10 +12,10 @@ from dofkit.base.documents import read_document
 from dofkit.base.errors import ArgumentError
 from dofkit.checker import Verification
 from dofkit.checker import verify as rechecked
-from dofkit.checker.document import exact_document
 from dofkit.expressions.text.characters import SUBSCRIPTS
 from dofkit.methods.certificates.lowering import document_of_scene
-from dofkit.scene.reading import SceneLike, find, load
+from dofkit.scene.found_files import find
+from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import SAID, standard_words
 
@@ -43,14 +43,14 @@ def _written(scene: SceneLike | None) -> Mapping[str, Any] | str | None:
     if scene is None:
         return None
     if isinstance(scene, Scene):
-        return exact_document(document_of_scene(scene))
+        return document_of_scene(scene)
     if isinstance(scene, Mapping):
         given = load(scene) if _in_other_words(scene) else None
-        return exact_document(scene if given is None else document_of_scene(given))
+        return scene if given is None else document_of_scene(given)
     found = find(scene)
     text = found.data if isinstance(found.data, str) else found.data.decode("utf-8")
     value = read_document(found.data, found.name).value
-    return exact_document(document_of_scene(load(scene))) if _in_other_words(value) else text
+    return document_of_scene(load(scene)) if _in_other_words(value) else text
 
 
 def _in_other_words(value: object) -> bool:

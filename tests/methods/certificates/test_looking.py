@@ -7,10 +7,9 @@ from fractions import Fraction
 
 import pytest
 
-from dofkit.checker.grammar import parse
+from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import read_problem
 from dofkit.checker.trees import number
-from dofkit.checker.words import KnownNames
 from dofkit.methods.certificates.elimination import Pivot, echelon, least_step, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError, Values
 from dofkit.methods.certificates.integrals import determinant

@@ -1,0 +1,290 @@
+"""Trees as functions of their symbols: substitution, derivatives, relations in velocities, points and values in balls.
+
+Every operation on balls encloses the true one, where it is defined and smooth around.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import reduce
+from typing import Any, TypeVar
+
+from flint import arb, arb_mat, ctx, fmpq
+
+from dofkit.checker.ring import repeated
+from dofkit.checker.trees import MINUS, ONE, TWO, ZERO, Effort, Tree, add, call, negative, power, refuse, symbol, times
+
+#: Bits of every ball.
+PRECISION = 320
+TIME_RATE = "tdot"
+Made = TypeVar("Made")
+#: A choice for a declared function: its arguments, and a text of them.
+Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
+
+
+def nodes_of(tree: Tree) -> Iterator[Tree]:
+    """All nodes of a tree, each once."""
+    stack, seen = [tree], set()
+    while stack:
+        node = stack.pop()
+        if id(node) not in seen:
+            seen.add(id(node))
+            stack += node.below
+            yield node
+
+
+def symbols_in(tree: Tree) -> frozenset[str]:
+    """The names of the symbols of a tree."""
+    return frozenset(str(node.value) for node in nodes_of(tree) if node.head == "symbol")
+
+
+def heads_in(tree: Tree) -> set[str]:
+    """The kinds of nodes that occur in a tree."""
+    return {node.head for node in nodes_of(tree)}
+
+
+def folded(tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made]) -> Made:
+    """What is made of a tree, of each node once, from what was made of the nodes right below it."""
+    done: dict[int, Made] = {}
+
+    def read(node: Tree) -> Made:
+        if id(node) not in done:
+            done[id(node)] = made(node, tuple(map(read, node.below)))
+        return done[id(node)]
+
+    return read(tree)
+
+
+def substituted(tree: Tree, values: Mapping[str, Tree], functions: Choices | None = None) -> Tree:
+    """A tree with trees in the place of symbols, all at once, and texts in the place of declared functions."""
+
+    def put_in(node: Tree, below: tuple[Tree, ...]) -> Tree:
+        if node.head == "apply" and functions and node.value in functions:
+            arguments, text = functions[str(node.value)]
+            return substituted(slope_of(text, arguments, node.orders), dict(zip(arguments, below, strict=True)))
+        if below == node.below:
+            return values.get(str(node.value), node) if node.head == "symbol" else node
+        makers: dict[str, Callable[..., Tree]] = {"sum": add, "product": times, "power": power}
+        return makers[node.head](*below) if node.head in makers else Tree(node.head, below, node.value, node.orders)
+
+    return folded(tree, put_in)
+
+
+def slope_of(text: Tree, arguments: Sequence[str], orders: Sequence[int]) -> Tree:
+    """A text differentiated so often by each of its arguments."""
+    for argument, order in zip(arguments, orders, strict=True):
+        for _ in range(order):
+            text = derivative(text, argument)
+    return text
+
+
+def derivative(tree: Tree, name: str) -> Tree:
+    """The partial derivative by a symbol."""
+
+    def by(node: Tree, inner: tuple[Tree, ...]) -> Tree:
+        if not inner:
+            return ONE if node.head == "symbol" and node.value == name else ZERO
+        return add(*(times(_partial(node, i), part) for i, part in enumerate(inner) if part != ZERO))
+
+    return folded(tree, by)
+
+
+def _partial(node: Tree, place: int) -> Tree:
+    """The derivative of a node by what stands at one place below it."""
+    below, head = node.below, node.head
+    if head == "product":
+        return times(*below[:place], *below[place + 1 :])
+    if head == "power":
+        falling = times(below[1], power(below[0], add(below[1], MINUS)))
+        return times(node, call("log", below[0])) if place else falling
+    if head == "apply":
+        return Tree(head, below, node.value, tuple(k + (i == place) for i, k in enumerate(node.orders)))
+    if head == "atan2":
+        size = add(power(below[0], TWO), power(below[1], TWO))
+        return times(MINUS if place else ONE, below[1 - place], power(size, MINUS))
+    slopes = {"sum": ONE, "exp": node, "log": power(below[0], MINUS)}
+    slopes |= {"sin": call("cos", below[0]), "cos": negative(call("sin", below[0]))}
+    return slopes[head]
+
+
+def along(field: Mapping[str, Tree], tree: Tree) -> Tree:
+    """The derivative of a tree along a field."""
+    held = symbols_in(tree)
+    return add(*(times(value, derivative(tree, name)) for name, value in field.items() if name in held))
+
+
+def linear_in(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree] | None:
+    """The slopes (not 0) and the rest of a tree that is linear in some symbols; None where it is not, as written."""
+    used = sorted(symbols_in(tree).intersection(names))
+    slopes = {name: derivative(tree, name) for name in used}
+    if any(not symbols_in(slope).isdisjoint(used) for slope in slopes.values()):
+        return None
+    return {q: slope for q, slope in slopes.items() if slope != ZERO}, substituted(tree, dict.fromkeys(used, ZERO))
+
+
+def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
+    """The degree in symbols in which every term of a tree is homogeneous; None where there is none."""
+
+    def of(node: Tree, below: tuple[Fraction | None, ...]) -> Fraction | None:
+        if not below:
+            return Fraction(node.head == "symbol" and node.value in names)
+        known, exponent = [degree for degree in below if degree is not None], node.below[-1].value
+        if len(known) < len(below):
+            return None
+        if node.head == "power" and isinstance(exponent, Fraction):
+            return known[0] * exponent
+        if node.head == "product":
+            return sum(known, Fraction(0))
+        return known[0] if len(set(known)) == 1 and (node.head == "sum" or not known[0]) else None
+
+    return folded(tree, of)
+
+
+def _differentials(tree: Tree, coordinates: Collection[str]) -> dict[str, Tree]:
+    """The differentials in a tree, and what they are over dt."""
+    found = {name for name in symbols_in(tree) if name == "dt" or (name[0] == "d" and name[1:] in coordinates)}
+    return {name: ONE if name == "dt" else symbol(f"{name[1:]}dot") for name in found}
+
+
+def over_time(tree: Tree, coordinates: Collection[str]) -> Tree:
+    """A tree over dt: ``dx/dt`` is the velocity."""
+    moved = _differentials(tree, coordinates)
+    linear = homogeneous_degree(tree, moved) == 1
+    return substituted(tree, moved) if linear else times(tree, power(symbol("dt"), MINUS))
+
+
+def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
+    """A relation with velocities in the place of differentials: over the power of dt in which it is homogeneous.
+
+    What is linear in velocities becomes a form, its terms without one times ``tdot``.
+    """
+    moved = _differentials(tree, coordinates)
+    refuse(moved and homogeneous_degree(tree, moved) is None, "differentials and finite terms are added together")
+    tree = substituted(tree, moved)
+    parts = linear_in(tree, [f"{q}dot" for q in coordinates])
+    if parts is None:
+        return tree
+    form = [times(slope, symbol(rate)) for rate, slope in parts[0].items()]
+    return add(*form, times(parts[1], symbol(TIME_RATE))) if form or moved else parts[1]
+
+
+def excludes_zero(ball: Any) -> bool:
+    """Whether 0 is certainly not in a ball."""
+    return bool(ball.is_finite() and (ball > 0 or ball < 0))
+
+
+def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort, functions: Choices | None = None) -> Any:
+    """The ball of a tree, where every part of it, as written, has a value and is smooth around; else `CheckError`."""
+
+    def value(node: Tree, below: tuple[Any, ...]) -> Any:
+        effort.spend(1)
+        if node.head == "apply":
+            refuse(node.value not in (functions or {}), f"no choice for the function `{node.value}` at the point")
+            arguments, text = (functions or {})[str(node.value)]
+            slope = slope_of(text, arguments, node.orders)
+            return evaluated(slope, dict(zip(arguments, below, strict=True)), effort)
+        found = _value(node, values, below)
+        refuse(not found.is_finite(), "a value is not finite at the point")
+        return found
+
+    with ctx.workprec(PRECISION):
+        return folded(tree, value)
+
+
+def _value(node: Tree, values: Mapping[str, Any], below: tuple[Any, ...]) -> Any:
+    head = node.head
+    if isinstance(node.value, Fraction):
+        return arb(fmpq(node.value.numerator, node.value.denominator))
+    if head == "symbol":
+        refuse(node.value not in values, f"`{node.value}` has no value at the point")
+        return values[str(node.value)]
+    if head == "pi":
+        return arb.pi()
+    if head in ("sum", "product"):
+        return reduce(operator.add if head == "sum" else operator.mul, below)
+    u, other = below[0], below[-1]
+    if head in ("sin", "cos", "exp") or (head == "log" and u > 0):
+        return getattr(u, head)()
+    if head == "atan2" and (other > 0 or excludes_zero(u)):
+        return arb.atan2(u, other)
+    refuse(head != "power", f"`{head}` has no smooth value at the point")
+    return _raised(node, u, other)
+
+
+def _raised(node: Tree, u: Any, other: Any) -> Any:
+    """A power: of what is positive; a whole one, of what is not 0 where it is negative; a constant root of 0."""
+    exponent = node.below[1].value
+    if isinstance(exponent, Fraction) and exponent.denominator == 1:
+        refuse(exponent < 0 and not excludes_zero(u), "a denominator may be 0 at the point")
+        found = repeated(arb(1), u, abs(int(exponent)), operator.mul)
+        return found if exponent > 0 else 1 / found
+    zero = u == 0 and other > 0 and not symbols_in(node)
+    refuse(not (u > 0 or zero), "a root or a power has no smooth value at the point")
+    return u if zero else u**other
+
+
+def interval_newton(
+    equations: Sequence[Tree], centre: Mapping[str, Any], radius: Any, value: Callable[[Tree, Mapping[str, Any]], Any]
+) -> dict[str, Any]:
+    """Balls for the only zero of as many equations as unknowns within a box around ``centre``.
+
+    Where all matrices in F'(X) are regular and y - F'(X)^-1 F(y) lies inside X, F has exactly one zero in X, and it
+    lies there (Moore 1966, Nickel 1971). ``value`` gives the ball of a tree, from those of the unknowns.
+    """
+    with ctx.workprec(PRECISION):
+        middle = {name: ball.mid() for name, ball in centre.items()}
+        box = {name: ball + arb(0, radius) for name, ball in middle.items()}
+        smooth = all(value(equation, box).is_finite() for equation in equations)
+        slopes = arb_mat([[value(derivative(equation, name), box) for name in centre] for equation in equations])
+        values = arb_mat([[value(equation, middle)] for equation in equations])
+        steps = slopes.solve(values, nonstop=True, algorithm="precond")
+        found = {name: middle[name] - steps[i, 0] for i, name in enumerate(centre)}
+        for name, ball in found.items():
+            inside = smooth and box[name].contains_interior(ball)
+            refuse(not inside, f"interval Newton does not certify a zero: `{name}` leaves its box")
+        return found
+
+
+@dataclass
+class CheckedPoint:
+    """A point that was checked: ``exact`` values, ``functions`` chosen, and ``balls`` for all symbols.
+
+    The relations ``rows`` hold at it by interval Newton.
+    """
+
+    name: str
+    exact: dict[str, Tree]
+    functions: Choices
+    effort: Effort
+    balls: dict[str, Any] = field(default_factory=dict)
+    rows: frozenset[str] = frozenset()
+    memory: dict[int, tuple[Tree, Any]] = field(default_factory=dict)
+
+    def prepared(self, tree: Tree) -> Tree:
+        """A tree with the exact values and the chosen functions put in; velocities are by ``t``."""
+        return substituted(substituted(tree, {}, self.functions), {"tdot": ONE, **self.exact})
+
+    def value(self, tree: Tree) -> Any:
+        """The ball of a tree at the point, every part of which has a value."""
+        if id(tree) not in self.memory:
+            self.memory[id(tree)] = (tree, self.value_with(tree, {}))
+        return self.memory[id(tree)][1]
+
+    def value_with(self, tree: Tree, others: Mapping[str, Any]) -> Any:
+        """The ball of a tree at the point, with other balls for some symbols."""
+        return evaluated(tree, {"tdot": arb(1), **self.balls, **others}, self.effort, self.functions)
+
+    def is_regular(self, matrix: Sequence[Sequence[Tree]]) -> None:
+        """`CheckError` unless a square matrix is regular at the point."""
+        self.effort.spend(len(matrix) ** 3 // 10 + 1)
+        rows = [[self.value(tree) for tree in row] for row in matrix]
+        with ctx.workprec(PRECISION):
+            refuse(rows and not excludes_zero(arb_mat(rows).det()), "the minor may be 0")
+
+    def settle(self, equations: Sequence[Tree], columns: Sequence[str], radius: Any) -> None:
+        """The balls of columns become those of the only zero of as many equations in a box around them."""
+        centre = {name: self.balls[name] for name in columns}
+        self.balls |= interval_newton(equations, centre, radius, self.value_with)

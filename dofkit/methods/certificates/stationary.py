@@ -1,0 +1,81 @@
+"""Evidence where rows are stationary at the main point: what is isolated along a curve, and what crosses itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from flint import arb
+
+from dofkit.checker.curves import HIGHEST_ORDER, along_curve
+from dofkit.checker.trees import CheckError
+from dofkit.methods.certificates.rigid_fields import kept_motions
+from dofkit.methods.certificates.room import FAR, Room, Standing, Told
+
+SIGNS = (1, -1)
+#: The engines' arguments by which it is so.
+ISOLATED, CROSSING = "isolated zero of one variable", "indefinite form"
+
+
+def stationary(room: Room) -> Iterator[Told]:
+    """dof near a point at which a relation depends on the others to first order alone."""
+    standing = room.standing
+    if standing is None or not standing.dependent:
+        return
+    for most in isolations(room):
+        yield {"rule": "squeeze", "about": room.about, "most": most, "least": _orbit(room, most)}
+    if room.report.verdicts["dof"].argument == CROSSING:
+        for found in _crossings(room, standing):
+            yield {"rule": "squeeze", "about": room.about, "most": found, "least": found}
+
+
+def isolations(room: Room) -> Iterator[Told]:
+    """The rule `isolated`, with the generalized coordinates for pins, or what moves with the fields."""
+    chosen = room.report.generalized_coordinates
+    for wanted in (chosen, room.problem.coordinates) if room.report.verdicts["dof"].argument == ISOLATED else ():
+        fields = kept_motions(room, wanted) if wanted else {}
+        if wanted is not None and len(fields) == room.report.dof:
+            yield from _pinned(room, list(fields), list(fields.values()))
+
+
+def _pinned(room: Room, fields: list[str], pins: list[str]) -> Iterator[Told]:
+    if room.standing is None:
+        return
+    others = [q for q in room.problem.coordinates if q not in pins]
+    standing = room.standing_of(room.standing.order, others)
+    if standing is None or len(standing.rows) != len(others) - 1:
+        return
+    free = next(q for q in others if q not in standing.columns)
+    given = {"rule": "isolated", "minor": room.minor(standing), "fields": fields, "pins": pins, "free": free}
+    for order in range(2, HIGHEST_ORDER + 1):
+        for zero in standing.dependent:
+            yield {**given, "zero": zero, "order": order}
+
+
+def _orbit(room: Room, most: Told) -> Told:
+    """From below: the orbit of the fields, or the point alone."""
+    at, finite = room.standing.point.name if room.standing else "", list(room.scenery.evidence.finite)
+    words = [[name] for name in most["fields"]]
+    return {"rule": "span", "at": at, "fields": most["fields"], "rows": finite, "words": words, "columns": most["pins"]}
+
+
+def _crossings(room: Room, standing: Standing) -> Iterator[Told]:
+    """The rule `crossing`: two directions in which the second derivatives have other signs."""
+    free = [q for q in room.problem.coordinates if q not in standing.columns]
+    ways = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
+    for zero in standing.dependent:
+        found = {sign: way for way in ways for sign in SIGNS if _bends(room, standing, zero, way) * sign > FAR}
+        if len(found) == len(SIGNS):
+            speeds = [{q: str(value) for q, value in found[sign].items()} for sign in SIGNS]
+            yield {"rule": "crossing", "minor": room.minor(standing), "zero": zero, "speeds": speeds}
+
+
+def _bends(room: Room, standing: Standing, zero: str, way: dict[str, int]) -> float:
+    """The second derivative of a relation in a direction; 0 where it cannot be told."""
+    evidence = room.scenery.evidence
+    try:
+        minor = evidence.minor(room.minor(standing))
+        speeds = {q: arb(value) for q, value in way.items()}
+        return float(along_curve(evidence, minor, speeds, evidence.relation(zero).left, 2).mid())
+    except (CheckError, ArithmeticError):
+        return 0.0
