@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.benchmark.record import ALL, AUTO, ChartRun, Score, Step
@@ -115,10 +116,10 @@ def _by_value(steps: Sequence[Step]) -> Iterator[list[Step]]:
 
 def _bits(chart: ChartRun) -> str:
     steps = [step for step in chart.steps if step.sweep == "bits"]
-    gaps = sorted({float(step.group) for step in steps}, reverse=True)
+    gaps = sorted({float(Fraction(step.group)) for step in steps}, reverse=True)
     needed = {}
     for gap in gaps:
-        curve = [step for step in steps if float(step.group) == gap]
+        curve = [step for step in steps if float(Fraction(step.group)) == gap]
         enough = [s.value for s in curve if not any(other.wrong for other in curve if other.value >= s.value)]
         if enough and any(step.wrong for step in curve):
             needed[gap] = min(enough)
