@@ -8,6 +8,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
+from dofkit.base.display import Displayed
 from dofkit.mobility.graph.answer import GraphAnswer, Proof, Question
 from dofkit.mobility.graph.links import Graph, Joint, Link, LinkageError
 
@@ -30,7 +31,7 @@ class Hinge(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Linkage:
+class Linkage(Displayed):
     """How joints in general position can move that keep the distances of ``links``.
 
     What takes time is found when it is asked for: circuits, groups, clusters and hinges. Numbers count independent

@@ -64,9 +64,11 @@ def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = N
     try:
         with limited(seconds):
             derived = derived_of(given)
-            return _report(derived, *(_small(given, derived) if linearize else (None, ())))
+            report = _report(derived, *(_small(given, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
+    report._companion.scene = given
+    return report
 
 
 def derived_of(scene: Scene) -> Derived:

@@ -1,0 +1,84 @@
+"""What `print` and a notebook show of a value. How that is drawn is known on the top floor, which says so here once."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any, Protocol, Self, cast
+
+
+class Drawn(Protocol):
+    """A module that draws values."""
+
+    def text_of(self, value: object, width: int | None, how: bool) -> str:
+        """Lines for a terminal of so many columns."""
+
+    def html_of(self, value: object) -> str:
+        """A piece of a page."""
+
+    def latex_of(self, value: object) -> str | None:
+        """A display in LaTeX, for what has formulas."""
+
+
+#: The name of the module that draws, under one key.
+_DRAWN_BY: dict[str, str] = {}
+
+
+def draw_with(module: str) -> None:
+    """Say which module draws; it is imported when something is first drawn."""
+    _DRAWN_BY["module"] = module
+
+
+def _drawn() -> Drawn:
+    return cast("Drawn", import_module(_DRAWN_BY["module"]))
+
+
+def text_of(value: object, width: int | None = None, how: bool = False) -> str:
+    """What the command line prints of a value, for ``width`` columns (None: those of the terminal, or 80).
+
+    ``how``: of a report also how sure each answer is and by which argument.
+    """
+    return _drawn().text_of(value, width, how)
+
+
+class Displayed:
+    """The base of what is drawn: by `print` as at a terminal, by a notebook as a table."""
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        return text_of(self)
+
+    def _repr_html_(self) -> str:
+        return _drawn().html_of(self)
+
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        """What IPython shows where it has no page."""
+        printer.text(repr(self) if cycle else str(self))
+
+
+class DisplayedFormulas(Displayed):
+    """What also has formulas to show by themselves."""
+
+    __slots__ = ()
+
+    def _repr_latex_(self) -> str | None:
+        return _drawn().latex_of(self)
+
+
+class Companion:
+    """What goes along with a value and is no part of it: equal to every other, and empty in another process.
+
+    ``scene``: what a report is about, for its title and picture.
+    """
+
+    def __init__(self, scene: object = None) -> None:
+        self.scene = scene
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Companion)
+
+    def __hash__(self) -> int:
+        return 0
+
+    def __reduce__(self) -> tuple[type[Self], tuple[()]]:
+        return type(self), ()
