@@ -50,8 +50,8 @@ def catalog_search(words: Sequence[str]) -> dict[str, str]:
 
     Raises SceneError where there is none.
 
-    >>> list(catalog_search(["rolling", "disc"]))[0]
-    'disc-rolling-along-straight-line'
+    >>> "disc-rolling-on-plane" in catalog_search(["rolling", "disc"])
+    True
     """
     titles, wanted = catalog_titles(), [word.casefold() for word in words]
     in_title = [n for n, title in titles.items() if all(w in f"{n} {title}".casefold() for w in wanted)]

@@ -32,9 +32,17 @@ _TOKEN = re.compile(
 )
 _RATE = re.compile(rf"(?P<base>.+?)(?:(?P<two>ddot|{TWO_DOTS})|(?P<one>dot|{DOT}))(?P<below>_\w+)?")
 _INDEXED = re.compile(rf"(?P<letter>[A-Za-z]+?|[{GREEK_LETTERS}])_?(?P<below>\d[A-Za-z0-9_]*|(?<=_)[A-Za-z0-9_]+)?")
-_RELATIONS = {"<=": (r"\le", "≤"), ">=": (r"\ge", "≥"), "==": ("=", "="), "<": ("<", "&lt;"), ">": (">", "&gt;")}
+_RELATIONS = {
+    "and": (r"\text{ and }", "&#160;and&#160;"),
+    "<=": (r"\le", "≤"),
+    ">=": (r"\ge", "≥"),
+    "==": ("=", "="),
+    "<": ("<", "&lt;"),
+    ">": (">", "&gt;"),
+}
 _LATEX_FUNCTIONS = frozenset(["sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "log"])
 _INVERSE = {"asin": "arcsin", "acos": "arccos", "atan": "arctan"}
+_LEAF = re.compile(r"<(m[in])(?: [^>]*)?>[^<]*</\1>")
 #: What may stand right after a factor as the next one.
 _BEGINNINGS = frozenset({"word", "number", "fraction"})
 #: Texts nested deeper than this are told as text.
@@ -83,8 +91,8 @@ def _tokens(text: str) -> list[_Piece]:
         match = _TOKEN.match(text, position)
         if match is None:
             raise _NoFormulaError
-        kind = match.lastgroup or ""
-        found.append(_Piece(kind, match[kind], match.start(kind) == position))
+        kind = "relation" if match["word"] == "and" else match.lastgroup or ""
+        found.append(_Piece(kind, match[match.lastgroup or ""].strip(), match.start(match.lastgroup or "") == position))
         if kind == "end":
             return found
         position = match.end()
@@ -94,6 +102,13 @@ def _row(parts: list[Typeset], between: str = " ") -> Typeset:
     return Typeset(between.join(p.latex for p in parts), "".join(p.mathml for p in parts))
 
 
+def _side_by_side(parts: list[Typeset]) -> Typeset:
+    """A product: its factors a little apart."""
+    if len(parts) == 1:
+        return parts[0]
+    return Typeset(" ".join(p.latex for p in parts), '<mspace width="0.14em"/>'.join(p.mathml for p in parts))
+
+
 def _stripped(part: Typeset) -> Typeset:
     """Without the parentheses that a bar or an exponent makes needless."""
     return part if part.bare is None else Typeset(*part.bare)
@@ -101,14 +116,19 @@ def _stripped(part: Typeset) -> Typeset:
 
 def _fraction(above: Typeset, below: Typeset) -> Typeset:
     above, below = _stripped(above), _stripped(below)
-    mathml = f"<mfrac><mrow>{above.mathml}</mrow><mrow>{below.mathml}</mrow></mfrac>"
+    mathml = f"<mfrac>{_one(above.mathml)}{_one(below.mathml)}</mfrac>"
     return Typeset(rf"\frac{{{above.latex}}}{{{below.latex}}}", mathml)
 
 
 def _raised(base: Typeset, exponent: Typeset) -> Typeset:
     exponent = _stripped(exponent)
-    mathml = f"<msup><mrow>{base.mathml}</mrow><mrow>{exponent.mathml}</mrow></msup>"
+    mathml = f"<msup>{_one(base.mathml)}{_one(exponent.mathml)}</msup>"
     return Typeset(f"{base.latex}^{{{exponent.latex}}}", mathml)
+
+
+def _one(mathml: str) -> str:
+    """One element: a letter or a number as it is, anything else as a row."""
+    return mathml if _LEAF.fullmatch(mathml) else f"<mrow>{mathml}</mrow>"
 
 
 def _in_parentheses(inner: Typeset) -> Typeset:
@@ -232,14 +252,14 @@ class _Setter:
         parts = [self.factor()]
         while True:
             if self.takes("/"):
-                above = parts[0] if len(parts) == 1 else _row(parts)
+                above = _side_by_side(parts)
                 done.append(_fraction(above, self.factor()))
                 parts = []
             elif self.takes("*") or self.next.kind in _BEGINNINGS or self.next.text in ("(", "["):
                 digits = bool(parts) and self.next.kind == "number"
                 parts += [_operator(r"\cdot", "·"), self.factor()] if digits else [self.factor()]
             else:
-                return _row([*done, *parts]) if len(done) + len(parts) > 1 else (done or parts)[0]
+                return _side_by_side([*done, *parts])
 
     def factor(self) -> Typeset:
         if self.takes("-"):

@@ -89,9 +89,12 @@ def _arguments(report: Report) -> Iterator[Remark]:
 
 
 def not_proved(report: Report) -> list[Remark]:
-    """What is not proved, in one line each."""
-    weaker = ((name, found) for name, found in report.verdicts.items() if found.verdict != "proved")
-    return [Remark(name, f"{found.verdict}{_because(found)}") for name, found in weaker]
+    """What is not proved: the fields of which the same is said in one line."""
+    together: dict[str, list[str]] = {}
+    for name, found in report.verdicts.items():
+        if found.verdict != "proved":
+            together.setdefault(f"{found.verdict}{_because(found)}", []).append(_FIELDS.get(name, name))
+    return [Remark(", ".join(names), said) for said, names in together.items()]
 
 
 def _because(found: FieldVerdict) -> str:

@@ -27,7 +27,13 @@ def brief_line(report: Report, widest: int, screen: Screen) -> str:
     )
     if screen.colours is None:
         return text.plain.rstrip()
-    console = Console(file=io.StringIO(), width=len(text.plain) + 1, force_terminal=True, color_system=screen.colours)
+    console = Console(
+        file=io.StringIO(),
+        width=len(text.plain) + 1,
+        force_terminal=True,
+        force_jupyter=False,
+        color_system=screen.colours,
+    )
     with console.capture() as captured:
         console.print(text, end="")
     return captured.get().rstrip()

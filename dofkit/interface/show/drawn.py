@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 from dofkit.base.display import Companion
 from dofkit.expressions.text.typesetting import typeset
 from dofkit.homework.result import Result
 from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.page import as_html
+from dofkit.interface.show.picture import picture_of
 from dofkit.interface.show.report import sheet_of_entry, sheet_of_report
 from dofkit.interface.show.result import sheet_of_result
 from dofkit.interface.show.scene import sheet_of_linkage, sheet_of_scene
@@ -56,13 +58,13 @@ def sheet_of(value: object, how: bool = False) -> Sheet:
     """The sheet of a value. Raises TypeError for one that has none."""
     match value:
         case Report():
-            return _beside(sheet_of_report(value, how=how), value._companion)
+            return _beside(sheet_of_report(value, how=how), value._companion, value)
         case ConstraintEntry():
             return sheet_of_entry(value)
         case MotionReport():
             return _beside(sheet_of_motion(value), value._companion)
         case Scene():
-            return sheet_of_scene(value)
+            return replace(sheet_of_scene(value), picture=partial(picture_of, value))
         case Linkage():
             return sheet_of_linkage(value)
         case Result():
@@ -71,7 +73,9 @@ def sheet_of(value: object, how: bool = False) -> Sheet:
             raise TypeError(f"there is nothing to show of a {type(value).__name__}")
 
 
-def _beside(sheet: Sheet, companion: Companion) -> Sheet:
-    """With the title and the scene of what it is about, where that is known."""
+def _beside(sheet: Sheet, companion: Companion, report: Report | None = None) -> Sheet:
+    """With the title and the picture of the scene that it is about, where that is known."""
     scene = companion.scene
-    return replace(sheet, title=scene.title or "", scene=scene) if isinstance(scene, Scene) else sheet
+    if not isinstance(scene, Scene):
+        return sheet
+    return replace(sheet, title=scene.title or "", picture=partial(picture_of, scene, report))

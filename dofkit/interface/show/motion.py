@@ -49,7 +49,7 @@ def _formulas(texts: Iterable[str]) -> list[Remark]:
 
 def _small_motions(found: Linearized) -> SheetSection:
     """M, C, K and the frequencies about a place of rest."""
-    told = [Remark("", f"M qddot + C qdot + K q = 0 with q = ({', '.join(found.coordinates)})")]
+    told = [Remark("", Formula("M qddot + C qdot + K q = 0"), f"q = ({', '.join(found.coordinates)})")]
     for name, matrix in (("M", found.mass), ("C", found.damping), ("K", found.stiffness)):
         told.append(Remark("", Matrix(name, matrix)))
     if found.characteristic:

@@ -7,7 +7,6 @@ from html import escape
 
 from dofkit.expressions.text.typesetting import Typeset, typeset
 from dofkit.interface.show.faults import safe
-from dofkit.interface.show.picture import picture_of
 from dofkit.interface.show.sheet import Fact, Grid, Matrix, Remark, Sheet, SheetSection, Told
 
 #: The colours of light and of dark, by the system's wish and by a notebook's theme, which goes before.
@@ -16,15 +15,17 @@ _STYLE = """<style>
 color:var(--ink);background:var(--paper);font:14px/1.5 system-ui,sans-serif;max-width:60em;padding:.6em .9em;
 border:1px solid var(--line);border-radius:6px;overflow-x:auto}
 .dofkit.dofkit table{border-collapse:collapse;border:0;margin:.2em 0 .4em;font:inherit;color:inherit;width:auto}
-.dofkit.dofkit tr,.dofkit.dofkit tr:hover{background:none}
+.dofkit.dofkit tr{background:none!important}
 .dofkit.dofkit td,.dofkit.dofkit th{border:0;background:none;padding:.12em 1em .12em 0;text-align:left;
 vertical-align:baseline;font-size:inherit;color:inherit;white-space:normal;max-width:none}
 .dofkit.dofkit thead th{border-bottom:1px solid var(--line);color:var(--quiet);font-weight:400}
 .dofkit.dofkit .n{text-align:right}.dofkit.dofkit tbody th{font-weight:600}
 .dofkit .q,.dofkit.dofkit tbody th.q{color:var(--quiet);font-weight:400;white-space:nowrap}
-.dofkit .s{color:var(--quiet)}.dofkit .good{color:var(--good)}.dofkit .care{color:var(--care)}
-.dofkit .bad{color:var(--bad)}.dofkit b.h{display:block;margin-top:.5em;color:var(--quiet);font-weight:600}
-.dofkit p{margin:.15em 0}.dofkit math{font-size:1.05em}.dofkit svg{max-width:100%;height:auto}
+.dofkit .s{color:var(--quiet)}.dofkit.dofkit .good{color:var(--good)}.dofkit.dofkit .care{color:var(--care)}
+.dofkit.dofkit .bad{color:var(--bad)}.dofkit b.h{display:block;margin-top:.5em;color:var(--quiet);font-weight:600}
+.dofkit p{margin:.15em 0}
+.dofkit math{font:1.1em "Latin Modern Math","STIX Two Math","Cambria Math",math}
+.dofkit svg{max-width:100%;height:auto}
 @media (prefers-color-scheme:dark){.dofkit{--ink:#e6edf3;--quiet:#9198a1;--line:#3d444d;--good:#56d364;--care:#e3b341;
 --bad:#ff7b72;--paper:#151b23}}
 [data-jp-theme-light=false] .dofkit,.vscode-dark .dofkit,[data-theme=dark] .dofkit,.theme-dark .dofkit{--ink:#e6edf3;
@@ -40,12 +41,12 @@ def as_html(sheet: Sheet) -> str:
 
 
 def _parts(sheet: Sheet) -> Iterator[str]:
-    title = f' <span class="s">{_plain(sheet.title)}</span>' if sheet.title else ""
+    title = f' <span class="s">{_set(sheet.title)}</span>' if sheet.title else ""
     yield f"<p><strong>{_plain(sheet.name)}</strong>{title}</p>"
     if sheet.alarm is not None:
         told, tone = sheet.alarm
         yield f'<p class="{tone}"><strong>{_plain(told)}</strong></p>'
-    picture = picture_of(sheet.scene)
+    picture = None if sheet.picture is None else sheet.picture()
     if picture:
         yield picture
     if sheet.facts:
@@ -93,7 +94,7 @@ def _set(told: Told) -> str:
     found = _matrix(told) if isinstance(told, Matrix) else typeset(told.text)
     if found is None:
         return _plain(str(told))
-    return f'<math aria-label="{_plain(str(told))}">{found.mathml}</math>'
+    return f'<math displaystyle="true" aria-label="{_plain(str(told))}">{found.mathml}</math>'
 
 
 def _matrix(matrix: Matrix) -> Typeset | None:

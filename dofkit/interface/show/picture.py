@@ -5,17 +5,18 @@ from __future__ import annotations
 from importlib import import_module
 from importlib.util import find_spec
 
-#: The room that draws, and its function from a scene to an inline SVG.
-_ROOM, _FUNCTION = "dofkit.pictures", "inline_svg"
+from dofkit.base.errors import DofkitError
+
+#: The room that draws, and its function from a scene and its report to an inline SVG.
+_ROOM, _FUNCTION = "dofkit.pictures", "svg"
 
 
-def picture_of(scene: object) -> str | None:
-    """An inline SVG of a scene; None without a scene, without pictures, or where it cannot be drawn."""
-    if scene is None or find_spec(_ROOM) is None:
+def picture_of(scene: object, report: object = None) -> str | None:
+    """An inline SVG of a scene; None without pictures, or where it cannot be drawn."""
+    if find_spec(_ROOM) is None:
         return None
     try:
-        inline = getattr(import_module(_ROOM), _FUNCTION, None)
-    except ImportError:
+        drawn = getattr(import_module(_ROOM), _FUNCTION)(scene, report)
+    except (ImportError, AttributeError, DofkitError):
         return None
-    drawn = None if inline is None else inline(scene)
     return drawn if isinstance(drawn, str) else None

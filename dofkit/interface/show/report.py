@@ -41,7 +41,7 @@ def sheet_of_entry(entry: ConstraintEntry) -> Sheet:
         Fact("verdict", entry.verdict, tone=TONES[entry.verdict]),
         Fact("why", entry.reason),
     ]
-    return Sheet(entry.name, entry.text, facts=facts)
+    return Sheet(entry.name, written(entry), facts=facts)
 
 
 def _sections(report: Report, how: bool) -> Iterator[SheetSection]:

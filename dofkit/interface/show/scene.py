@@ -28,7 +28,7 @@ def sheet_of_scene(scene: Scene) -> Sheet:
         sections.append(SheetSection("Forces", [Remark(name, kind) for name, kind in named]))
     if scene.energies is not None:
         sections.append(SheetSection("Energies", list(_energies(scene))))
-    return Sheet(scene.name, scene.title or "", facts=tuple(_facts(scene)), sections=sections, scene=scene)
+    return Sheet(scene.name, scene.title or "", facts=tuple(_facts(scene)), sections=sections)
 
 
 def _words(constraint: object) -> Told:

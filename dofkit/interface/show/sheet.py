@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -80,13 +80,14 @@ class SheetSection(NamedTuple):
 class Sheet:
     """All that is told of a value. ``alarm``: what stands above everything else.
 
-    ``copied``: its formulas are copied from a terminal, so that no line is broken. ``scene``: what a picture shows.
+    ``copied``: its formulas are copied from a terminal, so that no line is broken. ``picture``: makes one as an inline
+    SVG, or None.
     """
 
     name: str
-    title: str = ""
+    title: Told = ""
     alarm: tuple[str, Tone] | None = None
     facts: Sequence[Fact] = ()
     sections: Sequence[SheetSection] = ()
     copied: bool = False
-    scene: object = None
+    picture: Callable[[], str | None] | None = None

@@ -35,6 +35,7 @@ def as_text(sheet: Sheet, screen: Screen) -> str:
         file=io.StringIO(),
         width=_UNBROKEN if sheet.copied else screen.width,
         force_terminal=coloured,
+        force_jupyter=False,
         color_system=screen.colours,
         no_color=not coloured,
     )
@@ -46,7 +47,7 @@ def as_text(sheet: Sheet, screen: Screen) -> str:
 def _parts(sheet: Sheet) -> Iterator[RenderableType]:
     headline = Text(safe(sheet.name), "bold")
     if sheet.title:
-        headline.append(f"  {safe(sheet.title)}", "not bold")
+        headline.append(f"  {safe(str(sheet.title))}", "not bold")
     yield headline
     if sheet.alarm is not None:
         told, tone = sheet.alarm
