@@ -9,6 +9,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 from dofkit.base.display import Displayed
+from dofkit.base.wording import many
 from dofkit.mobility.graph.answer import GraphAnswer, Proof, Question
 from dofkit.mobility.graph.links import Graph, Joint, Link, LinkageError
 
@@ -184,6 +185,6 @@ class Linkage(Displayed):
         redundant = f"{len(self.redundant_places)} redundant" if self.redundant_places else "none redundant"
         body = " beyond the motions of one body" if self.inner_freedom else ": one rigid body"
         return (
-            f"{n} joints in {d} dimension{'s' * (d > 1)}, {k} links, {redundant}: "
+            f"{many(n, 'joint')} in {many(d, 'dimension')}, {k} link{'s' * (k != 1)}, {redundant}: "
             f"f = N d - rank = {n * d} - {self.rank} = {self.freedom}, {self.inner_freedom}{body} ({self.verdict})"
         )
