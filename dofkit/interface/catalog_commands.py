@@ -4,14 +4,23 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+from dofkit.base.surface import handed_on
 from dofkit.interface import options
 from dofkit.interface.failures import failures_of, print_json
 from dofkit.interface.searched import SearchedGroup
-from dofkit.scene.catalog import catalog_names, catalog_search, catalog_text, catalog_titles
+
+#: The catalog is looked at only where it is asked for.
+_HOME = "dofkit.scene.catalog"
+
+
+def _of(name: str) -> Any:
+    """A function of the catalog."""
+    return handed_on(__name__, {name: _HOME}, name)
+
 
 catalog_app = typer.Typer(
     cls=SearchedGroup,
@@ -28,9 +37,9 @@ def catalog(context: typer.Context, as_json: options.AsJson = False) -> None:
     if context.invoked_subcommand is not None:
         return
     if as_json or sys.stdout.isatty():
-        _titles(catalog_titles(), as_json)
+        _titles(_of("catalog_titles")(), as_json)
     else:
-        typer.echo("\n".join(catalog_names()))
+        typer.echo("\n".join(_of("catalog_names")()))
 
 
 @catalog_app.command("search")
@@ -40,7 +49,7 @@ def search(
 ) -> None:
     """List the scenes in which words occur; `dofkit catalog WORD` is the same."""
     with failures_of(" ".join(words)):
-        _titles(catalog_search(words), as_json)
+        _titles(_of("catalog_search")(words), as_json)
 
 
 def _titles(titles: Mapping[str, str], as_json: bool) -> None:
@@ -53,7 +62,7 @@ def _titles(titles: Mapping[str, str], as_json: bool) -> None:
 
 
 @catalog_app.command("show")
-def show(name: Annotated[str, typer.Argument(help="A scene's name.")]) -> None:
+def show(name: Annotated[str, typer.Argument(help="A scene's name.", autocompletion=options.catalogued)]) -> None:
     """Print the YAML of a catalog scene."""
     with failures_of(name):
-        typer.echo(catalog_text(name), nl=False)
+        typer.echo(_of("catalog_text")(name), nl=False)

@@ -12,10 +12,11 @@ from typing import NamedTuple
 import typer
 
 from dofkit.base.errors import ArgumentError
+from dofkit.interface.presentation import Telling
 from dofkit.interface.progress import Progress
 from dofkit.interface.show.faults import safe
 from dofkit.interface.summary import Summary, headline
-from dofkit.interface.supervised import Printed, Telling, names_of, reports
+from dofkit.interface.supervised import Printed, names_of, reports
 from dofkit.methods.names import MethodName
 
 #: Exit statuses: a scene is what it must not be; a file could not be read.

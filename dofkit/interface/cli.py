@@ -18,6 +18,7 @@ from dofkit.base.version import __version__
 from dofkit.interface import options
 from dofkit.interface.catalog_commands import catalog_app
 from dofkit.interface.failures import INTERRUPTED, UNREADABLE, failures_of, print_json
+from dofkit.interface.presentation import Telling
 
 if TYPE_CHECKING:
     from dofkit.interface.supervised import Printed
@@ -79,7 +80,7 @@ def classify(
     if budget is not None and math.isnan(budget):
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
     place = None if certificate is None else str(certificate)
-    telling = options.telling(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
+    telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
     telling = replace(telling, only=options.fields(only), without=options.listed(without))
     asked = Asked(tuple(files), telling, budget, cast("MethodName", method), place, options.failures(fail_on))
     with failures_of("--watch"):
@@ -108,7 +109,7 @@ def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: o
     """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
     from dofkit.interface.supervised import motions
 
-    _print(motions(files, linearize, options.telling(as_json)))
+    _print(motions(files, linearize, Telling.here(as_json)))
 
 
 @app.command()
@@ -203,19 +204,26 @@ def export_otter(
 @app.command()
 def explain(
     words: Annotated[
-        list[str],
+        list[str] | None,
         typer.Argument(
             metavar="WORD",
+            show_default=False,
             help="A code of feedback, a field of a report, a verdict, an argument, a theorem, a type of constraint.",
             autocompletion=options.explained,
         ),
-    ],
+    ] = None,
     as_json: options.AsJson = False,
 ) -> None:
-    """Explain a word of dofkit: what a code, a field, a verdict, a theorem or a type of constraint means."""
-    from dofkit.interface.explanations import explanations_of
+    """Explain a word of dofkit: what a code, a field, a verdict, a theorem or a type of constraint means.
 
-    word = " ".join(words)
+    Without a WORD all that can be explained is listed.
+    """
+    from dofkit.interface.explanations import explanations_of, listed
+
+    word = " ".join(words or ())
+    if not word:
+        typer.echo(listed())
+        return
     with failures_of(word):
         found = explanations_of(word)
     for told in found:

@@ -73,6 +73,18 @@ def explanations_of(word: str) -> list[Explanation]:
     raise SceneError((Fault(f"there is no explanation of '{word}'", hint=hint),), word)
 
 
+def listed() -> str:
+    """All words, by their kind."""
+    kinds: dict[str, dict[str, None]] = {}
+    for told in all_explanations():
+        kinds.setdefault(told.kind, {})[told.word] = None
+    blocks = []
+    for kind, words in kinds.items():
+        lines = textwrap.wrap(", ".join(words), _WIDTH - 2, break_long_words=False, break_on_hyphens=False)
+        blocks.append("\n".join([kind, *(f"  {line}" for line in lines)]))
+    return "\n".join(blocks)
+
+
 def _plain(word: str) -> str:
     return re.sub(r"[\s_-]+", " ", word).strip().casefold()
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -12,9 +10,7 @@ import typer
 
 from dofkit.base.spelling import no_such
 from dofkit.base.surface import handed_on
-from dofkit.interface.streams import colours_of, columns
 from dofkit.interface.summary import FAILURES
-from dofkit.interface.supervised import Telling
 from dofkit.methods.table import METHODS
 
 #: What is imported only where an option needs it.
@@ -30,7 +26,7 @@ _HEAVY = {
 def explained(incomplete: str) -> list[str]:
     """The words that `explain` knows."""
     known = handed_on(__name__, _HEAVY, "all_explanations")()
-    return [told.word for told in known if told.word.casefold().startswith(incomplete.casefold())]
+    return list(dict.fromkeys(told.word for told in known if told.word.casefold().startswith(incomplete.casefold())))
 
 
 def catalogued(incomplete: str) -> list[str]:
@@ -101,12 +97,6 @@ def _known(names: tuple[str, ...], known: Iterable[str], what: str, option: str)
         if name not in known:
             raise typer.BadParameter(no_such(name, known, what), param_hint=option)
     return names
-
-
-def telling(as_json: bool, brief: bool = False, how: bool = False) -> Telling:
-    """How to tell of a scene on this terminal."""
-    told = Telling(as_json, brief=brief, how=how, columns=columns(), colours=colours_of(sys.stdout))
-    return replace(told, loud=colours_of(sys.stderr) is not None)
 
 
 Method = Annotated[

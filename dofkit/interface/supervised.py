@@ -18,7 +18,8 @@ from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents.document import MOST_BYTES
 from dofkit.base.workers import Job, Json, Worker
 from dofkit.base.workers.processes import can_fork
-from dofkit.interface.streams import Colours, ascii_only
+from dofkit.interface.presentation import Telling
+from dofkit.interface.streams import ascii_only
 from dofkit.methods.names import MethodName
 
 STDIN = "stdin"
@@ -30,25 +31,6 @@ CERTIFICATE_SHARE = 3
 UNREAD = 2
 #: What the worker does is in this module, which it imports itself.
 ONE_FILE = "dofkit.interface.one_file"
-
-
-@dataclass(frozen=True)
-class Telling:
-    """How a report is told: as JSON (``ascii_only``: no other characters), in ``brief`` or in full, ``how`` sure.
-
-    ``only``: these fields and no others; ``without``: constraints that are dropped before.
-    ``columns`` and ``colours`` of standard output, ``loud``: are there colours on standard error?
-    """
-
-    as_json: bool = False
-    ascii_only: bool = False
-    brief: bool = False
-    how: bool = False
-    only: tuple[str, ...] = ()
-    without: tuple[str, ...] = ()
-    columns: int = 80
-    colours: Colours | None = None
-    loud: bool = False
 
 
 @dataclass(frozen=True)

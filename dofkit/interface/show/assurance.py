@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dofkit.classification.arguments import TABLE
+from dofkit.base.surface import handed_on
 from dofkit.interface.show.sheet import Remark
 from dofkit.report import FieldVerdict, Report
 
+#: What is imported only where arguments are told.
+_HEAVY = {"TABLE": "dofkit.classification.arguments"}
 #: What a verdict means.
 VERDICT_MEANS = {
     "proved": "follows by exact arithmetic that leaves no doubt",
@@ -80,8 +82,9 @@ def _arguments(report: Report) -> Iterator[Remark]:
     for name, found in report.verdicts.items():
         if found.argument is not None:
             together.setdefault(found.argument, []).append(_FIELDS.get(name, name.replace("_", " ")))
+    table = handed_on(__name__, _HEAVY, "TABLE") if together else {}
     for key, names in together.items():
-        row = next(row for argument, row in TABLE.items() if argument == key)
+        row = table[key]
         theorem = f" [{row.theorem}]" if row.theorem else ""
         because = "" if len(row.hypotheses) < _TERSE else f", because {row.hypotheses}"
         told = f"{row.claims}{because}".replace("over GF(p)", "modulo a large prime")
