@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from dofkit.base.display import draw_with
 from dofkit.base.errors import DofkitError, SceneError, TextError
 from dofkit.base.surface import handed_on
 from dofkit.base.version import __version__
@@ -72,7 +71,8 @@ _HOMES = {
     "grade": "dofkit.homework.grading",
 }
 
-draw_with("dofkit.interface.show.drawn")
+#: What draws reports and scenes for `print` and for notebooks.
+DRAWN_BY = "dofkit.interface.show.drawn"
 
 
 def __getattr__(name: str) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
+from pydantic import BaseModel, ConfigDict, PrivateAttr, model_validator
 
 from dofkit.base.display import Companion, Displayed, DisplayedFormulas, text_of
 from dofkit.base.verdicts import About, ArgumentKey, Claim, Verdict
@@ -79,29 +79,25 @@ class ConstraintEntry(DisplayedFormulas, ToldModel):
     A None label means undecided, and ``reason`` says why; ``verdicts`` says of every label how sure it is.
     """
 
-    name: str = Field(description="as written, or c1, c2, ... by position")
-    type: str = Field(description="the type of constraint")
-    text: str = Field(description="as written")
-    form: Form = Field(description="finite, pfaffian (linear in velocities), nonlinear (in velocities) or inequality")
-    holonomic: bool | None = Field(
-        description="is it, in this system, a consequence of relations between coordinates (and time)?",
-    )
-    holonomic_alone: bool | None = Field(description="the same with all other constraints forgotten")
-    scleronomic: bool | None = Field(description="does time not enter?")
-    catastatic: bool | None = Field(description="has a form linear in velocities no term with dt? null for any other")
-    bilateral: bool = Field(description="false for an inequality")
-    exact: bool | None = Field(description="is the form, as written, the differential of a function?")
-    integrating_factor: str | None = Field(description="what makes the form exact")
-    integral: str | None = Field(description="the finite relation that it integrates to, such as x*y = C")
-    circuit: list[str] | None = Field(
-        description="of a redundant one: a minimal set of constraints before it that it follows from",
-    )
-    equations: int = Field(description="its scalar equations")
-    independent: int | None = Field(description="how many of them do not follow from those before")
-    redundant_equations: list[str] | None = Field(default=None, description="those that do, in words")
-    verdict: Verdict = Field(description="how sure its labels are: the weakest of them")
-    verdicts: dict[str, FieldVerdict] = Field(default={}, description="how sure each label is")
-    reason: str = Field(description="why, for a student")
+    name: str
+    type: str
+    text: str
+    form: Form
+    holonomic: bool | None
+    holonomic_alone: bool | None
+    scleronomic: bool | None
+    catastatic: bool | None
+    bilateral: bool
+    exact: bool | None
+    integrating_factor: str | None
+    integral: str | None
+    circuit: list[str] | None
+    equations: int
+    independent: int | None
+    redundant_equations: list[str] | None = None
+    verdict: Verdict
+    verdicts: dict[str, FieldVerdict] = {}
+    reason: str
 
 
 class Redundancy(ToldModel):
@@ -198,89 +194,37 @@ class Report(Displayed, ToldModel):
     (1, 1, True)
     """
 
-    scene: str = Field(description="the scene's name")
-    consistent: bool | None = Field(
-        description="false where no configuration, or no motion, satisfies all equations; conflicting then names a "
-        "minimal set",
-    )
-    feasible: bool | None = Field(
-        default=None,
-        description="whether the inequalities can all be met together with the constraints; null where undecided, or "
-        "without any",
-    )
-    infeasible: list[str] = Field(
-        default=[],
-        description="a minimal set of constraints with inequalities that cannot be met together",
-    )
-    feasible_at: dict[str, str] | None = Field(
-        default=None, description="a certified point where all inequalities hold"
-    )
-    dof: int | None = Field(
-        description="degrees of freedom: the dimension of the configuration space, coordinates less independent finite "
-        "relations, hidden ones included; non-holonomic constraints and inequalities do not reduce it",
-    )
-    velocity_dof: int | None = Field(
-        description="independent velocities of finite motions; non-holonomic constraints reduce it too",
-    )
-    instantaneous_dof: int | None = Field(
-        description="velocities that the constraints allow to first order at the reference configuration",
-    )
-    singular: bool | None = Field(
-        description="true where more velocities are allowed to first order than belong to motions",
-    )
-    holonomic: bool | None = Field(
-        description="true where every constraint is: it follows from relations between coordinates (and time)",
-    )
-    scleronomic: bool | None = Field(description="true where time enters no constraint")
-    count: Count = Field(
-        description="the lecture's count f = N d - k of all finite equations as written, and why it errs",
-    )
-    redundant_equations: int | None = Field(description="how many scalar equations are too many")
-    redundant: list[str] | None = Field(
-        description="constraints that can be dropped together without changing any motion, as many as possible",
-    )
-    redundancies: list[Redundancy] = Field(
-        description="groups of constraints that depend on each other, and how many equations each has too many",
-    )
-    conflicting: list[str] = Field(description="a minimal set of constraints that contradict each other")
-    generalized_coordinates: list[str] | None = Field(
-        description="an independent choice among the scene's coordinates, as many as there are degrees of freedom",
-    )
-    growth_vector: list[int] | None = Field(
-        description="dimensions of the directions that differential constraints allow, then with their brackets, "
-        "and so on",
-    )
-    integrable_part: IntegrablePart | None = Field(
-        default=None,
-        description="the finite relations that all differential constraints together amount to",
-    )
-    generic: Generic | None = Field(
-        default=None,
-        description="the freedom of the same joints in general position, and what is special about the drawing",
-    )
-    mobility: Mobility | None = Field(
-        default=None,
-        description="the count of Gruebler and Kutzbach beside the truth, and why they differ",
-    )
-    constraints: list[ConstraintEntry] = Field(
-        description="the constraints in order, each with its labels, its verdict and the reason",
-    )
-    forces: list[ForceEntry] = Field(description="forces, and why they are no constraints")
-    special_cases: list[SpecialCase] = Field(
-        description="places and values of parameters where the answer is another one",
-    )
-    verdict: Verdict = Field(description="how sure the report is: the weakest of all verdicts in it")
-    verdicts: dict[str, FieldVerdict] = Field(
-        default={},
-        description="how sure each field is, by which argument, with which bound, and of which points it speaks",
-    )
-    witness: dict[str, str] | None = Field(default=None, description="a certified configuration: coordinate -> value")
-    certificate: dict[str, Any] | None = Field(
-        default=None, description="evidence of what is proved, for `dofkit verify`"
-    )
-    method: str = Field(description="what ran")
-    modelled: str = Field(description="what was computed with and what was left out, and why")
-    warnings: list[str] = Field(description="what was noticed, and why something is open")
+    scene: str
+    consistent: bool | None
+    feasible: bool | None = None
+    infeasible: list[str] = []
+    feasible_at: dict[str, str] | None = None
+    dof: int | None
+    velocity_dof: int | None
+    instantaneous_dof: int | None
+    singular: bool | None
+    holonomic: bool | None
+    scleronomic: bool | None
+    count: Count
+    redundant_equations: int | None
+    redundant: list[str] | None
+    redundancies: list[Redundancy]
+    conflicting: list[str]
+    generalized_coordinates: list[str] | None
+    growth_vector: list[int] | None
+    integrable_part: IntegrablePart | None = None
+    generic: Generic | None = None
+    mobility: Mobility | None = None
+    constraints: list[ConstraintEntry]
+    forces: list[ForceEntry]
+    special_cases: list[SpecialCase]
+    verdict: Verdict
+    verdicts: dict[str, FieldVerdict] = {}
+    witness: dict[str, str] | None = None
+    certificate: dict[str, Any] | None = None
+    method: str
+    modelled: str
+    warnings: list[str]
     _companion: Companion = PrivateAttr(default_factory=Companion)
 
     def text(self, width: int | None = None, how: bool = False) -> str:

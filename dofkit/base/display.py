@@ -1,35 +1,18 @@
-"""What `print` and a notebook show of a value. How that is drawn is known on the top floor, which says so here once."""
+"""What `print` and a notebook show of a value. How that is drawn is known on the top floor: see `dofkit.DRAWN_BY`."""
 
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any, Protocol, Self, cast
+from typing import Any, Self
 
 
-class Drawn(Protocol):
-    """A module that draws values."""
+def _drawn(name: str, *given: Any) -> Any:
+    """A function of the module that draws, which `dofkit.DRAWN_BY` names; it is imported when something is first drawn.
 
-    def text_of(self, value: object, width: int | None, how: bool) -> str:
-        """Lines for a terminal of so many columns."""
-
-    def html_of(self, value: object) -> str:
-        """A piece of a page."""
-
-    def latex_of(self, value: object) -> str | None:
-        """A display in LaTeX, for what has formulas."""
-
-
-#: The name of the module that draws, under one key.
-_DRAWN_BY: dict[str, str] = {}
-
-
-def draw_with(module: str) -> None:
-    """Say which module draws; it is imported when something is first drawn."""
-    _DRAWN_BY["module"] = module
-
-
-def _drawn() -> Drawn:
-    return cast("Drawn", import_module(_DRAWN_BY["module"]))
+    It has ``text_of(value, width, how)``, lines for a terminal; ``html_of(value)``, a piece of a page; and
+    ``latex_of(value)``, a display of what has formulas, or None.
+    """
+    return getattr(import_module(import_module("dofkit").DRAWN_BY), name)(*given)
 
 
 def text_of(value: object, width: int | None = None, how: bool = False) -> str:
@@ -37,7 +20,7 @@ def text_of(value: object, width: int | None = None, how: bool = False) -> str:
 
     ``how``: of a report also how sure each answer is and by which argument.
     """
-    return _drawn().text_of(value, width, how)
+    return str(_drawn("text_of", value, width, how))
 
 
 class Displayed:
@@ -49,7 +32,7 @@ class Displayed:
         return text_of(self)
 
     def _repr_html_(self) -> str:
-        return _drawn().html_of(self)
+        return str(_drawn("html_of", self))
 
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
         """What IPython shows where it has no page."""
@@ -62,7 +45,8 @@ class DisplayedFormulas(Displayed):
     __slots__ = ()
 
     def _repr_latex_(self) -> str | None:
-        return _drawn().latex_of(self)
+        found = _drawn("latex_of", self)
+        return None if found is None else str(found)
 
 
 class Companion:

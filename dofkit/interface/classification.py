@@ -12,10 +12,11 @@ from typing import NamedTuple
 import typer
 
 from dofkit.base.errors import ArgumentError
+from dofkit.interface.outcome import headline
 from dofkit.interface.presentation import Telling
 from dofkit.interface.progress import Progress
 from dofkit.interface.show.faults import safe
-from dofkit.interface.summary import Summary, headline
+from dofkit.interface.summary import Summary
 from dofkit.interface.supervised import Printed, names_of, reports
 from dofkit.methods.names import MethodName
 

@@ -8,7 +8,6 @@ import os
 import sys
 from collections.abc import Generator
 from contextlib import closing
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, cast
 
@@ -81,7 +80,7 @@ def classify(
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
     place = None if certificate is None else str(certificate)
     telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
-    telling = replace(telling, only=options.fields(only), without=options.listed(without))
+    telling = telling._replace(only=options.fields(only), without=options.listed(without))
     asked = Asked(tuple(files), telling, budget, cast("MethodName", method), place, options.failures(fail_on))
     with failures_of("--watch"):
         status = watched(asked) if watch else classified(asked)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib import resources
 from typing import NamedTuple
@@ -13,8 +13,8 @@ from dofkit.base.errors import Fault, SceneError
 from dofkit.base.spelling import closest, nearest
 from dofkit.classification.arguments import TABLE
 from dofkit.homework.key.codes import CODES
+from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
-from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
 
 _THEOREM = re.compile(r"^\| `(?P<key>\w+)` \| (?P<author>[^|]+) \| (?P<year>[^|]+) \| (?P<says>[^|]+) \|", re.MULTILINE)
@@ -94,8 +94,8 @@ def all_explanations() -> tuple[Explanation, ...]:
     """Every word that is explained."""
     return (
         *(Explanation(code, "code of feedback", meaning) for code, meaning in CODES.items()),
-        *_fields("field of a report", Report),
-        *_fields("field of a constraint", ConstraintEntry),
+        *_fields("field of a report", OF_REPORT),
+        *_fields("field of a constraint", OF_CONSTRAINT),
         *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
         *(Explanation(word, "word", meaning) for word, meaning in _WORDS.items()),
         *(_type(name, cls) for name, cls in TYPES.items()),
@@ -104,9 +104,9 @@ def all_explanations() -> tuple[Explanation, ...]:
     )
 
 
-def _fields(kind: str, model: type[Report] | type[ConstraintEntry]) -> Iterator[Explanation]:
-    for name, field in model.model_fields.items():
-        yield Explanation(name, kind, _sentence(field.description or ""))
+def _fields(kind: str, meanings: Mapping[str, str]) -> Iterator[Explanation]:
+    for name, meaning in meanings.items():
+        yield Explanation(name, kind, _sentence(meaning))
 
 
 def _sentence(text: str) -> str:

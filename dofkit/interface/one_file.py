@@ -5,29 +5,39 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from dofkit.base.documents import Document
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.base.surface import handed_on
 from dofkit.base.workers import Json
 from dofkit.classification.undecided import undecided
 from dofkit.interface import show
-from dofkit.interface.selection import selected_line, selection_of
-from dofkit.interface.show.changes import changed, unexpected
+from dofkit.interface.outcome import outcome_of
 from dofkit.interface.show.sheet import SheetSection
 from dofkit.interface.show.terminal import Screen
-from dofkit.interface.summary import outcome_of
 from dofkit.interface.supervised import STDIN, Cut, Given
 from dofkit.methods.classify import with_certificate
 from dofkit.methods.stages import stages
 from dofkit.motion import lagrange
 from dofkit.report import Report
-from dofkit.scene.dropped import without
-from dofkit.scene.expectation import unmet
 from dofkit.scene.reading import SceneFile, find
 from dofkit.scene.scene import Scene
+
+#: What only some options need, imported there.
+_USED_BY_OPTIONS = {
+    "changed": "dofkit.interface.show.changes",
+    "selected_line": "dofkit.interface.selection",
+    "selection_of": "dofkit.interface.selection",
+    "unexpected": "dofkit.interface.show.changes",
+    "unmet": "dofkit.scene.expectation",
+    "without": "dofkit.scene.dropped",
+}
+
+
+def _used(name: str) -> Any:
+    return handed_on(__name__, _USED_BY_OPTIONS, name)
 
 
 def report_lines(given: Given) -> Iterator[Json]:
@@ -69,7 +79,8 @@ def _answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]]
 
 def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
     start = time.perf_counter()
-    whole, scene = scene, without(scene, given.telling.without) if given.telling.without else scene
+    whole, dropped = scene, given.telling.without
+    scene = _used("without")(scene, dropped) if dropped else scene
     reports = stages(scene, given.budget, given.method)
     first = next(reports)
     yield {"report": first.model_dump(mode="json"), "title": scene.title}
@@ -77,8 +88,9 @@ def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
     if given.certificate is not None:
         report = _written_certificate(scene, report, given.certificate)
     changes = () if whole is scene or given.telling.as_json else _changes(whole, report, given)
-    missed = unmet(scene, report) if scene.expect else []
-    text = _report_text(report, scene.title, given, (*changes, *unexpected(missed)))
+    missed = _used("unmet")(scene, report) if scene.expect else []
+    more = (*changes, *_used("unexpected")(missed)) if missed else changes
+    text = _report_text(report, scene.title, given, more)
     seconds = time.perf_counter() - start
     counted = {**outcome_of(report), "expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
     yield _streams(text, outcome=counted)
@@ -87,7 +99,7 @@ def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
 def _changes(scene: Scene, report: Report, given: Given) -> Sequence[SheetSection]:
     """What is otherwise than with the constraints that were dropped."""
     *_, before = stages(scene, given.budget, given.method)
-    return (changed(before, report, given.telling.without),)
+    return (_used("changed")(before, report, given.telling.without),)
 
 
 def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
@@ -119,13 +131,13 @@ def _report_text(report: Report, title: str | None, given: Given, more: Sequence
     telling = given.telling
     if telling.as_json:
         told = report.model_dump(mode="json")
-        return _line(selection_of(told, telling.only) if telling.only else told, given)
+        return _line(_used("selection_of")(told, telling.only) if telling.only else told, given)
     if telling.only:
-        return selected_line(report, telling.only) + "\n"
+        return str(_used("selected_line")(report, telling.only)) + "\n"
     if telling.brief:
         return show.brief_line(report, given.widest, _screen(given)) + "\n"
     sheet = show.sheet_of_report(report, title, telling.how)
-    return show.as_text(replace(sheet, sections=(*more, *sheet.sections)), _screen(given)) + "\n\n"
+    return show.as_text(sheet._replace(sections=(*more, *sheet.sections)), _screen(given)) + "\n\n"
 
 
 def _screen(given: Given) -> Screen:

@@ -8,9 +8,8 @@ from typing import Annotated
 
 import typer
 
-from dofkit.base.spelling import no_such
 from dofkit.base.surface import handed_on
-from dofkit.interface.summary import FAILURES
+from dofkit.interface.outcome import FAILURES
 from dofkit.methods.table import METHODS
 
 #: What is imported only where an option needs it.
@@ -18,6 +17,7 @@ _HEAVY = {
     "Report": "dofkit.report",
     "all_explanations": "dofkit.interface.explanations",
     "catalog_names": "dofkit.scene.catalog",
+    "no_such": "dofkit.base.spelling",
 }
 
 # what a shell completes
@@ -95,7 +95,8 @@ def failures(fail_on: list[str] | None) -> tuple[str, ...]:
 def _known(names: tuple[str, ...], known: Iterable[str], what: str, option: str) -> tuple[str, ...]:
     for name in names:
         if name not in known:
-            raise typer.BadParameter(no_such(name, known, what), param_hint=option)
+            said = handed_on(__name__, _HEAVY, "no_such")(name, known, what)
+            raise typer.BadParameter(said, param_hint=option)
     return names
 
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from dofkit.interface.streams import Colours, colours_of, columns
 
 
-@dataclass(frozen=True)
-class Telling:
+class Telling(NamedTuple):
     """How a report is told: as JSON (``ascii_only``: no other characters), in ``brief`` or in full, ``how`` sure.
 
     ``only``: these fields and no others; ``without``: constraints that are dropped before.

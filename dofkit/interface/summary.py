@@ -4,54 +4,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import many
+from dofkit.interface.outcome import FAILURES
 
-if TYPE_CHECKING:
-    from dofkit.report import Report
-
-#: What ``--fail-on`` may name.
-FAILURES = ("inconsistent", "infeasible", "redundant", "undecided")
 _MOST_NAMED, _SLOWEST = 8, 3
-#: The widths of a line a scene: a name is given no more room than this; the labels; a verdict.
-WIDEST_NAME, LABELS, VERDICT = 40, len("non-holonomic, scleronomic"), len("undecided")
 
 
-def headline(widest: int) -> str:
-    """What stands above a line a scene; ``f``: degrees of freedom, ``v``: independent velocities."""
-    return f"{'scene':<{min(widest, WIDEST_NAME)}}  {'f':>3} {'v':>3}  {'the system':<{LABELS}}  verdict"
-
-
-def outcome_of(report: Report) -> dict[str, Any]:
-    """What is counted of a report; ``is`` holds those of `FAILURES` that it is."""
-    found = {
-        "inconsistent": report.consistent is False,
-        "infeasible": report.feasible is False,
-        "redundant": bool(report.redundant or report.redundant_equations),
-        "undecided": report.verdict == "undecided",
-    }
-    return {"scene": report.scene, "verdict": report.verdict, "is": [name for name in FAILURES if found[name]]}
-
-
-class Counted(NamedTuple):
-    """One file: what was found of it (None: it could not be read), and the seconds that it took, loading included."""
-
-    outcome: Mapping[str, Any] | None
-    seconds: float
-
-
-@dataclass
 class Summary:
-    """The files so far."""
+    """The files so far: of each what was found (None: it could not be read), and its seconds, loading included."""
 
-    counted: list[Counted] = field(default_factory=list)
+    def __init__(self) -> None:
+        self._counted: list[tuple[Mapping[str, Any] | None, float]] = []
 
     def add(self, outcome: Mapping[str, Any] | None, seconds: float) -> None:
         """Count one file."""
-        self.counted.append(Counted(outcome, seconds))
+        self._counted.append((outcome, seconds))
 
     def fails(self, on: tuple[str, ...]) -> bool:
         """Is a scene one of these?"""
@@ -59,25 +29,23 @@ class Summary:
 
     @property
     def _outcomes(self) -> list[Mapping[str, Any]]:
-        return [one.outcome for one in self.counted if one.outcome is not None]
+        return [outcome for outcome, _ in self._counted if outcome is not None]
 
     def lines(self) -> Iterator[str]:
         """What is said of them all."""
         outcomes = self._outcomes
         by_verdict = Counter(outcome["verdict"] for outcome in outcomes)
         said = [f"{by_verdict[verdict]} {verdict}" for verdict in VERDICTS if by_verdict[verdict]]
-        unread = len(self.counted) - len(outcomes)
+        unread = len(self._counted) - len(outcomes)
         if unread:
             said.append(f"{unread} could not be read")
-        seconds = sum(one.seconds for one in self.counted)
-        yield f"{many(len(self.counted), 'scene')} in {_seconds(seconds)}: {', '.join(said)}"
+        seconds = sum(seconds for _, seconds in self._counted)
+        yield f"{many(len(self._counted), 'scene')} in {_seconds(seconds)}: {', '.join(said)}"
         yield from self._expected()
         are = Counter(name for outcome in outcomes for name in outcome["is"] if name != "undecided")
         if are:
             yield f"  {', '.join(f'{are[name]} {name}' for name in FAILURES if are[name])}"
-        by_time = [
-            (one.outcome.get("seconds", one.seconds), one.outcome["scene"]) for one in self.counted if one.outcome
-        ]
+        by_time = [(found.get("seconds", took), found["scene"]) for found, took in self._counted if found]
         slowest = sorted(by_time, key=lambda pair: -pair[0])[:_SLOWEST]
         if slowest:
             yield f"  slowest: {', '.join(f'{scene} {_seconds(seconds)}' for seconds, scene in slowest)}"

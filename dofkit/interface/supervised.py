@@ -99,7 +99,7 @@ def reports(
     """
     seconds = DEFAULT_SECONDS if budget is None else budget
     widest = max(map(len, names_of(files)), default=0)
-    given = Given("", seconds, method, replace(telling, ascii_only=ascii_only()), widest=widest)
+    given = Given("", seconds, method, telling._replace(ascii_only=ascii_only()), widest=widest)
     return _answers(files, given, _report, (ONE_FILE,), _places(files, certificate))
 
 
@@ -121,7 +121,7 @@ def names_of(files: Sequence[str]) -> list[str]:
 
 def motions(files: Sequence[str], linearize: bool, telling: Telling) -> Generator[Printed]:
     """What is printed of the equations of motion of each file, in their order."""
-    given = Given("", DEFAULT_SECONDS, "auto", replace(telling, ascii_only=ascii_only()), linearize)
+    given = Given("", DEFAULT_SECONDS, "auto", telling._replace(ascii_only=ascii_only()), linearize)
     return _answers(files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"))
 
 

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from rich.console import Console
 from rich.text import Text
 
+from dofkit.interface.outcome import LABELS, VERDICT, WIDEST_NAME
 from dofkit.interface.show.faults import safe
 from dofkit.interface.show.report import number, system_labels
 from dofkit.interface.show.sheet import TONES
 from dofkit.interface.show.terminal import STYLES, Screen
-from dofkit.interface.summary import LABELS, VERDICT, WIDEST_NAME
 from dofkit.report import Report
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 
 from dofkit.base.display import Companion
@@ -64,7 +63,7 @@ def sheet_of(value: object, how: bool = False) -> Sheet:
         case MotionReport():
             return _beside(sheet_of_motion(value), value._companion)
         case Scene():
-            return replace(sheet_of_scene(value), picture=partial(picture_of, value))
+            return sheet_of_scene(value)._replace(picture=partial(picture_of, value))
         case Linkage():
             return sheet_of_linkage(value)
         case Result():
@@ -78,4 +77,4 @@ def _beside(sheet: Sheet, companion: Companion, report: Report | None = None) ->
     scene = companion.scene
     if not isinstance(scene, Scene):
         return sheet
-    return replace(sheet, title=scene.title or "", picture=partial(picture_of, scene, report))
+    return sheet._replace(title=scene.title or "", picture=partial(picture_of, scene, report))

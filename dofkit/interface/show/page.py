@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from html import escape
 
@@ -9,6 +10,10 @@ from dofkit.expressions.text.typesetting import Typeset, typeset
 from dofkit.interface.show.faults import safe
 from dofkit.interface.show.sheet import Fact, Grid, Matrix, Remark, Sheet, SheetSection, Told
 
+#: What only the words of a joint or a link hold: two names with a line between them, or one of these.
+_WORDS = re.compile(
+    r"\b(?:on|at|driven by|length|radius|ratio|pitch|through|carried by|along)\b|^[a-z]{3,} \w+([-,]|$)"
+)
 #: The colours of light and of dark, by the system's wish and by a notebook's theme, which goes before.
 _STYLE = """<style>
 .dofkit{--ink:#1b1f24;--quiet:#59636e;--line:#d1d9e0;--good:#116329;--care:#7d4e00;--bad:#a40e26;--paper:#fff;
@@ -91,10 +96,15 @@ def _set(told: Told) -> str:
     """A formula as mathematics where it is one; everything else as text."""
     if isinstance(told, str):
         return _plain(told)
-    found = _matrix(told) if isinstance(told, Matrix) else typeset(told.text)
+    found = _matrix(told) if isinstance(told, Matrix) else _formula(told.text)
     if found is None:
         return _plain(str(told))
     return f'<math displaystyle="true" aria-label="{_plain(str(told))}">{found.mathml}</math>'
+
+
+def _formula(text: str) -> Typeset | None:
+    """What is written as mathematics; None for words, such as those of a joint."""
+    return None if _WORDS.search(text) else typeset(text)
 
 
 def _matrix(matrix: Matrix) -> Typeset | None:

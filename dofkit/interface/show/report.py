@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from dofkit.base.wording import many, verb
 from dofkit.interface.show.assurance import how_sure, not_proved, verdicts_of
-from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Told, Tone
+from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.report import ConstraintEntry, Report, SpecialCase
 
 #: More constraints than this are counted, not listed.
 MOST_ROWS = 60
 _MOST_NAMES = 40
 _COLUMNS = (Column("name"), Column("text", 3), Column("form"), Column("labels", 2), Column("eq.", numbers=True))
-#: What a relation holds, and what only the words of a joint or a link hold.
-_RELATION = re.compile("[=<>≤≥]")
-_WORDS = re.compile(r"\b(?:on|driven by|length|radius|ratio|pitch|through|carried by)\b")
 _OPPOSITES = {"holonomic": "non-holonomic", "scleronomic": "rheonomic", "bilateral": "unilateral"}
 
 
@@ -41,13 +37,13 @@ def sheet_of_entry(entry: ConstraintEntry) -> Sheet:
         Fact("verdict", entry.verdict, tone=TONES[entry.verdict]),
         Fact("why", entry.reason),
     ]
-    return Sheet(entry.name, written(entry), facts=facts)
+    return Sheet(entry.name, Formula(entry.text), facts=facts)
 
 
 def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
     entries = report.constraints
     if entries:
-        rows = [(e.name, written(e), e.form, labels(e), _equations(e)) for e in entries[:MOST_ROWS]]
+        rows = [(e.name, Formula(e.text), e.form, labels(e), _equations(e)) for e in entries[:MOST_ROWS]]
         yield SheetSection("Constraints", [Grid(_COLUMNS, rows)], _more(len(entries)))
     reasons = _reasons(entries)
     yield SheetSection("Why", reasons[:MOST_ROWS], _more(len(reasons)))
@@ -63,11 +59,6 @@ def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
 
 def _more(number: int) -> str:
     return f"... and {number - MOST_ROWS} more: --json has them all" if number > MOST_ROWS else ""
-
-
-def written(entry: ConstraintEntry) -> Told:
-    """What was written: mathematics where it is a relation, or words such as those of a joint."""
-    return Formula(entry.text) if _RELATION.search(entry.text) and not _WORDS.search(entry.text) else entry.text
 
 
 def _alarm(report: Report) -> tuple[str, Tone] | None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 #: How a fact is meant: ``good`` and ``bad`` are told by colour, and by their words.
@@ -12,8 +11,7 @@ Tone = Literal["plain", "good", "care", "bad"]
 TONES: dict[str, Tone] = {"proved": "good", "probable": "good", "numeric": "care", "undecided": "bad"}
 
 
-@dataclass(frozen=True)
-class Formula:
+class Formula(NamedTuple):
     """A text in the grammar of scenes: a page sets it as mathematics."""
 
     text: str
@@ -22,8 +20,7 @@ class Formula:
         return self.text
 
 
-@dataclass(frozen=True)
-class Matrix:
+class Matrix(NamedTuple):
     """``name = [...]``, its entries in the grammar of scenes."""
 
     name: str
@@ -76,8 +73,7 @@ class SheetSection(NamedTuple):
     more: str = ""
 
 
-@dataclass(frozen=True)
-class Sheet:
+class Sheet(NamedTuple):
     """All that is told of a value. ``alarm``: what stands above everything else.
 
     ``copied``: its formulas are copied from a terminal, so that no line is broken. ``picture``: makes one as an inline
