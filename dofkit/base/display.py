@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
+import sys
 from typing import Any, Self
+
+from dofkit.base.surface import handed_on
 
 
 def _drawn(name: str, *given: Any) -> Any:
@@ -12,7 +14,7 @@ def _drawn(name: str, *given: Any) -> Any:
     It has ``text_of(value, width, how)``, lines for a terminal; ``html_of(value)``, a piece of a page; and
     ``latex_of(value)``, a display of what has formulas, or None.
     """
-    return getattr(import_module(import_module("dofkit").DRAWN_BY), name)(*given)
+    return handed_on("dofkit", {name: sys.modules["dofkit"].DRAWN_BY}, name)(*given)
 
 
 def text_of(value: object, width: int | None = None, how: bool = False) -> str:

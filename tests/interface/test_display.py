@@ -151,13 +151,11 @@ def test_nothing_that_is_shown_is_obeyed() -> None:
 
 
 def test_a_picture_is_folded_in_where_pictures_are_installed(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Room:
-        @staticmethod
-        def svg(scene: dofkit.Scene, report: Report | None) -> str:
-            return f"<svg><title>{scene.name} {report and report.dof}</title></svg>"
+    def svg(scene: dofkit.Scene, report: Report | None) -> str:
+        return f"<svg><title>{scene.name} {report and report.dof}</title></svg>"
 
     monkeypatch.setattr(picture, "find_spec", lambda name: name)
-    monkeypatch.setattr(picture, "import_module", lambda name: Room)
+    monkeypatch.setattr(picture, "handed_on", lambda package, homes, name: svg)
     assert "<svg><title>disc-rolling-on-plane 4</title></svg>" in shown(dofkit.classify(DISC))
     assert "<svg><title>disc-rolling-on-plane None</title></svg>" in shown(dofkit.load(DISC))
     monkeypatch.setattr(picture, "find_spec", lambda name: None)

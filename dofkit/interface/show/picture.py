@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from importlib.util import find_spec
 
 from dofkit.base.errors import DofkitError
+from dofkit.base.surface import handed_on
 
 #: The room that draws, and its function from a scene and its report to an inline SVG.
 _ROOM, _FUNCTION = "dofkit.pictures", "svg"
@@ -16,7 +16,7 @@ def picture_of(scene: object, report: object = None) -> str | None:
     if find_spec(_ROOM) is None:
         return None
     try:
-        drawn = getattr(import_module(_ROOM), _FUNCTION)(scene, report)
+        drawn = handed_on(__name__, {_FUNCTION: _ROOM}, _FUNCTION)(scene, report)
     except (ImportError, AttributeError, DofkitError):
         return None
     return drawn if isinstance(drawn, str) else None
