@@ -54,7 +54,7 @@ def cut_lines(cut: Cut) -> Json:
     """What is printed where `report_lines` was cut short: of a scene that was read, that nothing was decided."""
     if cut.value is not None and "report" in cut.value:
         report = undecided(Report.model_validate(cut.value["report"]), cut.reason)
-        return _streams(_report_text(report, cut.value["title"], cut.given), outcome=outcome_of(report))
+        return streams(_report_text(report, cut.value["title"], cut.given), outcome=outcome_of(report))
     fault = Fault(f"it could not be read: {cut.reason}", hint="make the scene smaller, or split it")
     return _fault_streams(cut.given, cut.given.name, (fault,), None)
 
@@ -93,7 +93,7 @@ def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
     text = _report_text(report, scene.title, given, more)
     seconds = time.perf_counter() - start
     counted = {**outcome_of(report), "expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
-    yield _streams(text, outcome=counted)
+    yield streams(text, outcome=counted)
 
 
 def _changes(scene: Scene, report: Report, given: Given) -> Sequence[SheetSection]:
@@ -117,12 +117,12 @@ def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
 def _equations(scene: Scene, given: Given) -> Iterator[Json]:
     report = lagrange.lagrange(scene, given.linearize, given.budget)
     if given.telling.as_json:
-        yield _streams(_line(report.model_dump(mode="json"), given))
+        yield streams(_line(report.model_dump(mode="json"), given))
     else:
-        yield _streams(show.as_text(show.sheet_of_motion(report, scene.title), _screen(given)) + "\n\n")
+        yield streams(show.as_text(show.sheet_of_motion(report, scene.title), _screen(given)) + "\n\n")
 
 
-def _streams(out: str = "", err: str = "", failed: bool = False, outcome: Json = None) -> Json:
+def streams(out: str = "", err: str = "", failed: bool = False, outcome: Json = None) -> Json:
     """What goes to standard output and to standard error, and what a summary counts."""
     return {"out": out, "err": err, "failed": failed, "outcome": outcome}
 
@@ -152,9 +152,9 @@ def _line(value: Any, given: Given) -> str:
 def _fault_streams(given: Given, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
     """What is printed of a file that could not be read, or not be answered."""
     if given.telling.as_json:
-        return _streams(out=_line({"scene": name, "error": _error_object(faults)}, given), failed=True)
+        return streams(out=_line({"scene": name, "error": _error_object(faults)}, given), failed=True)
     file = STDIN if given.file == "-" else given.file
-    return _streams(err=show.complaint(file, faults, document, given.telling.loud) + "\n", failed=True)
+    return streams(err=show.complaint(file, faults, document, given.telling.loud) + "\n", failed=True)
 
 
 def _error_object(faults: Iterable[Fault]) -> dict[str, Any]:

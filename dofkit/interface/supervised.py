@@ -109,9 +109,13 @@ def _places(files: Sequence[str], certificate: str | None) -> list[str | None]:
         return [None] * len(files)
     if len(files) == 1 and not os.path.isdir(certificate):
         return [certificate]
+    return [os.path.join(certificate, f"{name}.json") for name in _own_names(files)]
+
+
+def _own_names(files: Sequence[str]) -> list[str]:
+    """The name of each file, numbered where one before has it."""
     names = names_of(files)
-    told = [name if names.index(name) == k else f"{name}-{names[:k].count(name) + 1}" for k, name in enumerate(names)]
-    return [os.path.join(certificate, f"{name}.json") for name in told]
+    return [name if names.index(name) == k else f"{name}-{names[:k].count(name) + 1}" for k, name in enumerate(names)]
 
 
 def names_of(files: Sequence[str]) -> list[str]:

@@ -30,7 +30,7 @@ vertical-align:baseline;font-size:inherit;color:inherit;white-space:normal;max-w
 .dofkit.dofkit .bad{color:var(--bad)}.dofkit b.h{display:block;margin-top:.5em;color:var(--quiet);font-weight:600}
 .dofkit p{margin:.15em 0}
 .dofkit math{font:1.1em "Latin Modern Math","STIX Two Math","Cambria Math",math}
-.dofkit svg{max-width:100%;height:auto}
+.dofkit svg{max-width:100%;height:auto;border-radius:4px}
 @media (prefers-color-scheme:dark){.dofkit{--ink:#e6edf3;--quiet:#9198a1;--line:#3d444d;--good:#56d364;--care:#e3b341;
 --bad:#ff7b72;--paper:#151b23}}
 [data-jp-theme-light=false] .dofkit,.vscode-dark .dofkit,[data-theme=dark] .dofkit,.theme-dark .dofkit{--ink:#e6edf3;
