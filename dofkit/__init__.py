@@ -71,6 +71,9 @@ _HOMES = {
     "grade": "dofkit.homework.grading",
 }
 
+#: What draws reports and scenes for `print` and for notebooks.
+DRAWN_BY = "dofkit.interface.show.drawn"
+
 
 def __getattr__(name: str) -> Any:
     found = globals()[name] = handed_on(__name__, _HOMES, name)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import BaseModel, ConfigDict, PrivateAttr, model_validator
 
+from dofkit.base.display import Companion, Displayed, DisplayedFormulas, text_of
 from dofkit.base.verdicts import About, ArgumentKey, Claim, Verdict
 
 Form = Literal["finite", "pfaffian", "nonlinear", "inequality"]
@@ -67,7 +68,7 @@ class Count(ToldModel):
     """Why the count is wrong, where it is; else None."""
 
 
-class ConstraintEntry(ToldModel):
+class ConstraintEntry(DisplayedFormulas, ToldModel):
     """One constraint's labels.
 
     ``form`` of the reduced equations; ``holonomic`` in the system and ``holonomic_alone`` without
@@ -167,7 +168,7 @@ class SpecialCase(ToldModel):
     verdict: Verdict
 
 
-class Report(ToldModel):
+class Report(Displayed, ToldModel):
     """How a system can move; the fields and their meanings are those of the contract.
 
     ``dof`` is the dimension of the configuration space (hidden finite relations included),
@@ -224,3 +225,16 @@ class Report(ToldModel):
     method: str
     modelled: str
     warnings: list[str]
+    _companion: Companion = PrivateAttr(default_factory=Companion)
+
+    def text(self, width: int | None = None, how: bool = False) -> str:
+        """What the command line prints, for ``width`` columns (None: those of the terminal, or 80).
+
+        ``how``: also how sure each answer is, and by which argument. `print` writes the same without it.
+        """
+        return text_of(self, width, how)
+
+    def beside(self, scene: object) -> Self:
+        """The same report with what it is about beside it, whose title and picture are then shown."""
+        self._companion.scene = scene
+        return self

@@ -7,6 +7,7 @@ from functools import cached_property, partial
 from typing import TypeVar
 
 from dofkit.base.deadline import part, unless_late
+from dofkit.base.wording import many, verb
 from dofkit.classification.study import Study
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon
@@ -60,8 +61,8 @@ class CountsBeside:
             return None
         if here < dof:
             return "the drawing allows less than general position: what the texts say is special there"
-        many = here - dof
-        start = f"at the drawing {many} equation{'s' * (many > 1)} more depend{'s' * (many == 1)} on the others"
+        more = here - dof
+        start = f"at the drawing {many(more, 'further equation')} {verb(more, 'depends', 'depend')} on the others"
         placement = self._placement
         told = [] if placement is None else special_facts(self.system, placement, self._dependent_sets(), self._slack())
         return "; ".join([start, *told[:MOST_TOLD]])

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from dofkit.base.deadline import unless_late
+from dofkit.base.wording import many, verb
 from dofkit.classification.dependence.redundancy import merged
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.generalized_coordinates import generalized
@@ -143,8 +144,7 @@ def modelled(system: System, outcome: Outcome) -> str:
     parts = []
     touched = len(system.coordinates) - len(outcome.untouched)
     if outcome.blocks:
-        many = len(outcome.blocks)
-        parts.append(f"{touched} coordinate{'s' * (touched != 1)} in {many} independent part{'s' * (many > 1)}")
+        parts.append(f"{many(touched, 'coordinate')} in {many(len(outcome.blocks), 'independent part')}")
     if outcome.untouched:
         shown = ", ".join(outcome.untouched[:12]) + (", ..." if len(outcome.untouched) > 12 else "")
         parts.append(f"counted but not computed with, because nothing constrains them: {shown}")
@@ -166,16 +166,19 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
         sum(k.followed for k in looked),
     )
     if left_out:
-        many = sum(len(b.rows) for b in outcome.blocks)
-        yield f"{left_out} of {many} relations are in no dependent set (trees and the like): not followed"
+        whole = sum(len(b.rows) for b in outcome.blocks)
+        yield (
+            f"{left_out} of {many(whole, 'relation')} {verb(left_out)} in no dependent set (trees and the like): "
+            "not followed"
+        )
     if rigid:
-        yield f"{rigid} dependent set{'s' * (rigid > 1)} taken for one rigid body each"
+        yield f"{many(rigid, 'dependent set')} taken for one rigid body each"
     if followed and left_out:
-        yield f"{followed} other dependent set{'s' * (followed > 1)} followed apart from all else"
+        yield f"{many(followed, 'other dependent set')} followed apart from all else"
     spared = sum(k.spared for k in looked)
     if spared:
         yield (
-            f"{spared} coordinate{'s' * (spared > 1)} fewer where motions were followed (welded bodies and rigid "
+            f"{many(spared, 'coordinate')} fewer where motions were followed (welded bodies and rigid "
             "clusters as one, bodies that do not turn as particles, what a linear relation gives explicitly)"
         )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from dofkit.base.display import Displayed
 from dofkit.report import ToldModel
 
 Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review"]
@@ -27,7 +28,7 @@ class Item(ToldModel):
     column: int | None = None
 
 
-class Result(ToldModel):
+class Result(Displayed, ToldModel):
     """One student's submission. ``score`` is the sum of what is decided; ``needs_review`` answers are open beside it.
 
     ``error``: why the submission could not be graded; then there are no items and ``score`` is None.

@@ -6,16 +6,18 @@ import json
 import math
 import os
 import sys
-from collections.abc import Generator, Iterator
-from contextlib import closing, contextmanager
+from collections.abc import Generator
+from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
-from dofkit.base.errors import DofkitError, Fault
 from dofkit.base.version import __version__
 from dofkit.interface import options
+from dofkit.interface.catalog_commands import catalog_app
+from dofkit.interface.failures import INTERRUPTED, UNREADABLE, failures_of, print_json
+from dofkit.interface.presentation import Telling
 
 if TYPE_CHECKING:
     from dofkit.interface.supervised import Printed
@@ -24,24 +26,21 @@ if TYPE_CHECKING:
 app = typer.Typer(
     name="dofkit",
     help="Tells how a mechanical system can move: degrees of freedom, labels of its constraints, what is redundant.",
-    add_completion=False,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
 )
 assignment_app = typer.Typer(help="Write assignments.", no_args_is_help=True, rich_markup_mode=None)
 export_app = typer.Typer(
     help="Write what a course platform needs to grade an assignment.", no_args_is_help=True, rich_markup_mode=None
 )
-catalog_app = typer.Typer(
-    help="List the scenes of the catalog, or show one.", invoke_without_command=True, rich_markup_mode=None
-)
 app.add_typer(catalog_app, name="catalog")
 app.add_typer(assignment_app, name="assignment")
 app.add_typer(export_app, name="export")
 
-#: The exit status where something could not be read, and after Ctrl-C.
-UNREADABLE, INTERRUPTED = 2, 130
+#: Reports of more scenes than this are a line each, unless they are asked for in full.
+MOST_IN_FULL = 3
 
 
 def _version(asked: bool) -> None:
@@ -63,17 +62,30 @@ def dofkit(
 def classify(
     files: options.Files,
     as_json: options.AsJson = False,
+    brief: options.Brief = False,
+    full: options.Full = False,
+    how: options.How = False,
+    only: options.Only = None,
+    without: options.Without = None,
+    fail_on: options.FailOn = None,
+    watch: options.Watch = False,
     budget: options.Budget = None,
     method: options.Method = "auto",
     certificate: options.CertificatePath = None,
 ) -> None:
     """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
-    from dofkit.interface.supervised import reports
+    from dofkit.interface.classification import Asked, classified, watched
 
     if budget is not None and math.isnan(budget):
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
     place = None if certificate is None else str(certificate)
-    _print(reports(files, budget, cast("MethodName", method), as_json, place))
+    telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
+    telling = telling._replace(only=options.fields(only), without=options.listed(without))
+    asked = Asked(tuple(files), telling, budget, cast("MethodName", method), place, options.failures(fail_on))
+    with failures_of("--watch"):
+        status = watched(asked) if watch else classified(asked)
+    if status:
+        raise typer.Exit(status)
 
 
 @app.command()
@@ -96,7 +108,7 @@ def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: o
     """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
     from dofkit.interface.supervised import motions
 
-    _print(motions(files, linearize, as_json))
+    _print(motions(files, linearize, Telling.here(as_json)))
 
 
 @app.command()
@@ -113,7 +125,7 @@ def grade(
     """Grade submissions: a result for each, in the order given."""
     from dofkit.homework.runs.run import GradingOptions, run
 
-    with _failures_of(assignment):
+    with failures_of(assignment):
         clean = run(assignment, submissions, GradingOptions(form, out, workers, scheduler, check_only, certificates))
     if not clean:
         raise typer.Exit(UNREADABLE)
@@ -137,7 +149,7 @@ def chart(
     from dofkit.benchmark.selecting import Selection
 
     selection = Selection(question or (), families or (), methods or (), quick, most)
-    with _failures_of("chart"):
+    with failures_of("chart"):
         whole = chart(ChartOptions(selection, out, source, scheduler, workers, timeout))
     if not whole:
         raise typer.Exit(INTERRUPTED)
@@ -150,7 +162,7 @@ def assignment_new(
     """Print a starting assignment: all the questions that the scenes can be asked."""
     from dofkit.homework.starting import starting
 
-    with _failures_of(None):
+    with failures_of(None):
         typer.echo(starting(scenes), nl=False)
 
 
@@ -169,7 +181,7 @@ def export_gradescope(
     """Write the autograder of an assignment for Gradescope, as one zip to upload."""
     from dofkit.homework import export
 
-    with _failures_of(assignment):
+    with failures_of(assignment):
         notes = export.export_gradescope(assignment, out, python or (export.PYTHON,), wheels=wheels)
     for note in notes:
         typer.echo(f"{out}: {note}", err=True)
@@ -183,37 +195,41 @@ def export_otter(
     """Write otter-grader's test files for an assignment, and assignment.json beside their folder."""
     from dofkit.homework import otter
 
-    with _failures_of(assignment):
+    with failures_of(assignment):
         for path in otter.write_tests(assignment, out):
             typer.echo(path)
 
 
-@catalog_app.callback()
-def catalog(context: typer.Context, as_json: options.AsJson = False) -> None:
-    """List the names of the catalog's scenes, one a line; with their titles on a terminal."""
-    if context.invoked_subcommand is not None:
-        return
-    from dofkit.scene.catalog import catalog_names, catalog_titles
+@app.command()
+def explain(
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="WORD",
+            show_default=False,
+            help="A code of feedback, a field of a report, a verdict, an argument, a theorem, a type of constraint.",
+            autocompletion=options.explained,
+        ),
+    ] = None,
+    as_json: options.AsJson = False,
+) -> None:
+    """Explain a word of dofkit: what a code, a field, a verdict, a theorem or a type of constraint means.
 
-    if not as_json and not sys.stdout.isatty():
-        typer.echo("\n".join(catalog_names()))
+    Without a WORD all that can be explained is listed.
+    """
+    from dofkit.interface.explanations import explanations_of, listed
+
+    word = " ".join(words or ())
+    if not word:
+        typer.echo(listed())
         return
-    titles = catalog_titles()
-    width = max(map(len, titles), default=0)
-    for name, title in titles.items():
+    with failures_of(word):
+        found = explanations_of(word)
+    for told in found:
         if as_json:
-            _line({"name": name, "title": title})
+            print_json(told._asdict())
         else:
-            typer.echo(f"{name:<{width}}  {title}")
-
-
-@catalog_app.command("show")
-def catalog_show(name: Annotated[str, typer.Argument(help="A scene's name.")]) -> None:
-    """Print the YAML of a catalog scene."""
-    from dofkit.scene.catalog import catalog_text
-
-    with _failures_of(name):
-        typer.echo(catalog_text(name), nl=False)
+            typer.echo(told.text())
 
 
 @app.command()
@@ -242,35 +258,15 @@ def schema(
 
 def _print(printed: Generator[Printed]) -> None:
     """Print what there is of each file; the exit status tells whether one could not be read."""
+    from dofkit.interface.classification import echo
+
     failed = False
     with closing(printed) as stream:
-        for out, err, unread in stream:
-            typer.echo(out, nl=False)
-            typer.echo(err, nl=False, err=True)
-            failed = failed or unread
+        for printed_of_file in stream:
+            echo(printed_of_file)
+            failed = failed or printed_of_file.failed
     if failed:
         raise typer.Exit(UNREADABLE)
-
-
-@contextmanager
-def _failures_of(file: str | None) -> Iterator[None]:
-    """Where nothing is done, tell why, of ``file`` (None: of what the error is about), and end the command."""
-    try:
-        yield
-    except BrokenPipeError:
-        raise
-    except (DofkitError, OSError) as error:
-        from dofkit.interface.show.faults import complaint
-
-        faults = tuple(getattr(error, "faults", None) or (Fault(str(error)),))
-        sys.stdout.flush()
-        typer.echo(complaint(file or getattr(error, "source", None) or "assignment", faults, None), err=True)
-        raise typer.Exit(UNREADABLE) from None
-
-
-def _line(value: Any) -> None:
-    utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
-    typer.echo(json.dumps(value, ensure_ascii=not utf8))
 
 
 def main() -> None:

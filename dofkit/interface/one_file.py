@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-import io
 import json
-from collections.abc import Callable, Iterable, Iterator
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from dofkit.base.documents import Document
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.base.surface import handed_on
 from dofkit.base.workers import Json
 from dofkit.classification.undecided import undecided
 from dofkit.interface import show
+from dofkit.interface.outcome import outcome_of
+from dofkit.interface.show.sheet import SheetSection
+from dofkit.interface.show.terminal import Screen
 from dofkit.interface.supervised import STDIN, Cut, Given
 from dofkit.methods.classify import with_certificate
 from dofkit.methods.stages import stages
@@ -21,6 +25,20 @@ from dofkit.report import Report
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import SceneFile
 from dofkit.scene.scene import Scene
+
+#: What only some options need, imported there.
+_USED_BY_OPTIONS = {
+    "changed": "dofkit.interface.show.changes",
+    "selected_line": "dofkit.interface.selection",
+    "selection_of": "dofkit.interface.selection",
+    "unexpected": "dofkit.interface.show.changes",
+    "unmet": "dofkit.scene.expectation",
+    "without": "dofkit.scene.dropped",
+}
+
+
+def _used(name: str) -> Any:
+    return handed_on(__name__, _USED_BY_OPTIONS, name)
 
 
 def report_lines(given: Given) -> Iterator[Json]:
@@ -37,7 +55,7 @@ def cut_lines(cut: Cut) -> Json:
     """What is printed where `report_lines` was cut short: of a scene that was read, that nothing was decided."""
     if cut.value is not None and "report" in cut.value:
         report = undecided(Report.model_validate(cut.value["report"]), cut.reason)
-        return _streams(_report_text(report, cut.value["title"], cut.given))
+        return streams(_report_text(report, cut.value["title"], cut.given), outcome=outcome_of(report))
     fault = Fault(f"it could not be read: {cut.reason}", hint="make the scene smaller, or split it")
     return _fault_streams(cut.given, cut.given.name, (fault,), None)
 
@@ -61,13 +79,28 @@ def _answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]]
 
 
 def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
+    start = time.perf_counter()
+    whole, dropped = scene, given.telling.without
+    scene = _used("without")(scene, dropped) if dropped else scene
     reports = stages(scene, given.budget, given.method)
     first = next(reports)
     yield {"report": first.model_dump(mode="json"), "title": scene.title}
     report = next(reports, first)
     if given.certificate is not None:
         report = _written_certificate(scene, report, given.certificate)
-    yield _streams(_report_text(report, scene.title, given))
+    changes = () if whole is scene or given.telling.as_json else _changes(whole, report, given)
+    missed = _used("unmet")(scene, report) if scene.expect else []
+    more = (*changes, *_used("unexpected")(missed)) if missed else changes
+    text = _report_text(report, scene.title, given, more)
+    seconds = time.perf_counter() - start
+    counted = {**outcome_of(report), "expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
+    yield streams(text, outcome=counted)
+
+
+def _changes(scene: Scene, report: Report, given: Given) -> Sequence[SheetSection]:
+    """What is otherwise than with the constraints that were dropped."""
+    *_, before = stages(scene, given.budget, given.method)
+    return (_used("changed")(before, report, given.telling.without),)
 
 
 def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
@@ -84,42 +117,45 @@ def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
 
 def _equations(scene: Scene, given: Given) -> Iterator[Json]:
     report = lagrange.lagrange(scene, given.linearize, given.budget)
-    if given.as_json:
-        yield _streams(_line(report.model_dump(mode="json"), given))
+    if given.telling.as_json:
+        yield streams(_line(report.model_dump(mode="json"), given))
     else:
-        yield _streams(show.as_lines(report, scene.title) + "\n")
+        yield streams(show.as_text(show.sheet_of_motion(report, scene.title), _screen(given)) + "\n\n")
 
 
-def _streams(out: str = "", err: str = "", failed: bool = False) -> Json:
-    """What goes to standard output and to standard error."""
-    return {"out": out, "err": err, "failed": failed}
+def streams(out: str = "", err: str = "", failed: bool = False, outcome: Json = None) -> Json:
+    """What goes to standard output and to standard error, and what a summary counts."""
+    return {"out": out, "err": err, "failed": failed, "outcome": outcome}
 
 
-def _report_text(report: Report, title: str | None, given: Given) -> str:
-    if given.as_json:
-        return _line(report.model_dump(mode="json"), given)
-    from rich.console import Console
+def _report_text(report: Report, title: str | None, given: Given, more: Sequence[SheetSection] = ()) -> str:
+    telling = given.telling
+    if telling.as_json:
+        told = report.model_dump(mode="json")
+        return _line(_used("selection_of")(told, telling.only) if telling.only else told, given)
+    if telling.only:
+        return str(_used("selected_line")(report, telling.only)) + "\n"
+    if telling.brief:
+        return show.brief_line(report, given.widest, _screen(given)) + "\n"
+    sheet = show.sheet_of_report(report, title, telling.how)
+    return show.as_text(sheet._replace(sections=(*more, *sheet.sections)), _screen(given)) + "\n\n"
 
-    console = Console()
-    if given.terminal is not None:
-        width, colours = given.terminal
-        system: Any = colours
-        console = Console(file=io.StringIO(), width=width, force_terminal=colours is not None, color_system=system)
-    return show.as_text(report, title, console) + "\n\n"
+
+def _screen(given: Given) -> Screen:
+    return Screen(given.telling.columns, given.telling.colours)
 
 
 def _line(value: Any, given: Given) -> str:
     """One line of JSON."""
-    return json.dumps(value, ensure_ascii=given.ascii_only) + "\n"
+    return json.dumps(value, ensure_ascii=given.telling.ascii_only) + "\n"
 
 
 def _fault_streams(given: Given, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
     """What is printed of a file that could not be read, or not be answered."""
-    if given.as_json:
-        return _streams(out=_line({"scene": name, "error": _error_object(faults)}, given), failed=True)
-    return _streams(
-        err=show.complaint(STDIN if given.file == "-" else given.file, faults, document) + "\n", failed=True
-    )
+    if given.telling.as_json:
+        return streams(out=_line({"scene": name, "error": _error_object(faults)}, given), failed=True)
+    file = STDIN if given.file == "-" else given.file
+    return streams(err=show.complaint(file, faults, document, given.telling.loud) + "\n", failed=True)
 
 
 def _error_object(faults: Iterable[Fault]) -> dict[str, Any]:

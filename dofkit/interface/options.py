@@ -2,16 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from dofkit.base.surface import handed_on
+from dofkit.interface.outcome import FAILURES
 from dofkit.methods.table import METHODS
+
+#: What is imported only where an option needs it.
+_HEAVY = {
+    "Report": "dofkit.report",
+    "all_explanations": "dofkit.interface.explanations",
+    "catalog_names": "dofkit.scene.catalog",
+    "no_such": "dofkit.base.spelling",
+}
+
+# what a shell completes
+
+
+def explained(incomplete: str) -> list[str]:
+    """The words that `explain` knows."""
+    known = handed_on(__name__, _HEAVY, "all_explanations")()
+    return list(dict.fromkeys(told.word for told in known if told.word.casefold().startswith(incomplete.casefold())))
+
+
+def catalogued(incomplete: str) -> list[str]:
+    """The names of the catalog; files are completed by the shell where none fits."""
+    names = handed_on(__name__, _HEAVY, "catalog_names")()
+    return [name for name in names if incomplete and name.startswith(incomplete)]
+
 
 # of several commands
 
-Files = Annotated[list[str], typer.Argument(metavar="FILE...", help="Scenes: paths, catalog names, - for stdin.")]
+Files = Annotated[
+    list[str],
+    typer.Argument(metavar="FILE...", help="Scenes: paths, catalog names, - for stdin.", autocompletion=catalogued),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object a line, in the order given.")]
 Budget = Annotated[
     float | None,
@@ -25,6 +54,50 @@ def _known_method(name: str) -> str:
     if name not in METHODS:
         raise typer.BadParameter(f"'{name}' is none of {', '.join(METHODS)}")
     return name
+
+
+Brief = Annotated[bool, typer.Option("--brief", help="A line a scene; so it is for more than three.")]
+Full = Annotated[bool, typer.Option("--full", help="Every report in full, however many there are.")]
+How = Annotated[bool, typer.Option("--how", help="Also how sure each answer is, and by which argument; in full.")]
+Only = Annotated[
+    list[str] | None,
+    typer.Option("--only", metavar="FIELD,...", help="These fields of the report and no others, such as dof."),
+]
+Without = Annotated[
+    list[str] | None,
+    typer.Option("--without", metavar="NAME,...", help="What if these constraints are dropped? What changes."),
+]
+FailOn = Annotated[
+    list[str] | None,
+    typer.Option("--fail-on", metavar="WHAT,...", help=f"Exit status 1 where a scene is {', '.join(FAILURES)}."),
+]
+Watch = Annotated[bool, typer.Option("--watch", help="Again whenever a file changes, until Ctrl-C.")]
+
+
+def listed(given: list[str] | None) -> tuple[str, ...]:
+    """The names in lists with commas."""
+    return tuple(name for text in given or () for name in text.replace(",", " ").split())
+
+
+def fields(only: list[str] | None) -> tuple[str, ...]:
+    """Names of fields of a report."""
+    if not only:
+        return ()
+    report = handed_on(__name__, _HEAVY, "Report")
+    return _known(listed(only), report.model_fields, "field", "--only")
+
+
+def failures(fail_on: list[str] | None) -> tuple[str, ...]:
+    """Names of what a command is to fail on."""
+    return _known(listed(fail_on), FAILURES, "failure", "--fail-on")
+
+
+def _known(names: tuple[str, ...], known: Iterable[str], what: str, option: str) -> tuple[str, ...]:
+    for name in names:
+        if name not in known:
+            said = handed_on(__name__, _HEAVY, "no_such")(name, known, what)
+            raise typer.BadParameter(said, param_hint=option)
+    return names
 
 
 Method = Annotated[

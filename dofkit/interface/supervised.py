@@ -10,7 +10,7 @@ import json
 import os
 import stat
 import sys
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -18,6 +18,8 @@ from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents.document import MOST_BYTES
 from dofkit.base.workers import Job, Json, Worker
 from dofkit.base.workers.processes import can_fork
+from dofkit.interface.presentation import Telling
+from dofkit.interface.streams import ascii_only
 from dofkit.methods.names import MethodName
 
 STDIN = "stdin"
@@ -36,19 +38,18 @@ class Given:
     """A file as it was named, and how to tell of it.
 
     ``data``: its bytes where they were read already; ``budget``: seconds for the scene, ``method``: how to answer;
-    ``linearize``: small motions too; ``as_json`` and then ``ascii_only``, or as text for a terminal of a width and a
-    set of colours (None: for ours). ``certificate``: where its certificate is written, None for none.
+    ``linearize``: small motions too. ``certificate``: where its certificate is written, None for none. ``widest``: the
+    characters of the longest name of all files.
     """
 
     file: str
     budget: float
     method: MethodName
-    as_json: bool
+    telling: Telling
     linearize: bool = False
-    ascii_only: bool = False
-    terminal: tuple[int, str | None] | None = None
     data: bytes | None = None
     certificate: str | None = None
+    widest: int = 0
 
     @property
     def name(self) -> str:
@@ -78,23 +79,27 @@ class Cut:
 
 
 class Printed(NamedTuple):
-    """What is printed of a file, on standard output and on standard error, and whether it could not be read."""
+    """What is printed of a file, on standard output and on standard error, and whether it could not be read.
+
+    ``outcome``: of a report what a summary counts.
+    """
 
     out: str
     err: str
     failed: bool
+    outcome: Mapping[str, Any] | None = None
 
 
 def reports(
-    files: Sequence[str], budget: float | None, method: MethodName, as_json: bool, certificate: str | None = None
+    files: Sequence[str], telling: Telling, budget: float | None, method: MethodName, certificate: str | None = None
 ) -> Generator[Printed]:
     """What is printed of the report on each file, in their order.
 
     ``certificate``: where the certificate of a file is written; a folder for those of several files.
     """
     seconds = DEFAULT_SECONDS if budget is None else budget
-    own = None if can_fork() or as_json else _terminal()
-    given = Given("", seconds, method, as_json, ascii_only=_ascii_only(), terminal=own)
+    widest = max(map(len, names_of(files)), default=0)
+    given = Given("", seconds, method, telling._replace(ascii_only=ascii_only()), widest=widest)
     return _answers(files, given, _report, (ONE_FILE,), _places(files, certificate))
 
 
@@ -104,14 +109,23 @@ def _places(files: Sequence[str], certificate: str | None) -> list[str | None]:
         return [None] * len(files)
     if len(files) == 1 and not os.path.isdir(certificate):
         return [certificate]
-    names = [Given(file, 0.0, "auto", False).name for file in files]
-    told = [name if names.index(name) == k else f"{name}-{names[:k].count(name) + 1}" for k, name in enumerate(names)]
-    return [os.path.join(certificate, f"{name}.json") for name in told]
+    return [os.path.join(certificate, f"{name}.json") for name in _own_names(files)]
 
 
-def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[Printed]:
+def _own_names(files: Sequence[str]) -> list[str]:
+    """The name of each file, numbered where one before has it."""
+    names = names_of(files)
+    return [name if names.index(name) == k else f"{name}-{names[:k].count(name) + 1}" for k, name in enumerate(names)]
+
+
+def names_of(files: Sequence[str]) -> list[str]:
+    """The names that scenes have by their files."""
+    return [Given(file, 0.0, "auto", Telling()).name for file in files]
+
+
+def motions(files: Sequence[str], linearize: bool, telling: Telling) -> Generator[Printed]:
     """What is printed of the equations of motion of each file, in their order."""
-    given = Given("", DEFAULT_SECONDS, "auto", as_json, linearize, _ascii_only())
+    given = Given("", DEFAULT_SECONDS, "auto", telling._replace(ascii_only=ascii_only()), linearize)
     return _answers(files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"))
 
 
@@ -119,14 +133,15 @@ def verification(given: CertificateGiven) -> tuple[str, str, int]:
     """What is printed of a certificate, on standard output and on standard error, and the exit status."""
     worker = Worker(modules=("dofkit.interface.one_certificate",), fork=can_fork())
     try:
-        asked = replace(given, ascii_only=_ascii_only())
+        asked = replace(given, ascii_only=ascii_only())
         job = Job("dofkit.interface.one_certificate:verification_lines", asked, limit(DEFAULT_SECONDS))
         outcome = worker.run(job)
     finally:
         worker.kill()
     if outcome.finished:
         return outcome.value["out"], outcome.value["err"], outcome.value["status"]
-    plain = _plain(Given(given.certificate, DEFAULT_SECONDS, "auto", given.as_json), outcome.reason)
+    telling = Telling(given.as_json)
+    plain = _plain(Given(given.certificate, DEFAULT_SECONDS, "auto", telling), outcome.reason)
     return plain.out, plain.err, UNREAD
 
 
@@ -165,7 +180,7 @@ def _motion(worker: Worker, given: Given) -> Printed:
 def _plain(given: Given, reason: str) -> Printed:
     """Where not even a worker can tell."""
     message = f"it could not be looked at: {reason}"
-    if not given.as_json:
+    if not given.telling.as_json:
         return Printed("", f"{given.name}: error: {message}\n", True)
     error: dict[str, Any] = {"message": message, "line": None, "column": None, "hint": None, "faults": []}
     return Printed(json.dumps({"scene": given.name, "error": error}) + "\n", "", True)
@@ -183,14 +198,3 @@ def _data(file: str) -> bytes | None:
             return source.read(MOST_BYTES + 1)
     except (OSError, ValueError):
         return None
-
-
-def _ascii_only() -> bool:
-    return (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
-
-
-def _terminal() -> tuple[int, str | None]:
-    from rich.console import Console
-
-    console = Console()
-    return console.width, console.color_system

@@ -48,7 +48,7 @@ def classify(
     given = scene_or_system(scene)
     if certificate and isinstance(given, System):
         raise ArgumentError("a certificate is of a scene: a System has no text that could be read again")
-    report = _classified(given, budget, method)
+    report = _classified(given, budget, method).beside(given)
     return with_certificate(given, report) if certificate and isinstance(given, Scene) else report
 
 

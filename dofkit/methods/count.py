@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from dofkit.base.verdicts import weakest
+from dofkit.base.wording import many
 from dofkit.integrability.traits import exact
 from dofkit.methods.shared.as_written import Written, as_written, labelled
 from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodLabel, MethodReply
-from dofkit.methods.shared.reporting import many
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dofkit.base.verdicts import weakest
+from dofkit.base.wording import many
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.points.field import prime_for
 from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply, cannot
-from dofkit.methods.shared.reporting import many
 from dofkit.mobility.frameworks import framework_answer
 from dofkit.mobility.graph.answers import Linkage, linkage
 from dofkit.mobility.placement import general_placement

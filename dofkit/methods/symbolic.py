@@ -12,12 +12,12 @@ from typing import Any
 
 import sympy
 
+from dofkit.base.wording import many
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
 from dofkit.methods.shared.as_written import Written, as_written, labelled, posed
 from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply
-from dofkit.methods.shared.reporting import many
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 

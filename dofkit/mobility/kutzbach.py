@@ -14,6 +14,7 @@ from itertools import pairwise
 
 import networkx as nx
 
+from dofkit.base.wording import many, verb
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.mobility.placement import Placement
 from dofkit.mobility.twists import TURNS, Located, Member, rows_of
@@ -107,8 +108,8 @@ def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom:
         )
     placement = drawn()
     said = "" if placement is None else _of_screws(system, joints, freedom, placement)
-    many = freedom - kutzbach
-    start = f"{many} of the equations that the count takes as independent {'is' if many == 1 else 'are'} not"
+    more = freedom - kutzbach
+    start = f"{more} of the equations that the count takes as independent {verb(more)} not"
     return f"{start}: {said}" if said else start
 
 
@@ -125,7 +126,7 @@ def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, dra
     if span < whole and alone and count == freedom:
         numbers = f"{span}({bodies + 1} - 1 - {len(joints)}) + {total}{f' - {driven}' if driven else ''} = {count}"
         return (
-            f"the screws of all joints span {span} dimension{'s' * (span > 1)} only, not {whole}; "
+            f"the screws of all joints span {many(span, 'dimension')} only, not {whole}; "
             f"with {span} for {whole} the count is {numbers}"
         )
     told = []
@@ -135,9 +136,10 @@ def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, dra
         if span < whole:
             shown = ", ".join(names[j.constraint] for j in loop)
             told.append(
-                f"the loop {shown} closes by {span} conditions and not {whole}: so many dimensions its screws span"
+                f"the loop {shown} closes by {many(span, 'condition')} and not {whole}: "
+                "so many dimensions its screws span"
             )
-    more = f"; and {len(told) - MOST_TOLD} more loops" if len(told) > MOST_TOLD else ""
+    more = f"; and {many(len(told) - MOST_TOLD, 'more loop')}" if len(told) > MOST_TOLD else ""
     if told:
         return "; ".join(told[:MOST_TOLD]) + more
     return "the loops close together by fewer conditions than each for itself" if len(loops) > 1 else ""

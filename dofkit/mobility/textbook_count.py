@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from dofkit.base.wording import many, verb
 from dofkit.report import ConstraintEntry, Count
 from dofkit.system import System
 
@@ -64,9 +65,9 @@ def why(system: System, facts: CountedFacts, naive: int) -> str | None:
         return None
     reasons = []
     if facts.dof > naive:
-        left = facts.written - facts.dof + naive
+        independent = facts.written - facts.dof + naive
         reasons.append(
-            f"of the {facts.written} finite equations only {left} {'is' if left == 1 else 'are'} independent here: "
+            f"of the {many(facts.written, 'finite equation')} only {independent} {verb(independent)} independent here: "
             "what the others say already takes nothing away"
         )
         complete = complete_sets(system)
@@ -85,8 +86,7 @@ def _why_fewer(facts: CountedFacts) -> list[str]:
         verb = "integrates to a finite relation" if len(integrable) == 1 else "integrate to finite relations"
         found.append(f"{', '.join(integrable)} {verb}, which the count of finite equations does not see")
     if facts.hidden:
-        many = "relations" if facts.hidden > 1 else "relation"
-        found.append(f"the differential constraints hide {facts.hidden} finite {many} that nobody wrote")
+        found.append(f"the differential constraints hide {many(facts.hidden, 'finite relation')} that nobody wrote")
     if forms and not found:
         found.append("a combination of the differential constraints integrates to a finite relation that nobody wrote")
     if not found:
@@ -107,7 +107,7 @@ def complete_sets(system: System) -> list[str]:
         n = round((1 + (1 + 8 * links) ** 0.5) / 2)
         if n > d + 1:
             found.append(
-                f"of the N(N-1)/2 = {links} links among N = {n} particles in {d} dimensions only N d - d(d+1)/2 = "
-                f"{n * d - d * (d + 1) // 2} are independent, because N > d+1 = {d + 1}"
+                f"of the N(N-1)/2 = {links} links among N = {n} particles in {many(d, 'dimension')} only "
+                f"N d - d(d+1)/2 = {n * d - d * (d + 1) // 2} are independent, because N > d+1 = {d + 1}"
             )
     return found

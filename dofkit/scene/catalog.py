@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import cache
 from importlib import resources
 from importlib.resources.abc import Traversable
@@ -42,6 +43,24 @@ def catalog_text(name: str) -> str:
 def catalog_titles() -> dict[str, str]:
     """The title of every scene, by name."""
     return {name: _title(file.read_text(encoding="utf-8")) for name, file in _files().items()}
+
+
+def catalog_search(words: Sequence[str]) -> dict[str, str]:
+    """The titles of the scenes in which all words occur, by name: those with them in name or title first.
+
+    Raises SceneError where there is none.
+
+    >>> "disc-rolling-on-plane" in catalog_search(["rolling", "disc"])
+    True
+    """
+    titles, wanted = catalog_titles(), [word.casefold() for word in words]
+    in_title = [n for n, title in titles.items() if all(w in f"{n} {title}".casefold() for w in wanted)]
+    in_text = [n for n, f in _files().items() if all(w in f.read_text(encoding="utf-8").casefold() for w in wanted)]
+    found = {name: titles[name] for name in (*in_title, *in_text)}
+    if not found:
+        said = " ".join(words)
+        raise SceneError((Fault(f"no scene of the catalog holds '{said}'", hint=nearest_hint(said)),), said)
+    return found
 
 
 def nearest_hint(name: str) -> str:

@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr, WrapValidator
 
+from dofkit.base.display import Displayed
 from dofkit.base.errors import Fault
 from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
 from dofkit.scene.constraints.equations import as_equation
@@ -101,7 +102,7 @@ _AnyConstraint = Annotated[
 ]
 
 
-class Scene(WrittenModel):
+class Scene(Displayed, WrittenModel):
     """A mechanical system: what it is made of and what holds it.
 
     Its fields are the keys of a scene's file, numbers exact and in the units of whoever wrote it. It is frozen;

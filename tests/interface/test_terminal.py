@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from typing import Any
 
 import pytest
-from rich.console import Console
 
-from dofkit.interface.show.terminal import MOST_ROWS, as_text, labels
-from dofkit.report import ConstraintEntry, Count, ForceEntry, Redundancy, Report, SpecialCase
+from dofkit.interface.show.report import MOST_ROWS, labels, sheet_of_report
+from dofkit.interface.show.terminal import Screen, as_text
+from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Redundancy, Report, SpecialCase
 
 
 def entry(**fields: Any) -> ConstraintEntry:
@@ -38,8 +37,10 @@ def report(**fields: Any) -> Report:
     return Report(**{**given, **fields})
 
 
-def shown(told: Report, title: str | None = "A title", width: int = 80, **options: Any) -> str:
-    return as_text(told, title, Console(width=width, file=io.StringIO(), **options))
+def shown(
+    told: Report, title: str | None = "A title", width: int = 80, how: bool = False, coloured: bool = False
+) -> str:
+    return as_text(sheet_of_report(told, title, how), Screen(width, "standard" if coloured else None))
 
 
 def test_it_says_what_is_asked_first() -> None:
@@ -48,9 +49,26 @@ def test_it_says_what_is_asked_first() -> None:
     for piece in (
         "f = N d - k = 9", "2 particles, 1 body, 12 coordinates, 3\n", "degrees of freedom  10",
         "velocities          9", "non-holonomic, scleronomic", "x, y (independent", "c1: x*y = C   (exact as written)",
-        "c1: It is closed.", "proved: follows by exact arithmetic", "model: everything", "method: rank",
+        "c1: It is closed.",
     ):  # fmt: skip
         assert piece in text
+
+
+def test_how_is_told_where_it_is_asked_for_or_where_something_is_not_proved() -> None:
+    assert "How" not in shown(report())
+    sure = {"dof": FieldVerdict(verdict="proved", argument="graph")}
+    for text in (shown(report(verdicts=sure), how=True), shown(report(verdict="probable"))):
+        assert "How\n  the model: everything\n  the way: rank\n" in text
+    assert "proved: follows by exact arithmetic" in shown(report(), how=True)
+    assert "degrees of freedom: 'graph': the set is a graph" in shown(report(verdicts=sure), how=True, width=120)
+    assert "'graph'" not in shown(report(verdict="probable", verdicts=sure))
+
+
+def test_the_way_is_told_without_the_words_of_the_engines() -> None:
+    text = shown(report(method="rank over GF(p) and balls; count of rows over GF(p)"), how=True, width=400)
+    assert "the rank of the equations, found twice" in text
+    assert "GF(p)" not in text
+    assert "balls" not in text
 
 
 def test_where_the_count_errs_it_says_so() -> None:
@@ -135,7 +153,7 @@ def test_it_wraps_and_has_no_colour_when_piped(width: int) -> None:
     assert max(map(len, text.splitlines())) <= width
     assert "\x1b" not in text
     assert not any(line != line.rstrip() for line in text.splitlines())
-    assert "\x1b[" in shown(report(), force_terminal=True)
+    assert "\x1b[" in shown(report(), coloured=True)
 
 
 def test_thousands_of_constraints_are_counted() -> None:

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from rich.console import Console
 from shared.known_scenes import OURS, scene_of, stem
 
 import dofkit
 from dofkit.configuration.drawing import at_reference as local
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.interface.show.terminal import as_text
+from dofkit.interface.show.report import sheet_of_report
+from dofkit.interface.show.terminal import Screen, as_text
 from dofkit.mobility.placement import drawn_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.report import Report
@@ -445,7 +445,7 @@ def test_a_driven_count_adds_up() -> None:
 
 
 def test_both_counts_and_why_they_err_are_shown() -> None:
-    text = " ".join(as_text(told("sarrus-linkage"), None, Console(width=200)).split())
+    text = " ".join(as_text(sheet_of_report(told("sarrus-linkage")), Screen(200)).split())
     assert "Gruebler-Kutzbach M = 6(N - 1 - j) + sum f = 6(6 - 1 - 6) + 6 = 0" in text
     assert "with 5 for 6 the count is 5(6 - 1 - 6) + 6 = 1" in text
     assert "generic 0 degrees of freedom in general position" in text

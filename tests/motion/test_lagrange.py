@@ -90,9 +90,9 @@ def test_lecture(name: str) -> None:
 
 def test_the_lectures_four_answers() -> None:
     report = dofkit.lagrange(dofkit.load("simple-pendulum-lagrangian"))
-    assert report.momenta == {"theta": "l^2*m*thetadot"}
-    assert report.forces == {"theta": "-g*l*m*sin(theta)"}
-    assert report.equations == ["l^2*m*thetaddot + g*l*m*sin(theta) = 0"]
+    assert report.momenta == {"theta": "m*l^2*thetadot"}
+    assert report.forces == {"theta": "-m*g*l*sin(theta)"}
+    assert report.equations == ["m*l^2*thetaddot + m*g*l*sin(theta) = 0"]
     assert "action" in report.action
     damped = dofkit.lagrange(dofkit.load("damped-oscillator"))
     assert damped.forces == {"x": "-c*xdot + F(t) - k*x"}
@@ -116,7 +116,7 @@ def test_a_bead_on_a_hoop_that_is_turned() -> None:
         **energies(f"{PLANE} + m zdot^2/2", "m g z"),
     )  # fmt: skip
     report = check(hoop, {"a1": "sin(a1) (w^2 cos(a1) - g/l)"})
-    assert report.lagrangian == "l^2*m*a1dot^2/2 + l^2*m*w^2*sin(a1)^2/2 + g*l*m*cos(a1)"
+    assert report.lagrangian == "m*l^2*a1dot^2/2 + m*l^2*w^2*sin(a1)^2/2 + m*g*l*cos(a1)"
     (found,) = report.conserved
     assert found.name == "h"
     assert "do work" not in found.reason
@@ -457,7 +457,7 @@ def test_an_unstable_equilibrium_has_no_frequencies() -> None:
     top = scene(coordinates="theta", **energies("m l^2 thetadot^2/2", "m g l cos(theta)"))
     small = dofkit.lagrange(top, linearize=True).linearized
     assert small is not None
-    assert small.stiffness == [["-g*l*m"]]
+    assert small.stiffness == [["-m*g*l"]]
     assert small.frequencies == []
     assert small.unstable
     assert small.others[0] == {"theta": "pi"}

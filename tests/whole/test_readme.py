@@ -28,6 +28,12 @@ SCENES, SHEETS, SUBMISSIONS = (
     ]
     for found in ([False, False], [True, False], [False, True])
 )
+DOOR = """
+bodies: [door]
+constraints:
+- {name: lower, type: revolute, between: [ground, door], at: [0, 0, 0], axis: [0, 0, 1]}
+- {name: upper, type: revolute, between: [ground, door], at: [0, 0, 2], axis: [0, 0, 1]}
+"""
 TABLE = "student,disc.f,disc.label\ngrace,4,non-holonomic and scleronomic\n"
 
 
@@ -37,7 +43,13 @@ def blocks(kind: str) -> list[str]:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    files = {"disc.yaml": SCENES[0], "sheet.yaml": SHEETS[0], "ada.yaml": SUBMISSIONS[0], "class.csv": TABLE}
+    files = {
+        "disc.yaml": SCENES[0],
+        "door.yaml": DOOR,
+        "sheet.yaml": SHEETS[0],
+        "ada.yaml": SUBMISSIONS[0],
+        "class.csv": TABLE,
+    }
     for name, text in files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     return tmp_path

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import OPEN as UNDECIDED
 from dofkit.base.verdicts import Verdict, weakest
+from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
@@ -135,8 +136,8 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
-        many = "follows" if len(names) == 1 else "follow"
-        reason += f" Of its {made.equations} equations {len(names)} {many} from those before: {'; '.join(names)}."
+        follow = verb(len(names), "follows", "follow")
+        reason += f" Of its {made.equations} equations {len(names)} {follow} from those before: {'; '.join(names)}."
     return made.model_copy(update={"redundant_equations": names, "reason": reason})
 
 

@@ -7,16 +7,21 @@ from typing import TYPE_CHECKING, Any
 from dofkit.base.surface import handed_on
 
 if TYPE_CHECKING:
+    from dofkit.interface.show.brief import brief_line
     from dofkit.interface.show.faults import complaint
-    from dofkit.interface.show.motion import as_lines
-    from dofkit.interface.show.terminal import as_text
+    from dofkit.interface.show.motion import sheet_of_motion
+    from dofkit.interface.show.report import sheet_of_report
+    from dofkit.interface.show.terminal import Screen, as_text
 
-__all__ = ["as_lines", "as_text", "complaint"]
+__all__ = ["Screen", "as_text", "brief_line", "complaint", "sheet_of_motion", "sheet_of_report"]
 
 _HOMES = {
-    "as_lines": "dofkit.interface.show.motion",
+    "Screen": "dofkit.interface.show.terminal",
     "as_text": "dofkit.interface.show.terminal",
+    "brief_line": "dofkit.interface.show.brief",
     "complaint": "dofkit.interface.show.faults",
+    "sheet_of_motion": "dofkit.interface.show.motion",
+    "sheet_of_report": "dofkit.interface.show.report",
 }
 
 

@@ -3,44 +3,62 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Literal
 
-from dofkit.base.documents import Document
 from dofkit.base.errors import Fault
+
+if TYPE_CHECKING:
+    from dofkit.base.documents import Document
 
 #: More faults of a file than this are counted, not shown.
 MOST_SHOWN = 20
 _WIDEST = 100
+Style = Literal["place", "error", "hint", "quiet"]
+#: Bold, bold red, bold cyan, dim: what a report has at a terminal.
+_CODES: dict[Style, str] = {"place": "1", "error": "1;31", "hint": "1;36", "quiet": "2"}
 _BEFORE = 60
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
 
 
-def complaint(file: str, faults: tuple[Fault, ...], document: Document | None) -> str:
+def complaint(file: str, faults: tuple[Fault, ...], document: Document | None, coloured: bool = False) -> str:
     """Every fault of ``file``, with the line that it is on where ``document`` knows it."""
-    blocks = [_block(file, fault, document) for fault in faults[:MOST_SHOWN]]
+    paint = _painted if coloured else _plain
+    blocks = [_block(file, fault, document, paint) for fault in faults[:MOST_SHOWN]]
     more = len(faults) - MOST_SHOWN
     if more > 0:
         blocks.append(f"... and {more} more in {safe(file)}")
     return "\n".join(blocks)
 
 
-def _block(file: str, fault: Fault, document: Document | None) -> str:
+def _plain(text: str, style: Style) -> str:
+    del style
+    return text
+
+
+def _painted(text: str, style: Style) -> str:
+    return f"\x1b[{_CODES[style]}m{text}\x1b[0m"
+
+
+def _block(file: str, fault: Fault, document: Document | None, paint: Callable[[str, Style], str]) -> str:
     place = safe(file) + (f":{fault.line}:{fault.column}" if fault.line is not None else "")
-    lines = [f"{place}: error: {safe(fault.message)}"]
+    lines = [f"{paint(place, 'place')}: {paint('error', 'error')}: {safe(fault.message)}"]
     if document is not None and fault.line is not None:
-        lines += _marked_line(document.line(fault.line), fault.line, fault.column or 1)
+        lines += _marked_line(document.line(fault.line), fault.line, fault.column or 1, paint)
     if fault.hint:
-        lines.append(f"    hint: {safe(fault.hint)}")
+        lines.append(f"    {paint('hint', 'hint')}: {safe(fault.hint)}")
     return "\n".join(lines)
 
 
-def _marked_line(text: str, number: int, column: int) -> list[str]:
+def _marked_line(text: str, number: int, column: int, paint: Callable[[str, Style], str]) -> list[str]:
     start = max(0, column - 1 - _BEFORE) if len(text) > _WIDEST else 0
     piece = safe(text[start : start + _WIDEST])
     margin = f"{number:>5} | "
     if not piece.strip():
         return []
-    caret = " " * len(str(margin[:-2])) + "| " + " " * (column - 1 - start) + "^"
-    return [margin + piece, caret]
+    before = " " * (len(margin) - 2) + "| "
+    caret = " " * (column - 1 - start) + paint("^", "error")
+    return [paint(margin, "quiet") + piece, paint(before, "quiet") + caret]
 
 
 def safe(text: str) -> str:

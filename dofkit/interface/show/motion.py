@@ -1,55 +1,65 @@
-"""Equations of motion for a person at a terminal."""
+"""What is told of equations of motion, in the order in which they are read."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
-from dofkit.interface.show.faults import safe
+from dofkit.interface.show.sheet import TONES, Fact, Formula, Matrix, Remark, Sheet, SheetSection
 from dofkit.motion.lagrange.report import Linearized, MotionReport
 
 
-def as_lines(report: MotionReport, title: str | None = None) -> str:
-    """The whole report as plain lines, so that equations can be copied."""
-    return "\n".join(safe(line) for line in _lines(report, title)) + "\n"
+def sheet_of_motion(report: MotionReport, title: str | None = None) -> Sheet:
+    """The whole report; its lines are not broken, so that equations can be copied."""
+    return Sheet(
+        name=report.scene,
+        title=title or "",
+        facts=tuple(_facts(report)),
+        sections=tuple(section for section in _sections(report) if section.parts),
+        copied=True,
+    )
 
 
-def _lines(report: MotionReport, title: str | None) -> Iterator[str]:
-    yield report.scene + (f"  {title}" if title else "")
-    yield f"  coordinates  {', '.join(report.coordinates) or 'none: nothing is left that can move'}"
+def _facts(report: MotionReport) -> Iterator[Fact]:
+    yield Fact("coordinates", ", ".join(report.coordinates) or "none: nothing is left that can move")
     for name, value in report.eliminated.items():
-        yield f"  eliminated   {name} = {value}"
+        yield Fact("eliminated", Formula(f"{name} = {value}"))
     if report.left_out:
-        yield f"  left out     {', '.join(report.left_out)} (redundant)"
-    yield f"  verdict      {report.verdict}"
-    yield f"  L = {report.lagrangian}"
-    yield from _section("Generalized momenta", [f"p_{n} = {p}" for n, p in report.momenta.items()])
-    yield from _section("Generalized forces", [f"Q_{n} = {f}" for n, f in report.forces.items()])
-    yield from _section("Equations of motion", report.equations)
+        yield Fact("left out", f"{', '.join(report.left_out)} (redundant)")
+    yield Fact("verdict", report.verdict, tone=TONES[report.verdict])
+    yield Fact("Lagrangian", Formula(f"L = {report.lagrangian}"))
+
+
+def _sections(report: MotionReport) -> Iterator[SheetSection]:
+    yield SheetSection("Equations of motion", _formulas(report.equations))
     pairs = zip(report.multipliers, report.constraints, strict=True)
-    yield from _section("Constraints with a multiplier", [f"{m}: {c}" for m, c in pairs])
-    yield from _section("Cyclic coordinates", report.cyclic)
-    yield from _section("Conserved", [f"{c.name} = {c.quantity}: {c.reason}" for c in report.conserved])
+    yield SheetSection("Constraints with a multiplier", [Remark(Formula(m), Formula(c)) for m, c in pairs])
+    yield SheetSection("Generalized momenta", _formulas(f"p_{n} = {p}" for n, p in report.momenta.items()))
+    yield SheetSection("Generalized forces", _formulas(f"Q_{n} = {f}" for n, f in report.forces.items()))
+    yield SheetSection("Cyclic coordinates", _formulas(report.cyclic))
+    held = [Remark("", Formula(f"{c.name} = {c.quantity}"), c.reason.rstrip(".")) for c in report.conserved]
+    yield SheetSection("Conserved", held)
     if report.linearized is not None:
-        yield from _small_motion_lines(report.linearized)
-    yield from _section("Notes", [*report.notes, f"q*p is an {report.action}."])
+        yield _small_motions(report.linearized)
+    yield SheetSection("Notes", [Remark("", note) for note in (*report.notes, f"q*p is an {report.action}.")])
 
 
-def _section(title: str, lines: list[str]) -> Iterator[str]:
-    if lines:
-        yield title
-        yield from (f"  {line}" for line in lines)
+def _formulas(texts: Iterable[str]) -> list[Remark]:
+    return [Remark("", Formula(text)) for text in texts]
 
 
-def _small_motion_lines(found: Linearized) -> Iterator[str]:
-    place = ", ".join(f"{n} = {v}" for n, v in found.equilibrium.items())
-    yield f"Linearized at {place}: M qddot + C qdot + K q = 0, q = ({', '.join(found.coordinates)})"
+def _small_motions(found: Linearized) -> SheetSection:
+    """M, C, K and the frequencies about a place of rest."""
+    told = [Remark("", Formula("M qddot + C qdot + K q = 0"), f"q = ({', '.join(found.coordinates)})")]
     for name, matrix in (("M", found.mass), ("C", found.damping), ("K", found.stiffness)):
-        yield f"  {name} = [" + "; ".join(", ".join(row) for row in matrix) + "]"
+        told.append(Remark("", Matrix(name, matrix)))
     if found.characteristic:
-        yield f"  {found.characteristic} = 0"
-    if found.frequencies:
-        yield f"  angular frequencies {', '.join(found.frequencies)}"
+        told.append(Remark("characteristic equation", Formula(f"{found.characteristic} = 0")))
+    told += [Remark("angular frequency", Formula(frequency)) for frequency in found.frequencies]
     if found.unstable:
-        yield "  unstable: the square of a frequency is negative, and deviations grow"
-    for other in found.others:
-        yield "  another equilibrium: " + ", ".join(f"{n} = {v}" for n, v in other.items())
+        told.append(Remark("unstable", "the square of a frequency is negative, and deviations grow"))
+    told += [Remark("another equilibrium", _place(other)) for other in found.others]
+    return SheetSection(f"Linearized at {_place(found.equilibrium)}", told)
+
+
+def _place(values: Mapping[str, str]) -> str:
+    return ", ".join(f"{name} = {value}" for name, value in values.items())

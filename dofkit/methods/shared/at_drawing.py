@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from dofkit.base.verdicts import Verdict
+from dofkit.base.wording import many, verb
 from dofkit.methods.shared.pointwise import Decider, SampledPoints, freedom, regular
 from dofkit.methods.shared.reply import MethodFindings, MethodLabel
-from dofkit.methods.shared.reporting import many
 
 FAILS = "At a regular point the form fails Frobenius' test (its differential does not vanish on what the others allow)."
 PASSES = "At the point that was looked at the form passes Frobenius' test; elsewhere it need not."
@@ -58,7 +58,7 @@ def at_points(looked: SampledPoints, numbers: Decider, sure: Verdict, trusted: b
 def _believed(looked: SampledPoints, numbers: Decider, dependent: int, where: str) -> str:
     count = many(freedom(looked, numbers), "degree")
     if dependent:
-        also = f"{many(dependent, 'equation')} depend{'s' * (dependent == 1)} on the others {where}"
+        also = f"{many(dependent, 'equation')} {verb(dependent, 'depends', 'depend')} on the others {where}"
         return f"The rank {where} gives {count} of freedom, but {also}: a rank at a point is no motion."
     return f"The rank {where} gives {count} of freedom; it takes what holds at that point to hold everywhere."
 

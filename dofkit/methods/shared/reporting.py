@@ -129,10 +129,3 @@ def _without_time(e: Expr) -> bool:
     if "acceleration" in kinds:
         return False
     return not moving or substitute(e, dict.fromkeys(moving, ex.ZERO)).is_zero
-
-
-def many(number: int, what: str) -> str:
-    """``1 equation``, ``2 equations``."""
-    if number == 1:
-        return f"1 {what}"
-    return f"{number} {what[:-1]}ies" if what.endswith("y") else f"{number} {what}s"

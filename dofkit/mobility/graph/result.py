@@ -8,6 +8,8 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
+from dofkit.base.display import Displayed
+from dofkit.base.wording import many
 from dofkit.mobility.graph.answer import GraphAnswer, Proof, Question
 from dofkit.mobility.graph.links import Graph, Joint, Link, LinkageError
 
@@ -30,7 +32,7 @@ class Hinge(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Linkage:
+class Linkage(Displayed):
     """How joints in general position can move that keep the distances of ``links``.
 
     What takes time is found when it is asked for: circuits, groups, clusters and hinges. Numbers count independent
@@ -183,6 +185,6 @@ class Linkage:
         redundant = f"{len(self.redundant_places)} redundant" if self.redundant_places else "none redundant"
         body = " beyond the motions of one body" if self.inner_freedom else ": one rigid body"
         return (
-            f"{n} joints in {d} dimension{'s' * (d > 1)}, {k} links, {redundant}: "
+            f"{many(n, 'joint')} in {many(d, 'dimension')}, {k} link{'s' * (k != 1)}, {redundant}: "
             f"f = N d - rank = {n * d} - {self.rank} = {self.freedom}, {self.inner_freedom}{body} ({self.verdict})"
         )

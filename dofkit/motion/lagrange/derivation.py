@@ -11,7 +11,6 @@ from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.handover import Handover, handover
-from dofkit.motion.lagrange.latex import latex_of
 from dofkit.motion.lagrange.model import LagrangeModel
 from dofkit.motion.lagrange.term_order import ordered
 from dofkit.motion.lagrange.tidying import Tidier
@@ -28,10 +27,6 @@ class Derived:
     equations: dict[str, Expr]
     multipliers: tuple[str, ...]
     handover: Handover
-
-    def latex(self) -> str:
-        """The Lagrangian, the equations and the constraints that keep a multiplier, as one display."""
-        return latex_of(self.model, self.lagrangian, self.equations.values())
 
 
 def derive(model: LagrangeModel) -> Derived:

@@ -58,15 +58,17 @@ def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = N
     >>> pendulum = {"coordinates": ["theta"], "parameters": {"m": "positive", "l": "positive", "g": "positive"}}
     >>> energies = {"kinetic": "m l^2 thetadot^2/2", "potential": "-m g l cos(theta)"}
     >>> dofkit.lagrange({**pendulum, "energies": energies}).equations
-    ['l^2*m*thetaddot + g*l*m*sin(theta) = 0']
+    ['m*l^2*thetaddot + m*g*l*sin(theta) = 0']
     """
     seconds, given = DEFAULT_SECONDS if budget is None else seconds_of(budget), load(scene)
     try:
         with limited(seconds):
             derived = derived_of(given)
-            return _report(derived, *(_small(given, derived) if linearize else (None, ())))
+            report = _report(derived, *(_small(given, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
+    report._companion.scene = given
+    return report
 
 
 def derived_of(scene: Scene) -> Derived:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field, PrivateAttr
 
+from dofkit.base.display import Companion, DisplayedFormulas, text_of
 from dofkit.base.verdicts import Verdict
 from dofkit.report import ToldModel
 
@@ -44,7 +45,7 @@ class Linearized(ToldModel):
     others: list[dict[str, str]] = Field(default_factory=list)
 
 
-class MotionReport(ToldModel):
+class MotionReport(DisplayedFormulas, ToldModel):
     """Lagrange's equations of a scene, as texts in the grammar of scenes (``qddot`` for accelerations).
 
     ``coordinates`` are those kept; ``eliminated`` ones are functions of them. ``forces`` are dL/dq plus the
@@ -70,6 +71,11 @@ class MotionReport(ToldModel):
     notes: list[str] = Field(default_factory=list)
     verdict: Verdict = "proved"
     _derived: Derived | None = PrivateAttr(None)
+    _companion: Companion = PrivateAttr(default_factory=Companion)
+
+    def text(self, width: int | None = None) -> str:
+        """What the command line prints; its lines are not broken, so that equations can be copied."""
+        return text_of(self, width)
 
     def to_sympy(self) -> Handover:
         """Coordinates, speeds, Lagrangian, forces and constraint lists, ready for LagrangesMethod and KanesMethod.
@@ -79,7 +85,3 @@ class MotionReport(ToldModel):
         if self._derived is None:
             raise ValueError("this report was read back as text: derive it again by dofkit.lagrange(scene)")
         return self._derived.handover
-
-    def _repr_latex_(self) -> str:
-        """The equations of motion for a notebook."""
-        return "" if self._derived is None else self._derived.latex()

@@ -146,17 +146,37 @@ def _linearized(
         mass=rows(found.mass),
         damping=rows(found.damping),
         stiffness=rows(found.stiffness),
-        characteristic="" if polynomial is None else to_text(tidy(polynomial.xreplace({s: shown}))),
-        frequencies=[] if any(w.is_negative for w in squares) else [to_text(tidy(_root(w))) for w in squares],
+        characteristic="" if polynomial is None else _by_powers(polynomial, s, shown, tidy),
+        frequencies=[] if any(w.is_negative for w in squares) else [_frequency(w, tidy) for w in squares],
         unstable=any(bool(w.is_negative) for w in squares),
         others=others,
     )
 
 
-def _root(square: Any) -> Any:
+def _by_powers(polynomial: Any, s: Any, shown: Any, tidy: Tidier) -> str:
+    """A polynomial in s as text, the highest power first, what its coefficients have in common before it."""
     import sympy
 
-    return sympy.sqrt(sympy.factor(square))
+    top, bottom = sympy.fraction(sympy.together(polynomial))
+    if s not in top.free_symbols:
+        return to_text(tidy(polynomial.xreplace({s: shown})))
+    common, rest = sympy.Poly(top, s).primitive()
+    powers = [(sympy.factor(c), k) for (k,), c in rest.terms()]
+    terms = [to_text(tidy(sympy.Mul(c, shown**k))) for c, k in powers]
+    whole = terms[0] + "".join(f" - {t[1:]}" if t.startswith("-") else f" + {t}" for t in terms[1:])
+    factor = to_text(tidy(common / bottom))
+    if factor == "1":
+        return whole
+    return f"{factor}*({whole})" if len(terms) > 1 else to_text(tidy(polynomial.xreplace({s: shown})))
+
+
+def _frequency(square: Any, tidy: Tidier) -> str:
+    """The root of the square of a frequency: of the whole, or of its factors, whichever is shorter."""
+    import sympy
+
+    factored = sympy.factor(square)
+    by_factors, whole = to_text(tidy(sympy.sqrt(factored))), f"sqrt({to_text(tidy(factored))})"
+    return min(by_factors, whole, key=len)
 
 
 def _free_name(derived: Derived) -> str:

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
+from dofkit.base.wording import many, verb
 from dofkit.exact.matrices.rows import along, less
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
@@ -188,7 +189,8 @@ class Rigid(ConstraintBase):
         yield (
             f"Of the N(N-1)/2 = {links} links among N = {n} particles only N d - d(d+1)/2 = {n * d} - {freedom} = "
             f"{n * d - freedom} are independent (in general position): once d+1 = {d + 1} of the particles are rigid, "
-            f"{d} links fix each further one and its other links follow. Counting every link fails for N > d+1."
+            f"{many(d, 'link')} {verb(d, 'fixes', 'fix')} each further one and its other links follow. "
+            "Counting every link fails for N > d+1."
         )
 
     @property

@@ -1,0 +1,134 @@
+"""What dofkit's words mean: codes of feedback, fields, verdicts, arguments, theorems, types and labels."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Iterator, Mapping
+from functools import cache
+from importlib import resources
+from typing import NamedTuple
+
+from dofkit.base.errors import Fault, SceneError
+from dofkit.base.spelling import closest, nearest
+from dofkit.classification.arguments import TABLE
+from dofkit.homework.key.codes import CODES
+from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
+from dofkit.interface.show.assurance import VERDICT_MEANS
+from dofkit.scene.constraints import TYPES, ConstraintBase
+
+_THEOREM = re.compile(r"^\| `(?P<key>\w+)` \| (?P<author>[^|]+) \| (?P<year>[^|]+) \| (?P<says>[^|]+) \|", re.MULTILINE)
+_WIDTH = 88
+#: Words of mechanics that are no field.
+_WORDS = {
+    "non-holonomic": "Of a constraint on velocities: no relation between coordinates and time has it as a consequence. "
+    "It limits velocities, and leaves all configurations within reach.",
+    "rheonomic": "Time enters the constraint: a support that is moved, a length that changes.",
+    "unilateral": "An inequality: it stops a motion from one side, and takes no degree of freedom away.",
+    "pfaffian": "Linear in the velocities: a_1 dx_1 + ... + a_n dx_n + b dt = 0.",
+    "nonlinear": "Not linear in the velocities: its square, a product of them, a speed that is prescribed.",
+    "finite": "A relation between coordinates and time, without velocities.",
+    "inequality": "A relation with <= or >=: it bounds the motion and takes no degree of freedom away.",
+    "redundant": "It follows from the others: without it the same motions are left.",
+    "degrees of freedom": "Here the dimension of the configuration space (`dof`); `velocity_dof` counts velocities.",
+    "reference configuration": "The configuration that the scene is drawn in: `at`, `axis`, `configuration`.",
+    "general position": "Places and directions without anything special: none parallel, concurrent or in line.",
+    "growth vector": "See growth_vector.",
+    "certificate": "The evidence of what is proved; `dofkit verify` rechecks it by a second program.",
+    "reference": "In `about`: the claim speaks of the configurations near the drawing.",
+    "component": "In `about`: the claim speaks of the part of the configurations that holds the `witness`.",
+    "everywhere": "In `about`: the claim speaks of all configurations.",
+}
+
+
+class Explanation(NamedTuple):
+    """A word, what kind of word it is, and what it means."""
+
+    word: str
+    kind: str
+    meaning: str
+
+    def text(self) -> str:
+        """Lines for a terminal."""
+        wrapped = textwrap.wrap(self.meaning, _WIDTH - 2, break_long_words=False, break_on_hyphens=False)
+        return "\n".join([f"{self.word}: {self.kind}", *(f"  {line}" for line in wrapped)])
+
+
+def explanations_of(word: str) -> list[Explanation]:
+    """All that a word means, in whatever case. Raises SceneError with the nearest words where it is none.
+
+    >>> explanations_of("NH_HALF")[0].kind, [told.kind for told in explanations_of("holonomic")]
+    ('code of feedback', ['field of a report', 'field of a constraint'])
+    """
+    wanted = _plain(word)
+    found = [told for told in all_explanations() if _plain(told.word) == wanted]
+    if found:
+        return found
+    known = list(dict.fromkeys(told.word for told in all_explanations()))
+    lower = {_plain(name): name for name in known}
+    near = nearest(wanted, lower) or closest(wanted, list(lower), 0.5)
+    within = [name for key, name in lower.items() if len(wanted) > 2 and wanted in key][:6]
+    meant = list(dict.fromkeys(([lower[near]] if near else []) + within))
+    hint = f"did you mean {' or '.join(f'`{name}`' for name in meant)}?" if meant else "`dofkit explain dof` is one"
+    raise SceneError((Fault(f"there is no explanation of '{word}'", hint=hint),), word)
+
+
+def listed() -> str:
+    """All words, by their kind."""
+    kinds: dict[str, dict[str, None]] = {}
+    for told in all_explanations():
+        kinds.setdefault(told.kind, {})[told.word] = None
+    blocks = []
+    for kind, words in kinds.items():
+        lines = textwrap.wrap(", ".join(words), _WIDTH - 2, break_long_words=False, break_on_hyphens=False)
+        blocks.append("\n".join([kind, *(f"  {line}" for line in lines)]))
+    return "\n".join(blocks)
+
+
+def _plain(word: str) -> str:
+    return re.sub(r"[\s_-]+", " ", word).strip().casefold()
+
+
+@cache
+def all_explanations() -> tuple[Explanation, ...]:
+    """Every word that is explained."""
+    return (
+        *(Explanation(code, "code of feedback", meaning) for code, meaning in CODES.items()),
+        *_fields("field of a report", OF_REPORT),
+        *_fields("field of a constraint", OF_CONSTRAINT),
+        *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
+        *(Explanation(word, "word", meaning) for word, meaning in _WORDS.items()),
+        *(_type(name, cls) for name, cls in TYPES.items()),
+        *_arguments(),
+        *_theorems(),
+    )
+
+
+def _fields(kind: str, meanings: Mapping[str, str]) -> Iterator[Explanation]:
+    for name, meaning in meanings.items():
+        yield Explanation(name, kind, _sentence(meaning))
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "?")) else ".")
+
+
+def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
+    about = " ".join((cls.__doc__ or "").split())
+    fields = [f"{key} ({field.description})" for key, field in cls.model_fields.items() if key not in ("type", "name")]
+    spaces = " and ".join(str(d) for d in cls.dimensions)
+    told = f"{about} In {spaces} dimensions. Fields: {'; '.join(fields)}. `dofkit catalog '{name}'` finds scenes."
+    return Explanation(name, "type of constraint", told)
+
+
+def _arguments() -> Iterator[Explanation]:
+    for key, row in TABLE.items():
+        theorem = f" Theorem: {row.theorem}." if row.theorem else ""
+        yield Explanation(key, "argument", f"It shows: {row.claims}. It holds because: {row.hypotheses}.{theorem}")
+
+
+def _theorems() -> Iterator[Explanation]:
+    text = (resources.files("dofkit") / "THEOREMS.md").read_text(encoding="utf-8")
+    for match in _THEOREM.finditer(text):
+        says = f"{match['author'].strip()} {match['year'].strip()}: {match['says'].strip()}"
+        yield Explanation(match["key"], "theorem", says)

@@ -1,0 +1,50 @@
+"""What a report says that is otherwise than without some constraints, or than was expected."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from dofkit.interface.show.report import names_of, number, system_labels
+from dofkit.interface.show.sheet import Remark, SheetSection
+from dofkit.report import Report
+
+
+def changed(before: Report, after: Report, names: Sequence[str]) -> SheetSection:
+    """What happens where the constraints of these names are dropped."""
+    told = list(_changes(before, after))
+    same = [Remark("", "nothing changes: what is left says as much")]
+    return SheetSection(f"Without {names_of(names)}", told or same)
+
+
+def _changes(before: Report, after: Report) -> Iterator[Remark]:
+    for label, name in (
+        ("degrees of freedom", "dof"),
+        ("velocities", "velocity_dof"),
+        ("to first order", "instantaneous_dof"),
+        ("redundant equations", "redundant_equations"),
+    ):
+        was, now = getattr(before, name), getattr(after, name)
+        if was != now:
+            yield Remark(label, f"{number(was)} -> {number(now)}")
+    if before.consistent != after.consistent:
+        yield Remark("consistent", f"{_yes(before.consistent)} -> {_yes(after.consistent)}")
+    if system_labels(before) != system_labels(after):
+        yield Remark("the system", f"{system_labels(before)} -> {system_labels(after)}")
+    kept = {e.name: e for e in after.constraints}
+    for entry in before.constraints:
+        now_entry = kept.get(entry.name)
+        if now_entry is not None and entry.holonomic != now_entry.holonomic:
+            yield Remark(entry.name, f"{_holonomic(entry.holonomic)} -> {_holonomic(now_entry.holonomic)}")
+
+
+def _yes(value: bool | None) -> str:
+    return {True: "yes", False: "no", None: "undecided"}[value]
+
+
+def _holonomic(value: bool | None) -> str:
+    return {True: "holonomic", False: "non-holonomic", None: "undecided"}[value]
+
+
+def unexpected(missed: Sequence[str]) -> list[SheetSection]:
+    """What the scene's own answers say otherwise."""
+    return [SheetSection("Otherwise than the scene expects", [Remark("!", line) for line in missed])] if missed else []

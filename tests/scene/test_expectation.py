@@ -1,0 +1,69 @@
+"""What a scene expects, held against its report; and scenes without some constraints."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import dofkit
+from dofkit.base.errors import ArgumentError
+from dofkit.scene.dropped import without
+from dofkit.scene.expectation import unmet
+
+SCENE: dict[str, Any] = {
+    "coordinates": ["x", "y", "z"],
+    "parameters": {"v": "positive"},
+    "constraints": [{"name": "form", "type": "equation", "text": "x dy + y dx = 0"}, "z = 1", "2 z = 2"],
+}
+#: By hand: x y = C and z = 1 leave one coordinate; the third says what the second does.
+RIGHT: dict[str, Any] = {
+    "dof": 1,
+    "redundant": ["c3"],
+    "redundancies": [{"nullity": 1, "members": ["c2", "c3"]}],
+    "count": {"naive_dof": 1, "coordinates": 3},
+    "forces": [],
+    "constraints": {"form": {"holonomic": True, "integral": "x*y = C"}, "c3": {"circuit": ["c2"]}},
+}
+
+
+def missed(expect: dict[str, Any]) -> list[str]:
+    scene = dofkit.load({**SCENE, "expect": expect})
+    return unmet(scene, dofkit.classify(scene))
+
+
+def test_what_is_right_is_met() -> None:
+    assert missed(RIGHT) == []
+    assert missed({"constraints": {"form": {"integral": "log(x) + log(y) = C"}}}) == []
+
+
+@pytest.mark.parametrize(
+    ("expect", "line"),
+    [
+        ({"dof": 2}, "dof: 2 expected, 1 told"),
+        ({"dof": None}, "dof: None expected, 1 told"),
+        ({"redundant": []}, "redundant: [] expected, ['c3'] told"),
+        ({"redundancies": [{"nullity": 2}]}, "redundancies: [{'nullity': 2}] expected, "),
+        ({"count": {"naive_dof": 2}}, "count: {'naive_dof': 2} expected, "),
+        ({"count": 7}, "count: 7 expected, "),
+        ({"forces": ["f1"]}, "forces: ['f1'] expected, [] told"),
+        ({"constraints": {"form": {"integral": "x + y = C"}}}, "form.integral: x + y = C expected, x*y = C told"),
+        ({"constraints": {"form": {"integral": "x*y*z = C"}}}, "form.integral: x*y*z = C expected, x*y = C told"),
+        ({"constraints": {"form": {"integral": "q ="}}}, "form.integral: q = expected, x*y = C told"),
+        ({"constraints": {"other": {"holonomic": True}}}, "other.name: other expected, None told"),
+        ({"constraints": 3}, "constraints: 3 expected, "),
+    ],
+)
+def test_what_is_otherwise_is_named(expect: dict[str, Any], line: str) -> None:
+    (told,) = missed(expect)
+    assert told.startswith(line)
+
+
+def test_without_constraints_the_others_keep_their_names() -> None:
+    scene = dofkit.load({**SCENE, "expect": RIGHT})
+    left = without(scene, ["form", "c2"])
+    assert [c.name for c in left.constraints] == ["c3"]
+    assert left.expect == {}
+    assert dofkit.classify(left).dof == 2
+    with pytest.raises(ArgumentError, match=r"there is no constraint 'fom' \(did you mean 'form'\?\)"):
+        without(scene, ["fom"])
