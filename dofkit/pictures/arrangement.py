@@ -22,6 +22,8 @@ from dofkit.system import GROUND, PARTICLE_ROLES, System
 ROUNDS, MET, STARTS = 60, 1e-9, 8
 #: More coordinates than this are not moved onto the relations.
 MOST_COORDINATES = 400
+#: What carries the point that stands for the configuration, where there is nothing but coordinates.
+POINT = "configuration"
 CHOSEN = "The scene gives no positions: these were chosen so as to meet its constraints."
 SCHEMATIC = "A schematic drawing: no positions were found that meet all constraints."
 
@@ -199,6 +201,9 @@ def poses_of(system: System, numbers: Mapping[Expr, float], *, gibbs: bool) -> d
                 turn = _from_euler(told[3:]) @ _from_euler(initial).T
         origin = np.array(place(told[: system.dimension]))
         found[body] = Displacement(turn, origin - turn @ start)
+    if not system.bodies and not system.particles:
+        told = [numbers.get(coordinate(c.name), 0.0) for c in system.coordinates[:3]]
+        found[POINT] = Displacement(np.eye(3), np.array(place(told)))
     for particle in system.particles:
         own = [c for c in system.coordinates if c.owner == particle]
         found[particle] = Displacement(np.eye(3), np.array(place([numbers.get(coordinate(c.name), 0.0) for c in own])))

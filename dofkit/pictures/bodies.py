@@ -23,7 +23,7 @@ def body_shapes(stage: Stage) -> Iterator[Shape]:
     for body in stage.system.bodies:
         spots = attached(stage, body)
         state = stage.state_of_body(body)
-        wheel = any(stage.symbol(k).size for k, c in enumerate(stage.system.connections) if body in c.members)
+        wheel = any(_shapes_body(stage, k, body) for k in range(len(stage.system.connections)))
         if not spots and not wheel:
             yield from _free(stage, body)
             continue
@@ -35,6 +35,13 @@ def body_shapes(stage: Stage) -> Iterator[Shape]:
             yield Shape("hull", corners, "body", state, body, PAD * stage.unit)
         centre = stage.arrangement.point(stage.system.starts[body])
         yield name_of(stage, body, corners or (Vertex(body, centre),), state)
+
+
+def _shapes_body(stage: Stage, number: int, body: str) -> bool:
+    """Does a constraint draw the body itself: a wheel, a toothed one, a cam?"""
+    members = stage.system.connections[number].members
+    run = stage.symbol(number).run
+    return (run == "profile" and members[-1] == body) or (run in ("wheel", "teeth") and body in members[:2])
 
 
 def attached(stage: Stage, body: str) -> list[Place]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dofkit.pictures.looks import GREY, INK, WHITE, Ink, ink_of, keys_of
+from dofkit.pictures.looks import GREY, INK, Ink, ink_of, keys_of
 from dofkit.pictures.outlines import outline
 from dofkit.pictures.paper import HIGH, Mark, Page, ordered, width_of, wrapped
 from dofkit.pictures.shapes import Array, Poses, Shape, Sketch
@@ -33,6 +33,14 @@ class Fit(NamedTuple):
         return np.asarray(self.scale * seen[..., :2] + self.shift)
 
 
+class Standpoint(NamedTuple):
+    """From where a sketch is seen, how it stands on the sheet, and how far each name is from what it names."""
+
+    view: View
+    fit: Fit
+    offsets: tuple[Array, ...]
+
+
 class Margins(NamedTuple):
     """What stands above and below the picture."""
 
@@ -42,17 +50,23 @@ class Margins(NamedTuple):
     low: float
 
 
-def page_of(sketch: Sketch, poses: Poses | None = None, view: View | None = None, fit: Fit | None = None) -> Page:
+def standpoint_of(sketch: Sketch, every: Sequence[Poses] = ()) -> Standpoint:
+    """Where a sketch is seen from, so that it stays on the sheet in ``every`` pose."""
+    view = view_of(sketch)
+    fit = fit_of(sketch, view, [sketch.poses, *every])
+    return Standpoint(view, fit, tuple(_offsets(sketch, view, fit)))
+
+
+def page_of(sketch: Sketch, poses: Poses | None = None, standpoint: Standpoint | None = None) -> Page:
     """A sketch on paper, with everything where ``poses`` put it (by default where it is drawn)."""
     here = sketch.poses if poses is None else poses
-    seen_from = view or view_of(sketch)
+    view, fit, offsets = standpoint or standpoint_of(sketch)
     margins = margins_of(sketch)
-    put = fit or fit_of(sketch, seen_from, [here])
-    drawn = [(s, mark_of(sketch, s, here, seen_from, put)) for s in sketch.shapes if s.kind != "words"]
+    drawn = [(s, mark_of(sketch, s, here, view, fit)) for s in sketch.shapes if s.kind != "words"]
     if sketch.dimension == 3:
-        drawn.sort(key=lambda pair: _nearness(sketch, pair[0], here, seen_from))
-    names = [mark for mark, _ in names_of(sketch, here, seen_from, put)]
-    axes = axes_marks(sketch, seen_from, margins)
+        drawn.sort(key=lambda pair: _nearness(sketch, pair[0], here, view))
+    names = _name_marks(sketch, here, view, fit, offsets)
+    axes = axes_marks(sketch, view, margins)
     marks = [*ordered([mark for _, mark in drawn]), *axes, *names, *margins.above, *margins.below]
     return Page(WIDTH, HEIGHT, tuple(marks), sketch.title, sketch.alternative)
 
@@ -154,34 +168,42 @@ def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
             yield Mark(((at[0], at[1] - 2.8),), Ink(GREY, layer=9), text=name, size=NOTE)
 
 
-def names_of(sketch: Sketch, poses: Poses, view: View, fit: Fit) -> list[tuple[Mark, Array]]:
-    """The names, each beside what it names where it covers least; and how far each is from there."""
+def _offsets(sketch: Sketch, view: View, fit: Fit) -> Iterator[Array]:
+    """How far each name stands from what it names: where it covers least."""
     margins = margins_of(sketch)
     words = [s for s in sketch.shapes if s.kind == "words"]
-    busy = _busy(sketch, poses, view, fit)
+    busy = _busy(sketch, sketch.poses, view, fit)
     taken: list[tuple[float, float, float, float]] = []
-    found = []
     for shape in words:
-        spots = [fit.put(view.seen(sketch.at(v, poses))) for v in shape.vertices]
-        anchor = np.mean(spots, axis=0)
-        size = NAME if len(words) < 26 else NAME - 2
+        anchor, size = _anchor(sketch, shape, sketch.poses, view, fit), name_size(sketch)
         offset = _best_offset(shape, anchor, size, (busy, taken, margins))
-        at = anchor + offset
-        wide = width_of(shape.text, size) / 2
+        at, wide = anchor + offset, width_of(shape.text, size) / 2
         taken.append((at[0] - wide, at[0] + wide, at[1] - size / 2, at[1] + size / 2))
-        ink = ink_of(shape)
-        mark = Mark(
-            ((float(at[0]), float(at[1]) - 0.35 * size),), ink, text=shape.text, size=size, owner=shape.owner, bold=False
-        )
-        found.append((mark, offset))
-    return found
+        yield offset
+
+
+def name_size(sketch: Sketch) -> float:
+    """The size of names: smaller where there are many."""
+    return NAME if sum(s.kind == "words" for s in sketch.shapes) < 26 else NAME - 2
+
+
+def _anchor(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: Fit) -> Array:
+    return np.asarray(np.mean([fit.put(view.seen(sketch.at(v, poses))) for v in shape.vertices], axis=0))
+
+
+def _name_marks(sketch: Sketch, poses: Poses, view: View, fit: Fit, offsets: Sequence[Array]) -> Iterator[Mark]:
+    size = name_size(sketch)
+    for shape, offset in zip((s for s in sketch.shapes if s.kind == "words"), offsets, strict=True):
+        x, y = _anchor(sketch, shape, poses, view, fit) + offset
+        spot = (float(x), float(y) - 0.35 * size)
+        yield Mark((spot,), ink_of(shape), text=shape.text, size=size, owner=shape.owner)
 
 
 def _busy(sketch: Sketch, poses: Poses, view: View, fit: Fit) -> Array:
     """Points of all that is drawn, a few points of length apart."""
     found = [np.zeros((0, 2))]
     for shape in sketch.shapes:
-        if shape.kind == "words" or shape.role in ("hatch",):
+        if shape.kind == "words":
             continue
         spots = fit.put(outline(sketch, shape, poses, view))
         ends = np.vstack([spots[1:], spots[:1]]) if shape.kind in ("area", "hull", "ball") else spots[1:]
@@ -217,6 +239,3 @@ def _best_offset(
                 best, least = at - anchor, cost
     return best
 
-
-#: What a name is written on, so that lines below do not disturb it.
-HALO = WHITE

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from dofkit.expressions.tree import Expr, coordinate
+from dofkit.pictures.arrangement import Arrangement
 from dofkit.pictures.evaluation import derivatives, evaluated, values_at, with_unit_rows
 from dofkit.pictures.shapes import Array, Role, Shape, Vertex, place
 from dofkit.pictures.stage import Stage
@@ -80,15 +81,15 @@ def _alone(stage: Stage, owner: str, relations: Sequence[Relation]) -> Iterator[
     exprs = [r.expr for r in relations if r.sense == "="]
     bounds = _bounds(stage)
     if len(symbols) == 3 and len(exprs) >= 2:
-        line = curve(stage, exprs, symbols)
+        line = curve(stage.arrangement, exprs, symbols, float(bounds[0][1]))
         if len(line) > 1:
             yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), "locus")
     for relation in relations:
         role: Role = "locus" if relation.sense == "=" and len(exprs) < len(symbols) else "guide"
-        lines = _of_plane if len(symbols) == 2 else _of_space
+        lines = lines_of_plane if len(symbols) == 2 else lines_of_space
         if len(symbols) == 1:
             continue
-        for line in lines(stage, relation.expr, symbols, bounds):
+        for line in lines(stage.arrangement, relation.expr, symbols, bounds):
             yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), role if len(symbols) == 2 else "guide")
 
 
@@ -100,8 +101,9 @@ def _bounds(stage: Stage) -> Array:
     return np.array([[-half, half]] * 3)
 
 
-def _of_plane(stage: Stage, e: Expr, symbols: Sequence[Expr], bounds: Array) -> Iterator[Array]:
-    numbers = stage.arrangement.numbers
+def lines_of_plane(arrangement: Arrangement, e: Expr, symbols: Sequence[Expr], bounds: Array) -> Iterator[Array]:
+    """Where an expression is 0, by two of its symbols."""
+    numbers = arrangement.numbers
 
     def value(x: Array, y: Array) -> Array:
         return evaluated(e, {**numbers, symbols[0]: x, symbols[1]: y})
@@ -109,14 +111,12 @@ def _of_plane(stage: Stage, e: Expr, symbols: Sequence[Expr], bounds: Array) -> 
     yield from level_lines(value, (*bounds[0], *bounds[1]))
 
 
-def _of_space(stage: Stage, e: Expr, symbols: Sequence[Expr], bounds: Array) -> Iterator[Array]:
+def lines_of_space(arrangement: Arrangement, e: Expr, symbols: Sequence[Expr], bounds: Array) -> Iterator[Array]:
     """The lines in which a surface meets planes across each direction."""
-    numbers = stage.arrangement.numbers
+    numbers = arrangement.numbers
     for axis in range(3):
         i, j = [k for k in range(3) if k != axis]
         for height in np.linspace(*bounds[axis], SLICES + 2)[1:-1]:
-            if symbols[axis] not in e.symbols and height != 0:
-                pass
 
             def value(a: Array, b: Array, axis: int = axis, h: float = float(height)) -> Array:
                 i, j = [k for k in range(3) if k != axis]
@@ -128,15 +128,14 @@ def _of_space(stage: Stage, e: Expr, symbols: Sequence[Expr], bounds: Array) -> 
                 yield found
 
 
-def curve(stage: Stage, exprs: Sequence[Expr], symbols: Sequence[Expr]) -> list[Array]:
+def curve(arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Expr], limit: float) -> list[Array]:
     """Where surfaces meet, followed from where the point stands to both sides, until it closes or leaves the picture."""
-    start = np.array([stage.arrangement.numbers.get(s, 0.0) for s in symbols])
-    limit = float(_bounds(stage)[0][1])
+    start = np.array([arrangement.numbers.get(s, 0.0) for s in symbols])
     ways = []
     for sign in (1.0, -1.0):
         point, way, found = start, None, []
         for k in range(STEPS):
-            point, way = _ahead(stage, exprs, symbols, (point, way, sign * limit / 60))
+            point, way = _ahead(arrangement, exprs, symbols, (point, way, sign * limit / 60))
             if way is None or float(np.max(np.abs(point))) > limit:
                 break
             found.append(point)
@@ -147,11 +146,11 @@ def curve(stage: Stage, exprs: Sequence[Expr], symbols: Sequence[Expr]) -> list[
 
 
 def _ahead(
-    stage: Stage, exprs: Sequence[Expr], symbols: Sequence[Expr], state: tuple[Array, Array | None, float]
+    arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Expr], state: tuple[Array, Array | None, float]
 ) -> tuple[Array, Array | None]:
     """One step along a curve in space, and back onto it."""
     point, way, step = state
-    known = {**stage.arrangement.numbers, **dict(zip(symbols, point, strict=True))}
+    known = {**arrangement.numbers, **dict(zip(symbols, point, strict=True))}
     rows = with_unit_rows(derivatives(exprs, symbols, known))
     _, singular, right = np.linalg.svd(rows)
     if len(singular) > 2 and singular[2] > 1e-4:
@@ -159,7 +158,7 @@ def _ahead(
     ahead = right[2] if way is None or right[2] @ way >= 0 else -right[2]
     moved = point + step * ahead
     for _ in range(4):
-        known = {**stage.arrangement.numbers, **dict(zip(symbols, moved, strict=True))}
+        known = {**arrangement.numbers, **dict(zip(symbols, moved, strict=True))}
         gaps, slopes = values_at(exprs, known), derivatives(exprs, symbols, known)
         if not np.all(np.isfinite(gaps)):
             return point, None
@@ -188,4 +187,8 @@ def profile(stage: Stage, number: int, connection: Connection) -> Iterator[Shape
     half = 1.6 * max(stage.size, 1.0)
     box = (here[0] - half * 1.3, here[0] + half * 1.3, here[1] - half * 1.3, here[1] + half * 1.3)
     for line in level_lines(value, box):
-        yield Shape("line", tuple(stage.carried(body, (float(p[0]), float(p[1]), 0.0)) for p in line), "locus")
+        rim = tuple(stage.carried(body, (float(p[0]), float(p[1]), 0.0)) for p in line)
+        if np.linalg.norm(line[0] - line[-1]) < 0.05 * half and len(line) > 8 and body in stage.system.bodies:
+            yield Shape("area", rim, "body", stage.state_of_body(body), body)
+        else:
+            yield Shape("line", rim, "locus")

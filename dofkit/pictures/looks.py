@@ -59,6 +59,8 @@ MEANINGS: Mapping[State, str] = {
 def ink_of(shape: Shape) -> Ink:
     """How a shape is drawn."""
     plain = _PLAIN[shape.role]
+    if shape.kind == "ball" and shape.role == "joint":
+        plain = plain._replace(layer=7)
     if shape.state == "moving" and shape.role == "body":
         return plain._replace(line=BLUE, fill=SKY, dense=0.35, hatch=False)
     if shape.state == "moving" and shape.role == "point":

@@ -33,7 +33,7 @@ def sketch_of(stage: Stage) -> Sketch:
         size=stage.size,
         answer=answer(stage.report),
         alternative=alternative(stage.scene, stage.report),
-        notes=tuple(_notes(stage)),
+        notes=tuple(notes_of(stage)),
         units="in the scene's units",
     )
 
@@ -70,7 +70,8 @@ def _anchor(stage: Stage, number: int) -> tuple[Vertex, ...]:
     return (Vertex(member, at),)
 
 
-def _notes(stage: Stage) -> Iterator[str]:
+def notes_of(stage: Stage) -> Iterator[str]:
+    """What is told below a picture."""
     if stage.arrangement.note is not None:
         yield stage.arrangement.note
     if stage.schematic:

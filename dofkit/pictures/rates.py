@@ -72,7 +72,7 @@ def movers(arrangement: Arrangement, motions: Sequence[FreeMotion]) -> frozenset
         for name, pose in moved.items():
             here = arrangement.poses[name]
             far = np.linalg.norm(pose.turn - here.turn) + np.linalg.norm(pose.shift - here.shift)
-            if far > 1e-3 * MOVES * 100:
+            if far > 1e-3 * MOVES:
                 found.add(name)
     return frozenset(found)
 

@@ -25,7 +25,8 @@ def run_shapes(stage: Stage, number: int) -> Iterator[Shape]:
     if draw is not None:
         name = stage.system.constraints[number].name
         for shape in draw(stage, number, stage.system.connections[number]):
-            yield shape._replace(owner=name, state=shape.state if shape.state != "plain" else stage.state(name))
+            own = shape.role == "body"
+            yield shape if own else shape._replace(owner=name, state=stage.state(name))
 
 
 def _bar(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
@@ -55,7 +56,7 @@ def _rope(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
         inner = 0 < k < len(points) - 1
         if inner and point.carrier not in stage.system.particles:
             yield Shape("ball", (point,), "joint", size=0.9 * stage.unit)
-            yield Shape("ball", (point,), "point", size=0.2 * stage.unit)
+            yield Shape("ball", (point,), "joint", size=0.2 * stage.unit)
         if point.carrier == GROUND and stage.flat:
             above = np.array(point.at) + np.array([0.0, (1.6 if inner else 0.0) * stage.unit, 0.0])
             half = np.array([1.2 * stage.unit, 0.0, 0.0])
@@ -84,7 +85,7 @@ def _teeth(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]
         way = np.array(centres[1 - k]) - np.array(centre)
         phase = math.atan2(way[1], way[0]) + (math.pi / teeth if k else 0.0)
         rim = tuple(Vertex(member, place(np.array(centre) + p)) for p in _toothed(radius, teeth, phase))
-        yield Shape("area", rim, "guide")
+        yield Shape("area", rim, "body", stage.state_of_body(member), member)
         spoke = np.array([math.cos(phase), math.sin(phase), 0.0]) * radius * 0.85
         yield Shape("line", (Vertex(member, centre), Vertex(member, place(np.array(centre) + spoke))), "guide")
 
@@ -114,13 +115,14 @@ def _wheel(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]
     centre = stage.arrangement.point(stage.system.starts[body])
     middle = stage.here(Vertex(body, centre))
     if stage.flat:
-        yield _circle(body, centre, radius, np.eye(3)[:2], "plain")
+        rim = _circle(body, centre, radius, np.eye(3)[:2], stage.state_of_body(body))
+        yield rim._replace(role="body", owner=body)
         half, foot = np.array([2.2 * radius, 0.0, 0.0]), np.array([middle[0], 0.0, 0.0])
         yield Shape("line", tuple(Vertex(GROUND, place(foot + s * half)) for s in (-1, 1)), "ground")
         yield hatching(stage, foot, half, np.array([0.0, -1.0, 0.0]), 16)
         spoke = Vertex(body, place(np.array(centre) + np.array([0.0, radius, 0.0])))
         yield Shape("line", (Vertex(body, centre), spoke), "guide")
-        yield Shape("ball", (Vertex(body, centre),), "point", size=0.3 * stage.unit)
+        yield Shape("ball", (Vertex(body, centre),), "joint", size=0.3 * stage.unit)
         return
     yield ground_plane(middle, 2.2 * radius)
     yield Shape("ball", (Vertex(body, centre),), "joint", size=radius)

@@ -38,7 +38,12 @@ def _standing(stage: Stage, member: str, at: Place, connection: Connection) -> A
     for point in connection.points:
         if point.carrier == member and point.particle:
             return np.zeros(3)
-    del stage
+    if connection.places and connection.points and connection.facts.slides:
+        vertex = next(stage.vertices(connection), None)
+        axis = axis_of(stage.arrangement, connection, 0)
+        if vertex is not None:
+            there = np.array(stage.carried(member, place(stage.here(vertex))).at)
+            return np.array(at) + axis * float(axis @ (there - np.array(at)))
     return np.array(at)
 
 
@@ -74,7 +79,7 @@ def _footing(stage: Stage, symbol: Symbol, connection: Connection, at: Place, fr
     if symbol.rails and stage.flat:
         side = frame[1] if frame[1][1] < 0 or (frame[1][1] == 0 and frame[1][0] > 0) else -frame[1]
         gap = RAIL if not connection.points else 0.7
-        yield hatching(stage, np.array(at) + side * gap * stage.unit, frame[0] * symbol.rails * stage.unit, side)
+        yield hatching(stage, _standing(stage, GROUND, at, connection) + side * gap * stage.unit, frame[0] * symbol.rails * stage.unit, side)
     elif not symbol.rails:
         yield from stand(stage, at)
 

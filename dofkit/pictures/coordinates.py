@@ -1,0 +1,90 @@
+"""Scenes without bodies and particles: the set of their coordinates, up to three; what moves is the configuration."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from dofkit.expressions.tree import Expr, coordinate
+from dofkit.pictures.alternative import alternative, answer
+from dofkit.pictures.arrangement import POINT, finite_relations
+from dofkit.pictures.fields import Distribution, elements
+from dofkit.pictures.loci import curve, lines_of_plane, lines_of_space
+from dofkit.pictures.mechanism import notes_of
+from dofkit.pictures.shapes import Array, Role, Shape, Sketch, State, Vertex, place
+from dofkit.pictures.stage import Stage
+from dofkit.system import GROUND, System
+
+#: Up to so many coordinates are axes of a picture.
+MOST = 3
+
+
+def is_bare(system: System) -> bool:
+    """Is there nothing but coordinates?"""
+    return not system.bodies and not system.particles
+
+
+def coordinate_sketch(stage: Stage) -> Sketch:
+    """The set that the constraints describe, over one to three coordinates as axes."""
+    system = stage.system
+    symbols = [coordinate(c.name) for c in system.coordinates]
+    values = [stage.arrangement.numbers.get(s, 0.0) for s in symbols]
+    half = max(1.5, 1.4 * max(map(abs, values)))
+    shapes = [*_axes(stage, symbols, half), *_sets(stage, symbols, half)]
+    state: State = "moving" if stage.motions else "plain"
+    point = (Vertex(POINT, (0.0, 0.0, 0.0)),)
+    shapes.append(Shape("ball", point, "point", state, "configuration", 0.035 * half))
+    return Sketch(
+        title=stage.scene.title or stage.scene.name,
+        dimension=3 if len(symbols) == MOST else 2,
+        shapes=tuple(shapes),
+        poses=stage.arrangement.poses,
+        size=2 * half,
+        answer=answer(stage.report),
+        alternative=f"{alternative(stage.scene, stage.report)} The axes are the coordinates.",
+        notes=tuple(notes_of(stage)),
+        axes=(),
+        units="in the scene's units",
+    )
+
+
+def _axes(stage: Stage, symbols: Sequence[Expr], half: float) -> Iterator[Shape]:
+    """A line for each coordinate, with its name and a mark at 1."""
+    del stage
+    for symbol, way in zip(symbols, np.eye(3), strict=False):
+        ends = (-half * way, half * way)
+        yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in ends), "axis")
+        yield Shape("words", (Vertex(GROUND, place(1.06 * half * way)),), "name", text=str(symbol.args[1]))
+        side = 0.03 * half * np.roll(way, 1 if way[1] == 0 else -1)
+        for tick in range(-int(half), int(half) + 1):
+            if tick and half < 12:
+                spots = (tick * way - side, tick * way + side)
+                yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in spots), "axis")
+        yield Shape("words", (Vertex(GROUND, place(way - 2.6 * side)),), "name", text="1")
+
+
+def _sets(stage: Stage, symbols: Sequence[Expr], half: float) -> Iterator[Shape]:
+    """Curves and surfaces of finite relations; and the field of what differential ones allow."""
+    relations = [(c.name, r) for c in stage.system.constraints for r in c.relations]
+    finite = set(finite_relations(stage.system, ("=", ">=", ">")))
+    equal = [r.expr for _, r in relations if r.sense == "=" and r.expr in finite]
+    bounds = np.array([[-half, half]] * 3)
+    lines = lines_of_plane if len(symbols) == 2 else lines_of_space
+    if len(symbols) == MOST and len(equal) > 1:
+        line = curve(stage.arrangement, equal, symbols, half)
+        yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), "locus")
+    for name, relation in relations:
+        if relation.expr not in finite or len(symbols) == 1:
+            continue
+        thin = relation.sense != "=" or (len(symbols) == MOST and len(equal) > 1)
+        role: Role = "guide" if thin else "locus"
+        for line in lines(stage.arrangement, relation.expr, symbols, bounds):
+            yield Shape("line", _grounded(line), role, stage.state(name), name)
+    if any(r.expr not in finite for _, r in relations) and len(symbols) > 1:
+        distribution = Distribution(stage.arrangement)
+        yield from elements(distribution, range(len(symbols)), 0.9 * half)
+
+
+def _grounded(line: Array) -> tuple[Vertex, ...]:
+    return tuple(Vertex(GROUND, place(p)) for p in line)
