@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import networkx as nx
 import numpy as np
@@ -161,7 +161,7 @@ def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:
                 at = [float(evaluated(e, {})) for e in point.at]
                 nodes.append(f"@{at}")
                 fixed[nodes[-1]] = at
-        graph.add_edges_from(pairwise(nodes))
+        graph.add_edges_from(combinations(nodes, 2) if connection.facts.complete else pairwise(nodes))
     for name in (n for n in graph if n in fixed and graph.degree(n) == 0):
         fixed.pop(name)
     graph.remove_nodes_from([n for n in graph if str(n).startswith("@") and n not in fixed])

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
+from dofkit.pictures.arrangement import about
 from dofkit.pictures.shapes import Array, Place, Shape, Vertex, place
 from dofkit.pictures.stage import Stage, axis_of
 from dofkit.pictures.symbols import name_of
@@ -13,7 +15,7 @@ from dofkit.scene.parts import Force
 from dofkit.system import GROUND
 
 #: How far a hull reaches beyond what it holds, how long a stub is and the sides of a free body; in symbols.
-PAD, STUB, FREE = 0.85, 7.0, (4.0, 2.4, 1.6)
+PAD, THIN, STUB, FREE = 0.85, 0.45, 6.0, (3.0, 1.8, 1.2)
 #: More particles than this are not named.
 MOST_NAMES = 60
 
@@ -32,7 +34,7 @@ def body_shapes(stage: Stage) -> Iterator[Shape]:
             spots = [*spots, *_stub(stage, body, spots[0])]
         corners = tuple(Vertex(body, s) for s in spots)
         if corners:
-            yield Shape("hull", corners, "body", state, body, PAD * stage.unit)
+            yield Shape("hull", corners, "body", state, body, (PAD if stage.flat else THIN) * stage.unit)
         centre = stage.arrangement.point(stage.system.starts[body])
         yield name_of(stage, body, corners or (Vertex(body, centre),), state)
 
@@ -54,13 +56,13 @@ def attached(stage: Stage, body: str) -> list[Place]:
         own = [v.at for v in stage.vertices(connection) if v.carrier == body]
         found += own
         if not own and at is not None and stage.symbol(k).run == "":
-            found.append(at)
+            found.append(place(stage.spot(k, body)))
     return list(dict.fromkeys(found))
 
 
 def _stub(stage: Stage, body: str, at: Place) -> list[Place]:
     """Something to see of a body that is attached at one place only."""
-    length = STUB * stage.unit
+    length, turn = STUB * stage.unit, 0.9 * stage.system.bodies.index(body)
     for k, connection in enumerate(stage.system.connections):
         if body not in connection.members or stage.places[k] is None:
             continue
@@ -69,10 +71,11 @@ def _stub(stage: Stage, body: str, at: Place) -> list[Place]:
         if not stage.flat and connection.directions:
             axis = axis_of(stage.arrangement, connection, 0)
             across = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
-            way = across / np.linalg.norm(across)
+            size = float(np.linalg.norm(across))
+            way = (math.cos(turn) * across + math.sin(turn) * np.cross(axis, across)) / size
             return [place(np.array(at) + length * way)]
     way = np.array([0.55, 0.83, 0.0]) if stage.flat else np.array([0.55, 0.2, 0.8])
-    return [place(np.array(at) + length * way)]
+    return [place(np.array(at) + length * (about(2, turn) @ way))]
 
 
 def _free(stage: Stage, body: str) -> Iterator[Shape]:
@@ -121,7 +124,8 @@ def rail_shapes(stage: Stage) -> Iterator[Shape]:
     """In one dimension: the line that everything is on."""
     if stage.system.dimension != 1:
         return
-    reach = [pose.moved((0.0, 0.0, 0.0))[0] for pose in stage.arrangement.poses.values()]
+    reach = [pose.moved((0.0, 0.0, 0.0))[0] for name, pose in stage.arrangement.poses.items() if name != GROUND]
+    reach = reach or [0.0]
     low, high = min(reach) - 6 * stage.unit, max(reach) + 6 * stage.unit
     yield Shape("line", (Vertex(GROUND, (low, 0.0, 0.0)), Vertex(GROUND, (high, 0.0, 0.0))), "guide")
 

@@ -92,7 +92,7 @@ def _node(report: Report, node: _Node, spot: Place, unit: float, named: bool) ->
     kind, name = node
     vertex = (Vertex(GROUND, spot),)
     if kind == "thing":
-        yield Shape("ball", vertex, "ground" if name == GROUND else "point", owner=name, size=0.4 * unit)
+        yield Shape("ball", vertex, "ground" if name == GROUND else "node", owner=name, size=0.4 * unit)
         state: State = "plain"
     else:
         state = _state(report, name)

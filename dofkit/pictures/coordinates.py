@@ -77,8 +77,8 @@ def _sets(stage: Stage, symbols: Sequence[Expr], half: float) -> Iterator[Shape]
     for name, relation in relations:
         if relation.expr not in finite or len(symbols) == 1:
             continue
-        thin = relation.sense != "=" or (len(symbols) == MOST and len(equal) > 1)
-        role: Role = "guide" if thin else "locus"
+        thin = relation.sense != "=" or len(symbols) == MOST
+        role: Role = "surface" if thin else "locus"
         for line in lines(stage.arrangement, relation.expr, symbols, bounds):
             yield Shape("line", _grounded(line), role, stage.state(name), name)
     if any(r.expr not in finite for _, r in relations) and len(symbols) > 1:

@@ -1,6 +1,6 @@
 """Expressions in floating point over whole grids at once; for pictures only.
 
-An unknown function is drawn as an example: a sum of waves, one for each argument.
+An unknown function is drawn as an example: a rising wave for each argument.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def _function(name: str, parts: Sequence[Array]) -> Array:
 
 
 def _example(e: Expr, known: Known, memo: dict[Expr, Array]) -> Array:
-    """0.6 sin(1.3 u + 0.4 k) for each argument u, and the derivatives of that."""
+    """u/2 + 0.4 sin(w u + p) for each argument u, and the derivatives of that."""
     name, orders, arguments = e.args
     phase = 0.7 * (sum(map(ord, name)) % 9)
     if sum(order > 0 for order in orders) > 1:
@@ -72,9 +72,11 @@ def _example(e: Expr, known: Known, memo: dict[Expr, Array]) -> Array:
     for k, (order, argument) in enumerate(zip(orders, arguments, strict=True)):
         if any(orders) and not order:
             continue
-        wave = 1.3 + 0.4 * k
+        wave = 1.1 + 0.3 * k
         inner = wave * evaluated(argument, known, memo) + phase + order * math.pi / 2
-        total = total + 0.6 * wave**order * np.sin(inner)
+        total = total + 0.4 * wave**order * np.sin(inner)
+        if order < 2:
+            total = total + (0.5 if order else 0.5 * evaluated(argument, known, memo))
     return total
 
 

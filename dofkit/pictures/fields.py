@@ -87,7 +87,7 @@ def elements(distribution: Distribution, shown: Sequence[int], half: float) -> I
     counts = (PLANE,) * 2 if len(shown) == 2 else SPACE
     centre = distribution.start[list(shown)]
     grids = [np.linspace(c - half, c + half, n) for c, n in zip(centre, counts, strict=False)]
-    size = 0.75 * half / (counts[0] - 1) * (1.0 if len(shown) == 2 else 1.05)
+    size = (0.75 if len(shown) == 2 else 0.6) * half / (counts[0] - 1)
     for spot in product(*grids):
         q = distribution.start.copy()
         q[list(shown)] = spot

@@ -19,6 +19,8 @@ WIDTH, HEIGHT, MARGIN, ROOM = 460.0, 400.0, 14.0, 26.0
 TITLE, ANSWER, NOTE, NAME = 12.5, 10.0, 8.0, 9.0
 #: Distances (in sizes of its text) and directions in which a name is tried.
 FARS, WAYS = (0.0, 1.3, 2.2, 3.4), 12
+#: The least part of its own size that a sketch is shown as, so that a single dot is no ball.
+LEAST = 1.0
 FAINT = Ink("#444444", layer=9)
 
 
@@ -78,7 +80,7 @@ def _nearness(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> float:
 def margins_of(sketch: Sketch) -> Margins:
     """Title and answer above; legend and notes below."""
     above, y = [], HEIGHT - MARGIN
-    for line in wrapped(sketch.title, TITLE, WIDTH - 2 * MARGIN):
+    for line in wrapped(sketch.title, TITLE, 0.88 * (WIDTH - 2 * MARGIN)):
         y -= TITLE
         above.append(Mark(((MARGIN, y),), FAINT._replace(line=INK), text=line, size=TITLE, align="start", bold=True))
         y -= TITLE * (HIGH - 1)
@@ -129,11 +131,19 @@ def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> Fit:
     points = np.vstack(seen) if seen else np.zeros((1, 2))
     points = points[np.all(np.isfinite(points), axis=1)]
     low, high = np.min(points, axis=0), np.max(points, axis=0)
-    sides = np.maximum(high - low, 0.15 * max(sketch.size, float(np.max(high - low)), 1e-9))
+    largest = float(np.max(high - low))
+    low, high = _at_least(low, high, LEAST * sketch.size if largest < LEAST * sketch.size else 0.15 * largest)
+    sides = high - low
     wide, tall = WIDTH - 2 * (MARGIN + ROOM), margins.high - margins.low - 2 * ROOM * 0.7
     scale = float(min(wide / sides[0], tall / sides[1]))
     middle = np.array([WIDTH / 2, (margins.high + margins.low) / 2])
     return Fit(scale, middle - scale * (low + high) / 2)
+
+
+def _at_least(low: Array, high: Array, least: float) -> tuple[Array, Array]:
+    """The same box, with sides no shorter than ``least``."""
+    more = np.maximum(0.0, least - (high - low)) / 2
+    return low - more, high + more
 
 
 def mark_of(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: Fit) -> Mark:
@@ -229,7 +239,7 @@ def _best_offset(
             way = np.array([math.cos(angle), math.sin(angle)])
             at = anchor + way * (far * size) + way * np.array([wide, high]) * (1 if far else 0)
             inside = (np.abs(busy[:, 0] - at[0]) < wide) & (np.abs(busy[:, 1] - at[1]) < high)
-            cost = float(np.sum(inside)) + 0.7 * far + (2.5 if not far and len(shape.vertices) < 3 else 0.0)
+            cost = float(np.sum(inside)) + 0.7 * far + (12.0 if not far and len(shape.vertices) < 3 else 0.0)
             for x0, x1, y0, y1 in taken:
                 if at[0] - wide < x1 and at[0] + wide > x0 and at[1] - high < y1 and at[1] + high > y0:
                     cost += 40.0

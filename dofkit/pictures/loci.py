@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -15,21 +17,29 @@ from dofkit.pictures.stage import Stage
 from dofkit.system import GROUND, Connection, Relation
 
 #: Points of a grid in the plane, and in each slice of space; slices in each direction; points of a drawn line.
-GRID, SLICE_GRID, SLICES, DRAWN = 161, 61, 7, 90
+GRID, SLICE_GRID, SLICES, DRAWN = 161, 41, 7, 60
 #: Steps of a curve in space to either side.
 STEPS = 220
 
 
 def level_lines(value: Callable[[Array, Array], Array], box: Sequence[float], count: int = GRID) -> list[Array]:
     """Where a function of the plane is 0 in a box (low x, high x, low y, high y), as lines of points. Needs matplotlib."""
-    from matplotlib.figure import Figure
-
     x, y = np.meshgrid(np.linspace(box[0], box[1], count), np.linspace(box[2], box[3], count))
     z = np.ma.masked_invalid(np.broadcast_to(value(x, y), x.shape))
     if z.count() == 0 or float(z.min()) > 0 or float(z.max()) < 0 or float(np.ptp(z)) == 0:
         return []
-    segments = Figure().add_subplot().contour(x, y, z, levels=[0.0]).allsegs[0]
+    found = _axes().contour(x, y, z, levels=[0.0])
+    segments = found.allsegs[0]
+    found.remove()
     return [s[:: max(1, len(s) // DRAWN)] if len(s) <= DRAWN else _thinned(s) for s in segments if len(s) > 1]
+
+
+@cache
+def _axes() -> Any:
+    """Axes on which level lines are found; making them takes longer than finding."""
+    from matplotlib.figure import Figure
+
+    return Figure().add_subplot()
 
 
 def _thinned(line: Array) -> Array:
@@ -51,7 +61,8 @@ def locus(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
     for first, second in sorted(ties):
         ends = (_origin(stage, first), _origin(stage, second))
         yield Shape("line", ends, "tie")
-    for owner, relations in alone.items():
+    shared = stage.system.constraints[number].facts.shared
+    for owner, relations in list(alone.items())[: 1 if shared else None]:
         yield from _alone(stage, owner, relations)
 
 
@@ -80,17 +91,30 @@ def _alone(stage: Stage, owner: str, relations: Sequence[Relation]) -> Iterator[
     symbols = [coordinate(c.name) for c in stage.system.coordinates if c.owner == owner and c.role in ("x", "y", "z")]
     exprs = [r.expr for r in relations if r.sense == "="]
     bounds = _bounds(stage)
-    if len(symbols) == 3 and len(exprs) >= 2:
-        line = curve(stage.arrangement, exprs, symbols, float(bounds[0][1]))
-        if len(line) > 1:
-            yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), "locus")
     for relation in relations:
-        role: Role = "locus" if relation.sense == "=" and len(exprs) < len(symbols) else "guide"
+        role: Role = "locus" if relation.sense == "=" and len(exprs) < len(symbols) else "surface"
         lines = lines_of_plane if len(symbols) == 2 else lines_of_space
         if len(symbols) == 1:
             continue
         for line in lines(stage.arrangement, relation.expr, symbols, bounds):
-            yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), role if len(symbols) == 2 else "guide")
+            yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), role if len(symbols) == 2 else "surface")
+
+
+def meeting_shapes(stage: Stage) -> Iterator[Shape]:
+    """In space, the curve where two surfaces meet that hold the same particle or body."""
+    if stage.system.dimension < 3:
+        return
+    held: dict[str, list[Expr]] = {}
+    for number, constraint in enumerate(stage.system.constraints):
+        for relation in constraint.relations if stage.symbol(number).run == "locus" else ():
+            owners = _owners(stage, relation)
+            if len(owners) == 1 and relation.sense == "=" and _is_place(stage, relation, owners[0]):
+                held.setdefault(owners[0], []).append(relation.expr)
+    for owner, exprs in held.items():
+        symbols = [coordinate(c.name) for c in stage.system.coordinates if c.owner == owner][:3]
+        line = curve(stage.arrangement, exprs, symbols, float(_bounds(stage)[0][1])) if len(exprs) > 1 else []
+        if len(line) > 1:
+            yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), "locus", owner=owner)
 
 
 def _bounds(stage: Stage) -> Array:

@@ -34,6 +34,8 @@ _PLAIN: Mapping[Role, Ink] = {
     "hatch": Ink(INK, 0.8, layer=2),
     "axis": Ink(GREY, 0.9, layer=2),
     "locus": Ink(GREEN, 1.8, layer=2),
+    "surface": Ink("#8CCDB9", 0.7, layer=2),
+    "node": Ink(INK, 0.8, fill="#333333", layer=7),
     "trace": Ink(PURPLE, 1.1, layer=2),
     "tie": Ink(GREY, 1.0, (5.0, 2.0, 1.0, 2.0), layer=2),
     "force": Ink(GREY, 1.1, layer=2),
@@ -65,9 +67,9 @@ def ink_of(shape: Shape) -> Ink:
         return plain._replace(line=BLUE, fill=SKY, dense=0.35, hatch=False)
     if shape.state == "moving" and shape.role == "point":
         return plain._replace(line=BLUE, fill=BLUE)
-    if shape.state in _LOUD and shape.role in ("joint", "guide", "bar", "rope", "locus", "tie"):
+    if shape.state in _LOUD and shape.role in ("joint", "guide", "bar", "rope", "locus", "tie", "surface"):
         loud = _LOUD[shape.state]
-        thin = shape.role in ("guide", "joint")
+        thin = shape.role in ("guide", "joint", "surface")
         return loud._replace(
             fill=loud.fill if plain.fill else None, layer=plain.layer, width=1.9 if thin else loud.width
         )
@@ -88,8 +90,8 @@ def keys_of(shapes: Iterable[Shape]) -> list[tuple[Ink, str]]:
             found.setdefault(MEANINGS[shape.state], ink._replace(fill=None, width=2.4))
         elif shape.role == "bracket":
             found.setdefault("bracket", ink)
-        elif shape.role == "locus" and shape.state == "plain":
-            found.setdefault("curve of an equation", ink)
+        elif shape.role in ("locus", "surface") and shape.state == "plain":
+            found.setdefault("what an equation or inequality describes", _PLAIN["locus"])
         elif shape.role == "tie" and shape.state == "plain":
             found.setdefault("tied by an equation", ink)
         elif shape.role == "force":

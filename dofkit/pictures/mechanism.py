@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dofkit.expressions.tree import parameter
 from dofkit.pictures.alternative import alternative, answer
 from dofkit.pictures.bodies import body_shapes, force_shapes, particle_shapes, rail_shapes
+from dofkit.pictures.loci import meeting_shapes
 from dofkit.pictures.runs import run_shapes
 from dofkit.pictures.shapes import Shape, Sketch, State, Vertex
 from dofkit.pictures.stage import Stage
@@ -24,7 +25,7 @@ def sketch_of(stage: Stage) -> Sketch:
     for number in range(len(stage.system.constraints)):
         shapes += run_shapes(stage, number)
         shapes += joint_shapes(stage, number)
-    shapes += [*particle_shapes(stage), *_names(stage)]
+    shapes += [*meeting_shapes(stage), *particle_shapes(stage), *_names(stage)]
     return Sketch(
         title=stage.scene.title or stage.scene.name,
         dimension=stage.system.dimension,

@@ -10,7 +10,7 @@ from dofkit.pictures.shapes import Array, Poses, Shape, Sketch
 from dofkit.pictures.views import View
 
 #: Turns of a coil, points of a bow, and of a circle.
-TURNS, BOW, ROUND = 6, 17, 20
+TURNS, BOW, ROUND = 6, 17, 32
 
 
 def outline(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:

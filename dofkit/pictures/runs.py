@@ -125,7 +125,7 @@ def _wheel(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]
         yield Shape("ball", (Vertex(body, centre),), "joint", size=0.3 * stage.unit)
         return
     yield ground_plane(middle, 2.2 * radius)
-    yield Shape("ball", (Vertex(body, centre),), "joint", size=radius)
+    yield Shape("ball", (Vertex(body, centre),), "body", stage.state_of_body(body), body, radius)
     for first, second in ((0, 1), (0, 2), (1, 2)):
         yield _circle(body, centre, radius, np.eye(3)[[first, second]], "plain")._replace(kind="line")
 

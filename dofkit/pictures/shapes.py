@@ -18,7 +18,7 @@ Kind = Literal["line", "area", "hull", "ball", "coil", "bow", "words"]
 #: What a shape is part of.
 Role = Literal[
     "body", "joint", "guide", "bar", "rope", "ground", "hatch", "axis", "locus", "trace", "tie", "force", "point",
-    "name", "field", "bracket", "further",
+    "name", "field", "bracket", "further", "surface", "node",
 ]  # fmt: skip
 #: What the report says of it.
 State = Literal["plain", "moving", "redundant", "conflicting"]

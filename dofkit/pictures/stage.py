@@ -74,6 +74,18 @@ class Stage:
         """The points that a constraint mentions, where they are known."""
         yield from vertices_of(self.arrangement, connection)
 
+    def spot(self, number: int, member: str) -> Array:
+        """Where a symbol stands in the drawing of a member: particles are their own place, rails are about the point."""
+        connection, at = self.system.connections[number], np.array(self.places[number] or (0.0, 0.0, 0.0))
+        if any(p.carrier == member and p.particle for p in connection.points):
+            return np.zeros(3)
+        vertex = next(self.vertices(connection), None)
+        if vertex is None or not connection.facts.slides:
+            return at
+        axis = axis_of(self.arrangement, connection, 0)
+        there = np.array(self.carried(member, place(self.here(vertex))).at)
+        return np.asarray(at + axis * float(axis @ (there - at)))
+
     def carried(self, carrier: str, point: Sequence[float]) -> Vertex:
         """The vertex of a carrier that is now at a point of the world."""
         return Vertex(carrier, self.arrangement.poses.get(carrier, AT_REST).back(point))
@@ -158,7 +170,7 @@ def _unit(points: Sequence[Array], size: float) -> float:
     """The size of symbols: smaller where places crowd."""
     distinct = np.unique(np.round(np.array(points) / size, 6), axis=0) * size if points else np.zeros((0, 3))
     if len(distinct) < 2:
-        return 0.075 * size
+        return 0.055 * size
     gaps = np.linalg.norm(distinct[:, None] - distinct[None], axis=2) if len(distinct) < 600 else np.full((1, 1), size)
     least = float(np.min(gaps[gaps > 1e-9 * size], initial=size))
     return float(np.clip(CROWDED * least, LEAST * size, SYMBOL * size))
@@ -218,7 +230,7 @@ def _clear(wanted: Place, taken: Sequence[Place], gap: float, dimension: int) ->
     """The place nearest to what is wanted that keeps clear of others."""
     up = np.array([0.0, 1.0, 0.0]) if dimension == 2 else np.array([0.0, 0.0, 1.0])
     side = np.array([1.0, 0.0, 0.0])
-    ways = [w * s + h * up for w, h in ((0, 0), (0, 1), (1, 0), (1, 1), (0, -1), (-1, 0), (2, 0), (0, 2)) for s in (side,)]
+    ways = [w * side + h * up for w, h in ((0, 0), (0, 1), (1, 0), (1, 1), (0, -1), (-1, 0), (2, 0), (0, 2))]
     for scale in (1.0, 2.0, 3.0, 4.0):
         for way in ways:
             spot = np.array(wanted) + gap * scale * way

@@ -136,7 +136,7 @@ def staged(scene: Scene, report: Report) -> Stage:
     reach = float(np.max(np.ptp(np.array(points), axis=0))) if points else 0.0
     if reach < WIDER * stage.size:
         return stage
-    return replace(stage, unit=stage.unit * min(reach / stage.size, 2.5))
+    return replace(stage, unit=max(stage.unit, 0.024 * reach))
 
 
 def whole_sketch(stage: Stage) -> tuple[Sketch, str]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from dofkit.pictures.shapes import Array, Place, Role, Shape, State, Vertex, place
 from dofkit.pictures.stage import Stage, axis_of, carriers
-from dofkit.scene.symbols import Stroke, Symbol
+from dofkit.scene.symbols import Stroke
 from dofkit.system import GROUND, Connection
 
 #: How far a rail's hatching stands from the axis, and how many strokes of it there are; in symbols.
@@ -24,27 +24,13 @@ def joint_shapes(stage: Stage, number: int) -> Iterator[Shape]:
     state = stage.state(name)
     frame = _frame(stage, connection)
     members = carriers(connection)
-    spot = {k: _standing(stage, m, at, connection) for k, m in members.items()}
+    spot = {k: stage.spot(number, m) for k, m in members.items()}
     strokes = symbol.plane if stage.flat else symbol.space
     for stroke in strokes:
         k = min(stroke.member, len(members) - 1)
         yield _stroke(stage, stroke, members[k], spot[k], frame)._replace(owner=name, state=state)
     if GROUND in connection.members and strokes and (stage.flat or not symbol.rails):
-        yield from _footing(stage, symbol, connection, at, frame)
-
-
-def _standing(stage: Stage, member: str, at: Place, connection: Connection) -> Array:
-    """Where the symbol stands in the drawing of a member: particles are their own place."""
-    for point in connection.points:
-        if point.carrier == member and point.particle:
-            return np.zeros(3)
-    if connection.places and connection.points and connection.facts.slides:
-        vertex = next(stage.vertices(connection), None)
-        axis = axis_of(stage.arrangement, connection, 0)
-        if vertex is not None:
-            there = np.array(stage.carried(member, place(stage.here(vertex))).at)
-            return np.array(at) + axis * float(axis @ (there - np.array(at)))
-    return np.array(at)
+        yield from _footing(stage, number, at, frame)
 
 
 def _frame(stage: Stage, connection: Connection) -> Array:
@@ -74,12 +60,13 @@ def _stroke(stage: Stage, stroke: Stroke, carrier: str, spot: Array, frame: Arra
     return Shape("line", tuple(vertices), role)
 
 
-def _footing(stage: Stage, symbol: Symbol, connection: Connection, at: Place, frame: Array) -> Iterator[Shape]:
+def _footing(stage: Stage, number: int, at: Place, frame: Array) -> Iterator[Shape]:
     """What holds a joint to the ground: hatching along a rail, or a stand under a pin."""
+    symbol, connection = stage.symbol(number), stage.system.connections[number]
     if symbol.rails and stage.flat:
         side = frame[1] if frame[1][1] < 0 or (frame[1][1] == 0 and frame[1][0] > 0) else -frame[1]
         gap = RAIL if not connection.points else 0.7
-        yield hatching(stage, _standing(stage, GROUND, at, connection) + side * gap * stage.unit, frame[0] * symbol.rails * stage.unit, side)
+        yield hatching(stage, stage.spot(number, GROUND) + side * gap * stage.unit, frame[0] * symbol.rails * stage.unit, side)
     elif not symbol.rails:
         yield from stand(stage, at)
 
@@ -87,7 +74,7 @@ def _footing(stage: Stage, symbol: Symbol, connection: Connection, at: Place, fr
 def hatching(stage: Stage, middle: Array, half: Array, side: Array, ticks: int = TICKS) -> Shape:
     """Short strokes along a line, on one side of it, as one zigzag."""
     way = half / max(float(np.linalg.norm(half)), 1e-12)
-    slant = (side - way) * 0.55 * stage.unit
+    slant = (side - way) * max(0.55 * stage.unit, 0.07 * float(np.linalg.norm(half)))
     spots: list[Array] = []
     for k in range(ticks):
         root = middle + half * (2 * (k + 0.7) / ticks - 1)
