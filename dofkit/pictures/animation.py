@@ -10,6 +10,7 @@ from typing import Any
 from dofkit.base.errors import ArgumentError
 from dofkit.base.spelling import no_such
 from dofkit.methods.classify import classify
+from dofkit.pictures.coordinates import MOST, gauge_sketch, is_bare
 from dofkit.pictures.layout import page_of, standpoint_of
 from dofkit.pictures.motion import clips_of
 from dofkit.pictures.paper import Page
@@ -86,8 +87,9 @@ def animate(scene: SceneLike, report: Report | None = None) -> Animation:
     given = load(scene)
     told = classify(given) if report is None else report
     stage = staged(given, told)
-    sketch, _ = whole_sketch(stage)
-    clips = tuple(clips_of(stage)) if set(sketch.poses) == set(stage.arrangement.poses) else ()
+    many = is_bare(stage.system) and len(stage.system.coordinates) > MOST
+    sketch = gauge_sketch(stage) if many else whole_sketch(stage)[0]
+    clips = tuple(clips_of(stage, sketch))
     notes = sketch.notes if clips else (*sketch.notes, STILL)
     return Animation(replace(sketch, notes=notes), clips)
 

@@ -204,6 +204,8 @@ def poses_of(system: System, numbers: Mapping[Expr, float], *, gibbs: bool) -> d
     if not system.bodies and not system.particles:
         told = [numbers.get(coordinate(c.name), 0.0) for c in system.coordinates[:3]]
         found[POINT] = Displacement(np.eye(3), np.array(place(told)))
+        for c in system.coordinates:
+            found[c.name] = Displacement(np.eye(3), np.array(place([numbers.get(coordinate(c.name), 0.0)])))
     for particle in system.particles:
         own = [c for c in system.coordinates if c.owner == particle]
         found[particle] = Displacement(np.eye(3), np.array(place([numbers.get(coordinate(c.name), 0.0) for c in own])))

@@ -29,7 +29,7 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
     for first, second in graph.edges:
         name = first[1] if first[0] == "constraint" else second[1]
         ends = (Vertex(GROUND, spots[first]), Vertex(GROUND, spots[second]))
-        shapes.append(Shape("line", ends, "tie" if _state(report, name) == "plain" else "bar", _state(report, name), name))
+        shapes.append(Shape("line", ends, "axis" if _state(report, name) == "plain" else "bar", _state(report, name), name))
     named = len(graph) <= MOST_NAMES
     for node in graph:
         shapes += _node(report, node, spots[node], unit, named)
@@ -111,7 +111,7 @@ def circuits_of(report: Report) -> Mapping[str, list[str]]:
 def _circuits_told(report: Report) -> Iterator[str]:
     circuits = circuits_of(report)
     for name, members in list(circuits.items())[:3]:
-        yield f"{name} follows from {', '.join(members[1:7])}{' and others' if len(members) > 7 else ''}."
+        yield f"{name} follows from {', '.join(members[1:13])}{' and others' if len(members) > 13 else ''}."
     if len(circuits) > 3:
         yield f"and {len(circuits) - 3} further circuits; point at a constraint to see its own"
 

@@ -18,6 +18,8 @@ from dofkit.system import GROUND, System
 
 #: Up to so many coordinates are axes of a picture.
 MOST = 3
+#: So many lines of single coordinates fit on a sheet.
+MOST_GAUGES = 24
 
 
 def is_bare(system: System) -> bool:
@@ -46,6 +48,35 @@ def coordinate_sketch(stage: Stage) -> Sketch:
         notes=tuple(notes_of(stage)),
         axes=(),
         units="in the scene's units",
+    )
+
+
+def gauge_sketch(stage: Stage) -> Sketch:
+    """Each coordinate on a line of its own: for motions of more coordinates than a picture has axes."""
+    shapes: list[Shape] = []
+    values = [pose.shift[0] for name, pose in stage.arrangement.poses.items() if name != GROUND]
+    half = max(1.5, 1.4 * max((abs(float(v)) for v in values), default=0.0))
+    apart = min(0.35 * half, 2.0 * half / max(1, len(stage.system.coordinates)))
+    moved = {str(s.args[1]) for m in stage.motions for s, rate in m.rates.items() if abs(rate) > 1e-9}
+    for k, c in enumerate(stage.system.coordinates[:MOST_GAUGES]):
+        height = -apart * k
+        ends = (Vertex(GROUND, (-half, height, 0.0)), Vertex(GROUND, (half, height, 0.0)))
+        ticks = ((x, height - 0.06 * apart, height + 0.06 * apart) for x in (-1.0, 0.0, 1.0))
+        shapes.append(Shape("line", ends, "axis"))
+        shapes += [Shape("line", (Vertex(GROUND, (x, a, 0.0)), Vertex(GROUND, (x, b, 0.0))), "axis") for x, a, b in ticks]
+        dot = (Vertex(c.name, (0.0, height, 0.0)),)
+        shapes.append(Shape("ball", dot, "point", "moving" if c.name in moved else "plain", c.name, 0.12 * apart))
+        shapes.append(Shape("words", (ends[0],), "name", text=c.name))
+    return Sketch(
+        title=stage.scene.title or stage.scene.name,
+        dimension=2,
+        shapes=tuple(shapes),
+        poses=stage.arrangement.poses,
+        size=2 * half,
+        answer=answer(stage.report),
+        alternative=f"{alternative(stage.scene, stage.report)} Each line is a coordinate, from -1 over 0 to 1.",
+        notes=("Each coordinate on a line of its own; the marks are -1, 0 and 1.", *notes_of(stage)),
+        axes=(),
     )
 
 

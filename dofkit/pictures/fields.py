@@ -51,12 +51,16 @@ class Distribution:
 
 
 def _pivots(basis: Array) -> list[int]:
-    """Columns on which a basis has full rank, the first that do."""
+    """Columns on which a basis is clearly of full rank: one after the other, the largest less what those before span."""
     found: list[int] = []
-    for column in range(basis.shape[1]):
-        if len(found) < len(basis) and np.linalg.matrix_rank(basis[:, [*found, column]], tol=1e-2) > len(found):
-            found.append(column)
-    return found
+    left = basis.copy()
+    for _ in range(len(basis)):
+        sizes = np.linalg.norm(left, axis=0)
+        column = int(np.argmax(np.round(sizes, 6)))
+        way = left[:, column] / max(float(sizes[column]), 1e-12)
+        left = left - np.outer(way, way @ left)
+        found.append(column)
+    return sorted(found)
 
 
 def element(q: Sequence[float], directions: Array, size: float, role: Role = "field") -> Iterator[Shape]:
@@ -92,5 +96,5 @@ def elements(distribution: Distribution, shown: Sequence[int], half: float) -> I
         q = distribution.start.copy()
         q[list(shown)] = spot
         directions = distribution.basis(q)[:, list(shown)]
-        if len(directions) and np.all(np.isfinite(directions)):
+        if np.all(np.isfinite(directions)) and 0 < len(_orthonormal(directions)) < 3:
             yield from element(spot, directions, size)

@@ -20,7 +20,7 @@ TITLE, ANSWER, NOTE, NAME = 12.5, 10.0, 8.0, 9.0
 #: Distances (in sizes of its text) and directions in which a name is tried.
 FARS, WAYS = (0.0, 1.3, 2.2, 3.4), 12
 #: The least part of its own size that a sketch is shown as, so that a single dot is no ball.
-LEAST = 1.0
+LEAST = 0.55
 FAINT = Ink("#444444", layer=9)
 
 

@@ -41,7 +41,7 @@ _PLAIN: Mapping[Role, Ink] = {
     "force": Ink(GREY, 1.1, layer=2),
     "point": Ink(INK, 0.8, fill="#333333", layer=7),
     "name": Ink(INK, layer=9),
-    "field": Ink(BLUE, 1.2, fill=SKY, dense=0.4, layer=3),
+    "field": Ink(BLUE, 0.8, fill=SKY, dense=0.3, layer=3),
     "bracket": Ink(VERMILLION, 2.0, (5.0, 2.0), layer=5),
     "further": Ink(PURPLE, 2.0, (1.5, 1.5), layer=5),
 }

@@ -7,76 +7,92 @@ from collections.abc import Sequence
 import numpy as np
 
 from dofkit.base.errors import DofkitError
-from dofkit.expressions.tree import coordinate
+from dofkit.expressions.tree import coordinate, parameter
 from dofkit.motion.sampled.configurations import configurations
 from dofkit.pictures.arrangement import poses_of
 from dofkit.pictures.rates import swings
-from dofkit.pictures.shapes import Array, Clip, Poses
+from dofkit.pictures.shapes import Clip, Poses, Sketch
 from dofkit.pictures.stage import Stage
+from dofkit.system import GROUND
 
 #: Steps of a sampled motion to either side, their length, and the most frames that are kept.
-STEPS, STEP, FRAMES = 260, 0.06, 96
+STEPS, STEP, FRAMES = 160, 0.1, 96
 #: How far from the picture a motion is shown, by the picture's size; what closes up comes back to this part of it.
-FAR, BACK = 1.1, 0.02
+FAR, BACK = 0.8, 0.03
+#: Steps where there are several freedoms, and so many places of a sketch are compared.
+SHORT, MOST_SEEN = 50, 60
 
 
-def clips_of(stage: Stage) -> list[Clip]:
+def clips_of(stage: Stage, sketch: Sketch) -> list[Clip]:
     """All motions that are shown: a finite one where there is, and where there are several freedoms or none, each."""
-    finite = _finite(stage)
-    report = stage.report
+    finite = _finite(stage, _Seen(sketch))
     several = len(stage.motions) > 1 or not finite
-    if report.consistent is False or not several:
+    if stage.report.consistent is False or not several:
         return finite
     return [*finite, *swings(stage.arrangement, stage.motions, stage.size)]
 
 
-def _finite(stage: Stage) -> list[Clip]:
+class _Seen:
+    """The places of a sketch that tell whether two poses look alike."""
+
+    def __init__(self, sketch: Sketch) -> None:
+        found = dict.fromkeys(v for s in sketch.shapes if s.kind != "words" for v in s.vertices if v.carrier != GROUND)
+        vertices = list(found)
+        self.sketch, self.vertices = sketch, vertices[:: max(1, len(vertices) // MOST_SEEN)]
+
+    def far(self, first: Poses, last: Poses) -> float:
+        """The largest distance between where two poses put a place."""
+        pairs = ((self.sketch.at(v, first), self.sketch.at(v, last)) for v in self.vertices)
+        return max((float(np.linalg.norm(a - b)) for a, b in pairs), default=0.0)
+
+
+def _finite(stage: Stage, seen: _Seen) -> list[Clip]:
     """A sampled motion, cut where it leaves the picture; none where nothing moves or none was followed."""
-    system, numbers = stage.system, stage.arrangement.numbers
-    turning = {n for r in system.rotations for n in r.names}
-    near = {p: numbers[s] for s in numbers if (p := str(s.args[1])) in system.parameters}
-    if system.reference is None:
-        near |= {c.name: numbers[coordinate(c.name)] for c in system.coordinates
-                 if c.name not in turning and coordinate(c.name) in numbers}  # fmt: skip
     several = len(stage.motions) > 1
     try:
-        told = configurations(system, steps=80 if several else STEPS, step=STEP, values=near)
+        told = configurations(stage.system, steps=SHORT if several else STEPS, step=STEP, values=_near_values(stage))
     except DofkitError:
         return []
-    frames = [poses_of(system, {**numbers, **{coordinate(n): v for n, v in one.items()}}, gibbs=False) for one in told]
-    start = min(range(len(frames)), key=lambda k: _far(stage, frames[k], stage.arrangement.poses))
-    closed = len(frames) > 8 and _far(stage, frames[0], frames[-1]) < BACK * stage.size
-    if not closed:
-        frames = _near(stage, frames, start)
-    thinned = [frames[k] for k in np.unique(np.linspace(0, len(frames) - 1, FRAMES).astype(int))]
-    if closed:
-        thinned = thinned[:-1]
-    name = "a finite motion" if not several else "a finite motion, with all freedoms"
-    return [Clip(name, tuple(thinned), closed)] if len(thinned) > 1 else []
+    numbers = stage.arrangement.numbers
+    frames = [
+        poses_of(stage.system, {**numbers, **{coordinate(n): v for n, v in one.items()}}, gibbs=False) for one in told
+    ]
+    start = min(range(len(frames)), key=lambda k: seen.far(frames[k], stage.arrangement.poses))
+    turn = _turn(seen, frames, start, stage.size)
+    shown = turn or _near(seen, frames, start, FAR * stage.size)
+    thinned = [shown[k] for k in np.unique(np.linspace(0, len(shown) - 1, FRAMES).astype(int))]
+    name = "a finite motion, with all freedoms" if several else "a finite motion"
+    return [Clip(name, tuple(thinned[:-1] if turn else thinned), bool(turn))] if len(thinned) > 1 else []
 
 
-def _far(stage: Stage, first: Poses, last: Poses) -> float:
-    """The largest distance between where two poses put the picture."""
-    pairs = zip(_seen(stage, first), _seen(stage, last), strict=True)
-    return max((float(np.max(np.abs(a - b))) for a, b in pairs), default=0.0)
-
-
-def _seen(stage: Stage, poses: Poses) -> list[Array]:
-    """Two points of everything that moves."""
-    arms = (np.zeros(3), np.array([stage.size, 0.0, 0.0]), np.array([0.0, stage.size, 0.0]))
-    found = []
-    for name, pose in poses.items():
-        middle = stage.arrangement.poses[name].turn.T @ (np.array(stage.centre) - stage.arrangement.poses[name].shift)
-        found += [pose.moved(middle + arm) for arm in arms]
+def _near_values(stage: Stage) -> dict[str, float]:
+    """The numbers of parameters, and where the drawing gives none of coordinates, for where the motion begins."""
+    system, numbers = stage.system, stage.arrangement.numbers
+    found = {p: numbers[parameter(p)] for p in system.parameters}
+    if system.reference is None:
+        turning = {n for r in system.rotations for n in r.names}
+        own = [c.name for c in system.coordinates if c.name not in turning]
+        found |= {n: numbers[coordinate(n)] for n in own if coordinate(n) in numbers}
     return found
 
 
-def _near(stage: Stage, frames: Sequence[Poses], start: int) -> list[Poses]:
+def _turn(seen: _Seen, frames: Sequence[Poses], start: int, size: float) -> list[Poses]:
+    """A motion that comes back to where it began, once around; nothing where it does not."""
+    gone = False
+    for k in range(start + 1, len(frames)):
+        far = seen.far(frames[start], frames[k])
+        gone = gone or far > 10 * BACK * size
+        if gone and far < BACK * size and (k + 1 == len(frames) or seen.far(frames[start], frames[k + 1]) >= far):
+            return list(frames[start : k + 1])
+    whole = seen.far(frames[0], frames[-1]) < BACK * size and len(frames) > 8
+    return list(frames) if whole else []
+
+
+def _near(seen: _Seen, frames: Sequence[Poses], start: int, limit: float) -> list[Poses]:
     """The part of a motion about its beginning that stays near the picture."""
-    here = frames[start]
-    low, high = start, start
-    while low > 0 and _far(stage, here, frames[low - 1]) < FAR * stage.size:
+    here, low, high = frames[start], start, start
+    while low > 0 and seen.far(here, frames[low - 1]) < limit:
         low -= 1
-    while high < len(frames) - 1 and _far(stage, here, frames[high + 1]) < FAR * stage.size:
+    while high < len(frames) - 1 and seen.far(here, frames[high + 1]) < limit:
         high += 1
     return list(frames[low : high + 1])

@@ -109,7 +109,7 @@ def stage_of(scene: Scene, report: Report) -> Stage:
     size, centre = _extent(known)
     unit = _unit(known, size)
     places, schematic = _all_places(scene, arrangement, given, unit)
-    size, centre = _extent([*known, *(p for p in places if p is not None)])
+    size, centre = _extent([*known, *(p for p, told in zip(places, given, strict=True) if p and told is None)])
     motions = _motions(arrangement, report)
     return Stage(
         scene, report, arrangement, tuple(places), motions, movers(arrangement, motions), unit, size, centre, schematic

@@ -29,6 +29,9 @@ def joint_shapes(stage: Stage, number: int) -> Iterator[Shape]:
     for stroke in strokes:
         k = min(stroke.member, len(members) - 1)
         yield _stroke(stage, stroke, members[k], spot[k], frame)._replace(owner=name, state=state)
+    if len(members) > 1 and strokes and not connection.points:
+        ends = (Vertex(members[0], place(spot[0])), Vertex(members[1], place(spot[1])))
+        yield Shape("line", ends, "guide", state, name)
     if GROUND in connection.members and strokes and (stage.flat or not symbol.rails):
         yield from _footing(stage, number, at, frame)
 
