@@ -24,24 +24,24 @@ from dofkit.scene.scene import Scene
 
 def report_lines(given: Given) -> Iterator[Json]:
     """What is printed of the report on a file; before that a sketch of it as a ``report``."""
-    return _answer_lines(given, _report_stages)
+    return answer_lines(given, _report_stages)
 
 
 def motion_lines(given: Given) -> Iterator[Json]:
     """What is printed of the equations of motion of a file."""
-    return _answer_lines(given, _equations)
+    return answer_lines(given, _equations)
 
 
 def cut_lines(cut: Cut) -> Json:
     """What is printed where `report_lines` was cut short: of a scene that was read, that nothing was decided."""
     if cut.value is not None and "report" in cut.value:
         report = undecided(Report.model_validate(cut.value["report"]), cut.reason)
-        return _streams(_report_text(report, cut.value["title"], cut.given))
+        return streams(_report_text(report, cut.value["title"], cut.given))
     fault = Fault(f"it could not be read: {cut.reason}", hint="make the scene smaller, or split it")
     return _fault_streams(cut.given, cut.given.name, (fault,), None)
 
 
-def _answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]]) -> Iterator[Json]:
+def answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]]) -> Iterator[Json]:
     """Read a file and give its answer, or else its faults, each in its place: no file stops those that follow."""
     name, document = given.name, None
     try:
@@ -66,7 +66,7 @@ def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
     report = next(reports, first)
     if given.certificate is not None:
         report = _written_certificate(scene, report, given.certificate)
-    yield _streams(_report_text(report, scene.title, given))
+    yield streams(_report_text(report, scene.title, given))
 
 
 def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
@@ -84,12 +84,12 @@ def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
 def _equations(scene: Scene, given: Given) -> Iterator[Json]:
     report = lagrange.lagrange(scene, given.linearize, given.budget)
     if given.as_json:
-        yield _streams(_line(report.model_dump(mode="json"), given))
+        yield streams(_line(report.model_dump(mode="json"), given))
     else:
-        yield _streams(show.as_lines(report, scene.title) + "\n")
+        yield streams(show.as_lines(report, scene.title) + "\n")
 
 
-def _streams(out: str = "", err: str = "", failed: bool = False) -> Json:
+def streams(out: str = "", err: str = "", failed: bool = False) -> Json:
     """What goes to standard output and to standard error."""
     return {"out": out, "err": err, "failed": failed}
 
@@ -115,10 +115,8 @@ def _line(value: Any, given: Given) -> str:
 def _fault_streams(given: Given, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
     """What is printed of a file that could not be read, or not be answered."""
     if given.as_json:
-        return _streams(out=_line({"scene": name, "error": _error_object(faults)}, given), failed=True)
-    return _streams(
-        err=show.complaint(STDIN if given.file == "-" else given.file, faults, document) + "\n", failed=True
-    )
+        return streams(out=_line({"scene": name, "error": _error_object(faults)}, given), failed=True)
+    return streams(err=show.complaint(STDIN if given.file == "-" else given.file, faults, document) + "\n", failed=True)
 
 
 def _error_object(faults: Iterable[Fault]) -> dict[str, Any]:

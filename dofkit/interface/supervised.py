@@ -28,7 +28,16 @@ CERTIFICATE_SHARE = 3
 #: The exit status of a certificate that could not be looked at.
 UNREAD = 2
 #: What the worker does is in this module, which it imports itself.
-ONE_FILE = "dofkit.interface.one_file"
+ONE_FILE, ONE_PICTURE = "dofkit.interface.one_file", "dofkit.interface.one_picture"
+#: A picture may take so many times as long as a report.
+PICTURE_SHARE = 3
+
+
+class PictureGiven(NamedTuple):
+    """A kind of picture, the name of a function of dofkit; and where it is written."""
+
+    kind: str
+    path: str
 
 
 @dataclass(frozen=True)
@@ -37,7 +46,8 @@ class Given:
 
     ``data``: its bytes where they were read already; ``budget``: seconds for the scene, ``method``: how to answer;
     ``linearize``: small motions too; ``as_json`` and then ``ascii_only``, or as text for a terminal of a width and a
-    set of colours (None: for ours). ``certificate``: where its certificate is written, None for none.
+    set of colours (None: for ours). ``certificate``: where its certificate is written, None for none; ``picture``:
+    the one that is asked for.
     """
 
     file: str
@@ -49,6 +59,7 @@ class Given:
     terminal: tuple[int, str | None] | None = None
     data: bytes | None = None
     certificate: str | None = None
+    picture: PictureGiven | None = None
 
     @property
     def name(self) -> str:
@@ -104,15 +115,42 @@ def _places(files: Sequence[str], certificate: str | None) -> list[str | None]:
         return [None] * len(files)
     if len(files) == 1 and not os.path.isdir(certificate):
         return [certificate]
+    return [os.path.join(certificate, f"{name}.json") for name in _own_names(files)]
+
+
+def _own_names(files: Sequence[str]) -> list[str]:
+    """The name of each file, numbered where one before has it."""
     names = [Given(file, 0.0, "auto", False).name for file in files]
-    told = [name if names.index(name) == k else f"{name}-{names[:k].count(name) + 1}" for k, name in enumerate(names)]
-    return [os.path.join(certificate, f"{name}.json") for name in told]
+    return [name if names.index(name) == k else f"{name}-{names[:k].count(name) + 1}" for k, name in enumerate(names)]
 
 
 def motions(files: Sequence[str], linearize: bool, as_json: bool) -> Generator[Printed]:
     """What is printed of the equations of motion of each file, in their order."""
     given = Given("", DEFAULT_SECONDS, "auto", as_json, linearize, _ascii_only())
     return _answers(files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"))
+
+
+def pictures(files: Sequence[str], kind: str, out: str | None, ending: str) -> Generator[Printed]:
+    """What is printed of the picture of each file, in their order: where it was written.
+
+    ``out``: a path for the picture of one file, a folder for those of several (None: this one).
+    """
+    if len(files) == 1 and out is not None and os.path.splitext(out)[1] and not os.path.isdir(out):
+        places = [out]
+    else:
+        names = _own_names(files)
+        suffix = "" if kind in ("draw", "animate") else f"-{kind}"
+        places = [os.path.join(out or "", f"{name}{suffix}.{ending}") for name in names]
+    worker = Worker(modules=(ONE_PICTURE,), fork=can_fork())
+    given = Given("", DEFAULT_SECONDS, "auto", False, ascii_only=_ascii_only())
+    try:
+        for file, place in zip(files, places, strict=True):
+            asked = replace(given, file=file, data=_data(file), picture=PictureGiven(kind, place))
+            job = Job(f"{ONE_PICTURE}:picture_lines", asked, PICTURE_SHARE * limit(given.budget))
+            outcome = worker.run(job)
+            yield Printed(**outcome.value) if outcome.finished else _plain(asked, outcome.reason)
+    finally:
+        worker.kill()
 
 
 def verification(given: CertificateGiven) -> tuple[str, str, int]:

@@ -66,7 +66,7 @@ class Animation:
         target = Path(path)
         write = _WRITERS.get(target.suffix.lower())
         if write is None:
-            raise ArgumentError(no_such(target.suffix or str(path), list(_WRITERS), "kind of moving picture"))
+            raise ArgumentError(no_such(target.suffix or str(path), list(_WRITERS), "ending"))
         write(self, target)
         return target
 

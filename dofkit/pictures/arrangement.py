@@ -15,7 +15,7 @@ from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, Expr, coordinate, parameter
 from dofkit.motion.sampled.configurations import configurations
 from dofkit.pictures.evaluation import derivatives, evaluated, values_at, with_unit_rows
-from dofkit.pictures.shapes import AT_REST, Array, Place, Displacement, place
+from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, place
 from dofkit.system import GROUND, PARTICLE_ROLES, System
 
 #: Rounds of Newton's method, the residual that is as good as 0, and how many beginnings are tried.

@@ -9,7 +9,7 @@ import numpy as np
 
 from dofkit.pictures.arrangement import about
 from dofkit.pictures.shapes import Array, Place, Shape, Vertex, place
-from dofkit.pictures.stage import Stage, axis_of
+from dofkit.pictures.stage import StagedScene, axis_of
 from dofkit.pictures.symbols import name_of
 from dofkit.scene.parts import Force
 from dofkit.system import GROUND
@@ -20,7 +20,7 @@ PAD, THIN, STUB, FREE = 0.85, 0.45, 6.0, (3.0, 1.8, 1.2)
 MOST_NAMES = 60
 
 
-def body_shapes(stage: Stage) -> Iterator[Shape]:
+def body_shapes(stage: StagedScene) -> Iterator[Shape]:
     """A hull for each body, and its name."""
     for body in stage.system.bodies:
         spots = attached(stage, body)
@@ -39,14 +39,14 @@ def body_shapes(stage: Stage) -> Iterator[Shape]:
         yield name_of(stage, body, corners or (Vertex(body, centre),), state)
 
 
-def _shapes_body(stage: Stage, number: int, body: str) -> bool:
+def _shapes_body(stage: StagedScene, number: int, body: str) -> bool:
     """Does a constraint draw the body itself: a wheel, a toothed one, a cam?"""
     members = stage.system.connections[number].members
     run = stage.symbol(number).run
     return (run == "profile" and members[-1] == body) or (run in ("wheel", "teeth") and body in members[:2])
 
 
-def attached(stage: Stage, body: str) -> list[Place]:
+def attached(stage: StagedScene, body: str) -> list[Place]:
     """Where something is attached to a body, in its drawing."""
     found = []
     for k, connection in enumerate(stage.system.connections):
@@ -60,7 +60,7 @@ def attached(stage: Stage, body: str) -> list[Place]:
     return list(dict.fromkeys(found))
 
 
-def _stub(stage: Stage, body: str, at: Place) -> list[Place]:
+def _stub(stage: StagedScene, body: str, at: Place) -> list[Place]:
     """Something to see of a body that is attached at one place only."""
     length, turn = STUB * stage.unit, 0.9 * stage.system.bodies.index(body)
     for k, connection in enumerate(stage.system.connections):
@@ -78,7 +78,7 @@ def _stub(stage: Stage, body: str, at: Place) -> list[Place]:
     return [place(np.array(at) + length * (about(2, turn) @ way))]
 
 
-def _free(stage: Stage, body: str) -> Iterator[Shape]:
+def _free(stage: StagedScene, body: str) -> Iterator[Shape]:
     """A body that nothing is attached to: a box with its axes."""
     centre = np.array(stage.arrangement.point(stage.system.starts[body]))
     state, u = stage.state_of_body(body), stage.unit
@@ -111,7 +111,7 @@ def _faces(half: Array) -> Iterator[list[Array]]:
             yield face
 
 
-def particle_shapes(stage: Stage) -> Iterator[Shape]:
+def particle_shapes(stage: StagedScene) -> Iterator[Shape]:
     """A dot for each particle, and its name."""
     for particle in stage.system.particles:
         vertex, state = Vertex(particle, (0.0, 0.0, 0.0)), stage.state_of_body(particle)
@@ -120,7 +120,7 @@ def particle_shapes(stage: Stage) -> Iterator[Shape]:
             yield name_of(stage, particle, (vertex,), state)
 
 
-def rail_shapes(stage: Stage) -> Iterator[Shape]:
+def rail_shapes(stage: StagedScene) -> Iterator[Shape]:
     """In one dimension: the line that everything is on."""
     if stage.system.dimension != 1:
         return
@@ -130,7 +130,7 @@ def rail_shapes(stage: Stage) -> Iterator[Shape]:
     yield Shape("line", (Vertex(GROUND, (low, 0.0, 0.0)), Vertex(GROUND, (high, 0.0, 0.0))), "guide")
 
 
-def force_shapes(stage: Stage) -> Iterator[Shape]:
+def force_shapes(stage: StagedScene) -> Iterator[Shape]:
     """Springs and dampers between points that are drawn."""
     for force in stage.scene.forces:
         ends = _ends(stage, force)
@@ -138,7 +138,7 @@ def force_shapes(stage: Stage) -> Iterator[Shape]:
             yield Shape("coil", (ends[0], ends[1]), "force", owner=force.name or force.type, size=0.5 * stage.unit)
 
 
-def _ends(stage: Stage, force: Force) -> list[Vertex]:
+def _ends(stage: StagedScene, force: Force) -> list[Vertex]:
     found = []
     for end in force.between or ():
         if isinstance(end, str) and end in stage.system.starts:

@@ -29,7 +29,9 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
     for first, second in graph.edges:
         name = first[1] if first[0] == "constraint" else second[1]
         ends = (Vertex(GROUND, spots[first]), Vertex(GROUND, spots[second]))
-        shapes.append(Shape("line", ends, "axis" if _state(report, name) == "plain" else "bar", _state(report, name), name))
+        shapes.append(
+            Shape("line", ends, "axis" if _state(report, name) == "plain" else "bar", _state(report, name), name)
+        )
     named = len(graph) <= MOST_NAMES
     for node in graph:
         shapes += _node(report, node, spots[node], unit, named)
@@ -41,8 +43,8 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
         poses={GROUND: AT_REST},
         size=2.0,
         answer=answer(report),
-        alternative=f"{alternative(scene, report)} A graph: dots are bodies, particles and coordinates, boxes constraints.",
-        notes=tuple([*notes, *_circuits_told(report)]),
+        alternative=f"{alternative(scene, report)} A graph: dots are what moves, boxes constraints.",
+        notes=(*notes, *_circuits_told(report)),
         axes=(),
     )
 

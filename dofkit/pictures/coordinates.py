@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from dofkit.pictures.fields import Distribution, elements
 from dofkit.pictures.loci import curve, lines_of_plane, lines_of_space
 from dofkit.pictures.mechanism import notes_of
 from dofkit.pictures.shapes import Array, Role, Shape, Sketch, State, Vertex, place
-from dofkit.pictures.stage import Stage
+from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND, System
 
 #: Up to so many coordinates are axes of a picture.
@@ -27,7 +27,7 @@ def is_bare(system: System) -> bool:
     return not system.bodies and not system.particles
 
 
-def coordinate_sketch(stage: Stage) -> Sketch:
+def coordinate_sketch(stage: StagedScene) -> Sketch:
     """The set that the constraints describe, over one to three coordinates as axes."""
     system = stage.system
     symbols = [coordinate(c.name) for c in system.coordinates]
@@ -51,7 +51,7 @@ def coordinate_sketch(stage: Stage) -> Sketch:
     )
 
 
-def gauge_sketch(stage: Stage) -> Sketch:
+def gauge_sketch(stage: StagedScene) -> Sketch:
     """Each coordinate on a line of its own: for motions of more coordinates than a picture has axes."""
     shapes: list[Shape] = []
     values = [pose.shift[0] for name, pose in stage.arrangement.poses.items() if name != GROUND]
@@ -63,7 +63,9 @@ def gauge_sketch(stage: Stage) -> Sketch:
         ends = (Vertex(GROUND, (-half, height, 0.0)), Vertex(GROUND, (half, height, 0.0)))
         ticks = ((x, height - 0.06 * apart, height + 0.06 * apart) for x in (-1.0, 0.0, 1.0))
         shapes.append(Shape("line", ends, "axis"))
-        shapes += [Shape("line", (Vertex(GROUND, (x, a, 0.0)), Vertex(GROUND, (x, b, 0.0))), "axis") for x, a, b in ticks]
+        shapes += [
+            Shape("line", (Vertex(GROUND, (x, a, 0.0)), Vertex(GROUND, (x, b, 0.0))), "axis") for x, a, b in ticks
+        ]
         dot = (Vertex(c.name, (0.0, height, 0.0)),)
         shapes.append(Shape("ball", dot, "point", "moving" if c.name in moved else "plain", c.name, 0.12 * apart))
         shapes.append(Shape("words", (ends[0],), "name", text=c.name))
@@ -80,7 +82,7 @@ def gauge_sketch(stage: Stage) -> Sketch:
     )
 
 
-def _axes(stage: Stage, symbols: Sequence[Expr], half: float) -> Iterator[Shape]:
+def _axes(stage: StagedScene, symbols: Sequence[Expr], half: float) -> Iterator[Shape]:
     """A line for each coordinate, with its name and a mark at 1."""
     del stage
     for symbol, way in zip(symbols, np.eye(3), strict=False):
@@ -95,7 +97,7 @@ def _axes(stage: Stage, symbols: Sequence[Expr], half: float) -> Iterator[Shape]
         yield Shape("words", (Vertex(GROUND, place(way - 2.6 * side)),), "name", text="1")
 
 
-def _sets(stage: Stage, symbols: Sequence[Expr], half: float) -> Iterator[Shape]:
+def _sets(stage: StagedScene, symbols: Sequence[Expr], half: float) -> Iterator[Shape]:
     """Curves and surfaces of finite relations; and the field of what differential ones allow."""
     relations = [(c.name, r) for c in stage.system.constraints for r in c.relations]
     finite = set(finite_relations(stage.system, ("=", ">=", ">")))
@@ -103,8 +105,8 @@ def _sets(stage: Stage, symbols: Sequence[Expr], half: float) -> Iterator[Shape]
     bounds = np.array([[-half, half]] * 3)
     lines = lines_of_plane if len(symbols) == 2 else lines_of_space
     if len(symbols) == MOST and len(equal) > 1:
-        line = curve(stage.arrangement, equal, symbols, half)
-        yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), "locus")
+        meeting = curve(stage.arrangement, equal, symbols, half)
+        yield Shape("line", _grounded(meeting), "locus")
     for name, relation in relations:
         if relation.expr not in finite or len(symbols) == 1:
             continue
@@ -117,5 +119,5 @@ def _sets(stage: Stage, symbols: Sequence[Expr], half: float) -> Iterator[Shape]
         yield from elements(distribution, range(len(symbols)), 0.9 * half)
 
 
-def _grounded(line: Array) -> tuple[Vertex, ...]:
+def _grounded(line: Iterable[Array]) -> tuple[Vertex, ...]:
     return tuple(Vertex(GROUND, place(p)) for p in line)

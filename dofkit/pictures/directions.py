@@ -12,7 +12,7 @@ from dofkit.pictures.alternative import alternative, answer
 from dofkit.pictures.fields import Distribution, element, elements
 from dofkit.pictures.mechanism import notes_of
 from dofkit.pictures.shapes import AT_REST, Array, Role, Shape, Sketch, Vertex, place
-from dofkit.pictures.stage import Stage
+from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND
 
 #: Half of the box that is shown, the length of directions, the step of brackets, and the sides of their square.
@@ -38,12 +38,12 @@ class Direction3(NamedTuple):
     order: int
 
 
-def phase_sketch(stage: Stage) -> Sketch:
+def phase_sketch(stage: StagedScene) -> Sketch:
     """The allowed directions of a scene's forms about its configuration, and what their brackets add."""
     report, system = stage.report, stage.system
     if len(system.coordinates) < 2 or not any(e.form in ("pfaffian", "nonlinear") for e in report.constraints):
         raise NoFormsError(
-            "a picture of directions needs differential constraints between two coordinates or more; `draw` shows the rest"
+            "a picture of directions needs differential constraints, and two coordinates or more; `draw` shows the rest"
         )
     distribution = Distribution(stage.arrangement)
     found = directions_of(distribution)

@@ -117,7 +117,8 @@ def kernel(rows: Array, columns: int) -> Array:
 
 def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:
     """The basis reduced so that each row alone moves one column, the first that can of an ``order``; and these."""
-    rows, pivots = basis.copy(), []
+    rows = basis.copy()
+    pivots: list[int] = []
     for column in order:
         k = len(pivots)
         if k == len(rows):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 
 import numpy as np
@@ -51,7 +51,7 @@ class Distribution:
 
 
 def _pivots(basis: Array) -> list[int]:
-    """Columns on which a basis is clearly of full rank: one after the other, the largest less what those before span."""
+    """Columns on which a basis is clearly of full rank, each the largest less what those before span."""
     found: list[int] = []
     left = basis.copy()
     for _ in range(len(basis)):
@@ -63,7 +63,7 @@ def _pivots(basis: Array) -> list[int]:
     return sorted(found)
 
 
-def element(q: Sequence[float], directions: Array, size: float, role: Role = "field") -> Iterator[Shape]:
+def element(q: Iterable[float], directions: Array, size: float, role: Role = "field") -> Iterator[Shape]:
     """The allowed directions at a point: a short line, or a small disc."""
     middle = np.array(place(q))
     spanned = _orthonormal(directions)

@@ -24,7 +24,7 @@ LEAST = 0.55
 FAINT = Ink("#444444", layer=9)
 
 
-class Fit(NamedTuple):
+class PaperScale(NamedTuple):
     """How the sketch stands on the sheet: points by a unit of length, and where the origin is."""
 
     scale: float
@@ -39,7 +39,7 @@ class Standpoint(NamedTuple):
     """From where a sketch is seen, how it stands on the sheet, and how far each name is from what it names."""
 
     view: View
-    fit: Fit
+    fit: PaperScale
     offsets: tuple[Array, ...]
 
 
@@ -113,17 +113,15 @@ def _legend(sketch: Sketch) -> list[list[Mark]]:
         if x + wide > WIDTH - MARGIN and rows[-1]:
             rows.append([])
             x = MARGIN
-        if ink.fill:
-            spots = ((x, 0.0), (x + 16, 0.0), (x + 16, 7.0), (x, 7.0))
-        else:
-            spots = ((x, 3.5), (x + 16, 3.5))
+        box = ((x, 0.0), (x + 16, 0.0), (x + 16, 7.0), (x, 7.0))
+        spots = box if ink.fill else ((x, 3.5), (x + 16, 3.5))
         rows[-1].append(Mark(spots, ink, closed=bool(ink.fill)))
         rows[-1].append(Mark(((x + 21, 0.5),), FAINT, text=text, size=NOTE, align="start"))
         x += wide
     return [row for row in rows if row]
 
 
-def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> Fit:
+def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> PaperScale:
     """The largest scale at which the sketch, wherever it moves, stays on the sheet."""
     margins = margins_of(sketch)
     shapes = [s for s in sketch.shapes if s.kind != "words"]
@@ -137,7 +135,7 @@ def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> Fit:
     wide, tall = WIDTH - 2 * (MARGIN + ROOM), margins.high - margins.low - 2 * ROOM * 0.7
     scale = float(min(wide / sides[0], tall / sides[1]))
     middle = np.array([WIDTH / 2, (margins.high + margins.low) / 2])
-    return Fit(scale, middle - scale * (low + high) / 2)
+    return PaperScale(scale, middle - scale * (low + high) / 2)
 
 
 def _at_least(low: Array, high: Array, least: float) -> tuple[Array, Array]:
@@ -146,7 +144,7 @@ def _at_least(low: Array, high: Array, least: float) -> tuple[Array, Array]:
     return low - more, high + more
 
 
-def mark_of(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: Fit) -> Mark:
+def mark_of(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: PaperScale) -> Mark:
     """A shape on the sheet."""
     spots = fit.put(outline(sketch, shape, poses, view))
     told = tuple((float(x), float(y)) for x, y in spots)
@@ -178,7 +176,7 @@ def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
             yield Mark(((at[0], at[1] - 2.8),), Ink(GREY, layer=9), text=name, size=NOTE)
 
 
-def _offsets(sketch: Sketch, view: View, fit: Fit) -> Iterator[Array]:
+def _offsets(sketch: Sketch, view: View, fit: PaperScale) -> Iterator[Array]:
     """How far each name stands from what it names: where it covers least."""
     margins = margins_of(sketch)
     words = [s for s in sketch.shapes if s.kind == "words"]
@@ -197,11 +195,11 @@ def name_size(sketch: Sketch) -> float:
     return NAME if sum(s.kind == "words" for s in sketch.shapes) < 26 else NAME - 2
 
 
-def _anchor(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: Fit) -> Array:
+def _anchor(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: PaperScale) -> Array:
     return np.asarray(np.mean([fit.put(view.seen(sketch.at(v, poses))) for v in shape.vertices], axis=0))
 
 
-def _name_marks(sketch: Sketch, poses: Poses, view: View, fit: Fit, offsets: Sequence[Array]) -> Iterator[Mark]:
+def _name_marks(sketch: Sketch, poses: Poses, view: View, fit: PaperScale, offsets: Sequence[Array]) -> Iterator[Mark]:
     size = name_size(sketch)
     for shape, offset in zip((s for s in sketch.shapes if s.kind == "words"), offsets, strict=True):
         x, y = _anchor(sketch, shape, poses, view, fit) + offset
@@ -209,7 +207,7 @@ def _name_marks(sketch: Sketch, poses: Poses, view: View, fit: Fit, offsets: Seq
         yield Mark((spot,), ink_of(shape), text=shape.text, size=size, owner=shape.owner)
 
 
-def _busy(sketch: Sketch, poses: Poses, view: View, fit: Fit) -> Array:
+def _busy(sketch: Sketch, poses: Poses, view: View, fit: PaperScale) -> Array:
     """Points of all that is drawn, a few points of length apart."""
     found = [np.zeros((0, 2))]
     for shape in sketch.shapes:
@@ -248,4 +246,3 @@ def _best_offset(
             if cost < least:
                 best, least = at - anchor, cost
     return best
-

@@ -13,7 +13,7 @@ from dofkit.expressions.tree import Expr, coordinate
 from dofkit.pictures.arrangement import Arrangement
 from dofkit.pictures.evaluation import derivatives, evaluated, values_at, with_unit_rows
 from dofkit.pictures.shapes import Array, Role, Shape, Vertex, place
-from dofkit.pictures.stage import Stage
+from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND, Connection, Relation
 
 #: Points of a grid in the plane, and in each slice of space; slices in each direction; points of a drawn line.
@@ -23,7 +23,7 @@ STEPS = 220
 
 
 def level_lines(value: Callable[[Array, Array], Array], box: Sequence[float], count: int = GRID) -> list[Array]:
-    """Where a function of the plane is 0 in a box (low x, high x, low y, high y), as lines of points. Needs matplotlib."""
+    """Where a function of the plane is 0 in a box (low x, high x, low y, high y), as lines. Needs matplotlib."""
     x, y = np.meshgrid(np.linspace(box[0], box[1], count), np.linspace(box[2], box[3], count))
     z = np.ma.masked_invalid(np.broadcast_to(value(x, y), x.shape))
     if z.count() == 0 or float(z.min()) > 0 or float(z.max()) < 0 or float(np.ptp(z)) == 0:
@@ -47,8 +47,8 @@ def _thinned(line: Array) -> Array:
     return np.asarray(line[kept])
 
 
-def locus(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
-    """For each relation between places: a curve or surface of the one that it holds, or a tie between those it couples."""
+def locus(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
+    """For each relation between places: a curve or surface of the one that it holds, or ties between several."""
     del connection
     alone: dict[str, list[Relation]] = {}
     ties = set()
@@ -66,13 +66,13 @@ def locus(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
         yield from _alone(stage, owner, relations)
 
 
-def _owners(stage: Stage, relation: Relation) -> list[str]:
+def _owners(stage: StagedScene, relation: Relation) -> list[str]:
     """The particles and bodies whose coordinates or velocities a relation names."""
     named = {s.args[1] for s in relation.expr.symbols}
     return list(dict.fromkeys(c.owner for c in stage.system.coordinates if c.name in named and c.owner))
 
 
-def _is_place(stage: Stage, relation: Relation, owner: str) -> bool:
+def _is_place(stage: StagedScene, relation: Relation, owner: str) -> bool:
     """Does it hold where the owner is, and nothing else?"""
     places = {coordinate(c.name) for c in stage.system.coordinates if c.owner == owner and c.role in ("x", "y", "z")}
     kinds = {s.args[0] for s in relation.expr.symbols}
@@ -80,13 +80,13 @@ def _is_place(stage: Stage, relation: Relation, owner: str) -> bool:
     return bool(own) and own <= places and kinds <= {"coordinate", "parameter", "time"}
 
 
-def _origin(stage: Stage, owner: str) -> Vertex:
+def _origin(stage: StagedScene, owner: str) -> Vertex:
     if owner in stage.system.starts:
         return Vertex(owner, stage.arrangement.point(stage.system.starts[owner]))
     return Vertex(owner, (0.0, 0.0, 0.0))
 
 
-def _alone(stage: Stage, owner: str, relations: Sequence[Relation]) -> Iterator[Shape]:
+def _alone(stage: StagedScene, owner: str, relations: Sequence[Relation]) -> Iterator[Shape]:
     """The curves or surfaces of one owner."""
     symbols = [coordinate(c.name) for c in stage.system.coordinates if c.owner == owner and c.role in ("x", "y", "z")]
     exprs = [r.expr for r in relations if r.sense == "="]
@@ -100,7 +100,7 @@ def _alone(stage: Stage, owner: str, relations: Sequence[Relation]) -> Iterator[
             yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), role if len(symbols) == 2 else "surface")
 
 
-def meeting_shapes(stage: Stage) -> Iterator[Shape]:
+def meeting_shapes(stage: StagedScene) -> Iterator[Shape]:
     """In space, the curve where two surfaces meet that hold the same particle or body."""
     if stage.system.dimension < 3:
         return
@@ -117,7 +117,7 @@ def meeting_shapes(stage: Stage) -> Iterator[Shape]:
             yield Shape("line", tuple(Vertex(GROUND, place(p)) for p in line), "locus", owner=owner)
 
 
-def _bounds(stage: Stage) -> Array:
+def _bounds(stage: StagedScene) -> Array:
     """A box around the picture and the origin: low and high by direction."""
     middle = np.array(stage.centre)
     reach = [np.zeros(3), middle, *(pose.moved((0.0, 0.0, 0.0)) for pose in stage.arrangement.poses.values())]
@@ -140,7 +140,7 @@ def lines_of_space(arrangement: Arrangement, e: Expr, symbols: Sequence[Expr], b
     numbers = arrangement.numbers
     for axis in range(3):
         i, j = [k for k in range(3) if k != axis]
-        for height in np.linspace(*bounds[axis], SLICES + 2)[1:-1]:
+        for height in np.linspace(bounds[axis][0], bounds[axis][1], SLICES + 2)[1:-1]:
 
             def value(a: Array, b: Array, axis: int = axis, h: float = float(height)) -> Array:
                 i, j = [k for k in range(3) if k != axis]
@@ -153,7 +153,7 @@ def lines_of_space(arrangement: Arrangement, e: Expr, symbols: Sequence[Expr], b
 
 
 def curve(arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Expr], limit: float) -> list[Array]:
-    """Where surfaces meet, followed from where the point stands to both sides, until it closes or leaves the picture."""
+    """Where surfaces meet, followed from where the point stands until it closes or leaves the picture."""
     start = np.array([arrangement.numbers.get(s, 0.0) for s in symbols])
     ways = []
     for sign in (1.0, -1.0):
@@ -190,7 +190,7 @@ def _ahead(
     return moved, ahead
 
 
-def profile(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
+def profile(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
     """The curve along which a point may slide, carried by the second member."""
     relations = stage.system.constraints[number].relations
     vertex = next(stage.vertices(connection), None)

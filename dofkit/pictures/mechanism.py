@@ -10,7 +10,7 @@ from dofkit.pictures.bodies import body_shapes, force_shapes, particle_shapes, r
 from dofkit.pictures.loci import meeting_shapes
 from dofkit.pictures.runs import run_shapes
 from dofkit.pictures.shapes import Shape, Sketch, State, Vertex
-from dofkit.pictures.stage import Stage
+from dofkit.pictures.stage import StagedScene
 from dofkit.pictures.symbols import joint_shapes, name_of
 
 #: More names of constraints than this are left out, and so many equations are told below.
@@ -19,7 +19,7 @@ _WEIGHT: tuple[State, ...] = ("plain", "moving", "redundant", "conflicting")
 FREE_PLACES = "A schematic drawing: the scene does not say where its joints are."
 
 
-def sketch_of(stage: Stage) -> Sketch:
+def sketch_of(stage: StagedScene) -> Sketch:
     """The sketch of a mechanism."""
     shapes = [*rail_shapes(stage), *body_shapes(stage), *force_shapes(stage)]
     for number in range(len(stage.system.constraints)):
@@ -39,7 +39,7 @@ def sketch_of(stage: Stage) -> Sketch:
     )
 
 
-def _names(stage: Stage) -> Iterator[Shape]:
+def _names(stage: StagedScene) -> Iterator[Shape]:
     """The names that were given to constraints, one for those at one place."""
     told: dict[tuple[Vertex, ...], list[int]] = {}
     named = [k for k, c in enumerate(stage.scene.constraints) if c.name is not None]
@@ -53,7 +53,7 @@ def _names(stage: Stage) -> Iterator[Shape]:
         yield name_of(stage, ", ".join(names), anchor, max(states, key=_WEIGHT.index))
 
 
-def _anchor(stage: Stage, number: int) -> tuple[Vertex, ...]:
+def _anchor(stage: StagedScene, number: int) -> tuple[Vertex, ...]:
     """What the name of a constraint stands beside."""
     connection, at = stage.system.connections[number], stage.places[number]
     symbol = stage.symbol(number)
@@ -71,7 +71,7 @@ def _anchor(stage: Stage, number: int) -> tuple[Vertex, ...]:
     return (Vertex(member, at),)
 
 
-def notes_of(stage: Stage) -> Iterator[str]:
+def notes_of(stage: StagedScene) -> Iterator[str]:
     """What is told below a picture."""
     if stage.arrangement.note is not None:
         yield stage.arrangement.note
@@ -87,11 +87,10 @@ def notes_of(stage: Stage) -> Iterator[str]:
     yield from equations_told(stage)
 
 
-def equations_told(stage: Stage) -> Iterator[str]:
+def equations_told(stage: StagedScene) -> Iterator[str]:
     """The equations of a scene, as they are written."""
     written = [c for c in stage.system.constraints if c.facts.written]
     for constraint in written[:MOST_TEXTS]:
         yield f"{constraint.name}: {constraint.text}"
     if len(written) > MOST_TEXTS:
         yield f"and {len(written) - MOST_TEXTS} further equations"
-

@@ -12,7 +12,7 @@ from dofkit.motion.sampled.configurations import configurations
 from dofkit.pictures.arrangement import poses_of
 from dofkit.pictures.rates import swings
 from dofkit.pictures.shapes import Clip, Poses, Sketch
-from dofkit.pictures.stage import Stage
+from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND
 
 #: Steps of a sampled motion to either side, their length, and the most frames that are kept.
@@ -23,7 +23,7 @@ FAR, BACK = 0.8, 0.03
 SHORT, MOST_SEEN = 50, 60
 
 
-def clips_of(stage: Stage, sketch: Sketch) -> list[Clip]:
+def clips_of(stage: StagedScene, sketch: Sketch) -> list[Clip]:
     """All motions that are shown: a finite one where there is, and where there are several freedoms or none, each."""
     finite = _finite(stage, _Seen(sketch))
     several = len(stage.motions) > 1 or not finite
@@ -46,7 +46,7 @@ class _Seen:
         return max((float(np.linalg.norm(a - b)) for a, b in pairs), default=0.0)
 
 
-def _finite(stage: Stage, seen: _Seen) -> list[Clip]:
+def _finite(stage: StagedScene, seen: _Seen) -> list[Clip]:
     """A sampled motion, cut where it leaves the picture; none where nothing moves or none was followed."""
     several = len(stage.motions) > 1
     try:
@@ -65,7 +65,7 @@ def _finite(stage: Stage, seen: _Seen) -> list[Clip]:
     return [Clip(name, tuple(thinned[:-1] if turn else thinned), bool(turn))] if len(thinned) > 1 else []
 
 
-def _near_values(stage: Stage) -> dict[str, float]:
+def _near_values(stage: StagedScene) -> dict[str, float]:
     """The numbers of parameters, and where the drawing gives none of coordinates, for where the motion begins."""
     system, numbers = stage.system, stage.arrangement.numbers
     found = {p: numbers[parameter(p)] for p in system.parameters}

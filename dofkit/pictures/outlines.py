@@ -19,7 +19,7 @@ def outline(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:
     if shape.kind == "hull":
         return _rounded_hull(seen, shape.size)
     if shape.kind == "ball":
-        return seen[0] + shape.size * _circle()
+        return np.asarray(seen[0] + shape.size * _circle())
     if shape.kind == "coil":
         return _coil(seen[0], seen[1], shape.size)
     if shape.kind == "bow":

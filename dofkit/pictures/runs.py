@@ -10,7 +10,7 @@ import numpy as np
 
 from dofkit.pictures.loci import locus, profile
 from dofkit.pictures.shapes import Array, Place, Shape, State, Vertex, place
-from dofkit.pictures.stage import Stage, radius_of
+from dofkit.pictures.stage import StagedScene, radius_of
 from dofkit.pictures.symbols import hatching, stand
 from dofkit.scene.symbols import Run
 from dofkit.system import GROUND, Connection
@@ -19,7 +19,7 @@ from dofkit.system import GROUND, Connection
 TEETH, DEPTH = 14, 0.07
 
 
-def run_shapes(stage: Stage, number: int) -> Iterator[Shape]:
+def run_shapes(stage: StagedScene, number: int) -> Iterator[Shape]:
     """What a constraint draws besides strokes."""
     draw = _RUNS.get(stage.symbol(number).run)
     if draw is not None:
@@ -29,7 +29,7 @@ def run_shapes(stage: Stage, number: int) -> Iterator[Shape]:
             yield shape if own else shape._replace(owner=name, state=stage.state(name))
 
 
-def _bar(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
+def _bar(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
     """Bars between its points, with a ring at each end; along a line they are bows, so that they can be told apart."""
     del number
     ends = list(stage.vertices(connection))
@@ -46,7 +46,7 @@ def _bar(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
             yield from stand(stage, end.at)
 
 
-def _rope(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
+def _rope(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
     """A line over small pulleys."""
     del number
     points = list(stage.vertices(connection))
@@ -67,7 +67,7 @@ def _rope(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
             yield from stand(stage, point.at)
 
 
-def _teeth(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
+def _teeth(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
     """Two toothed wheels about the pins of their bodies, of radii by the ratio."""
     members = connection.members[:2]
     ratio = 1.0 if connection.number is None else stage.arrangement.number(connection.number)
@@ -99,7 +99,7 @@ def _toothed(radius: float, teeth: int, phase: float) -> list[Array]:
     return spots
 
 
-def _pin(stage: Stage, member: str, number: int) -> Place:
+def _pin(stage: StagedScene, member: str, number: int) -> Place:
     """The pin about which a body turns; else where it begins."""
     for k, other in enumerate(stage.system.connections):
         at = stage.places[k]
@@ -108,7 +108,7 @@ def _pin(stage: Stage, member: str, number: int) -> Place:
     return stage.arrangement.point(stage.system.starts.get(member, ()))
 
 
-def _wheel(stage: Stage, number: int, connection: Connection) -> Iterator[Shape]:
+def _wheel(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
     """A disc on a hatched line; in space a ball on a plane."""
     body = connection.members[0]
     radius = radius_of(stage.scene, stage.arrangement, number)
@@ -144,7 +144,7 @@ def ground_plane(middle: Array, half: float) -> Shape:
     )
 
 
-_Draw = Callable[[Stage, int, Connection], Iterator[Shape]]
+_Draw = Callable[[StagedScene, int, Connection], Iterator[Shape]]
 _RUNS: Mapping[Run, _Draw] = {
     "bar": _bar,
     "bars": _bar,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
@@ -49,11 +49,11 @@ class Displacement(NamedTuple):
     turn: Array
     shift: Array
 
-    def moved(self, at: Sequence[float]) -> Array:
+    def moved(self, at: Sequence[float] | Array) -> Array:
         """Where a point of the drawing is."""
         return np.asarray(self.turn @ np.asarray(at, dtype=float) + self.shift)
 
-    def back(self, point: Sequence[float]) -> Place:
+    def back(self, point: Sequence[float] | Array) -> Place:
         """Where in the drawing the point stands that is now here."""
         x, y, z = self.turn.T @ (np.asarray(point, dtype=float) - self.shift)
         return float(x), float(y), float(z)
@@ -97,7 +97,7 @@ class Sketch:
         return (self.poses if poses is None else poses).get(vertex.carrier, AT_REST).moved(vertex.at)
 
 
-def place(values: Sequence[float]) -> Place:
+def place(values: Iterable[float]) -> Place:
     """A point of one, two or three numbers as one of space."""
     x, y, z = (*(float(v) for v in values), 0.0, 0.0)[:3]
     return x, y, z

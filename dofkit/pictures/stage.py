@@ -26,7 +26,7 @@ MOST_COLUMNS = 300
 
 
 @dataclass(frozen=True)
-class Stage:
+class StagedScene:
     """A scene with its places. ``places``: of each constraint's symbol in the drawing (None: it has none); ``unit``:
     the size of symbols, ``size`` that of the whole, ``schematic``: some places are made up.
     """
@@ -75,7 +75,7 @@ class Stage:
         yield from vertices_of(self.arrangement, connection)
 
     def spot(self, number: int, member: str) -> Array:
-        """Where a symbol stands in the drawing of a member: particles are their own place, rails are about the point."""
+        """Where a symbol stands in the drawing of a member: particles are their own place, rails about the point."""
         connection, at = self.system.connections[number], np.array(self.places[number] or (0.0, 0.0, 0.0))
         if any(p.carrier == member and p.particle for p in connection.points):
             return np.zeros(3)
@@ -100,7 +100,7 @@ def vertices_of(arrangement: Arrangement, connection: Connection) -> Iterator[Ve
             yield Vertex(point.carrier, arrangement.point(point.at))
 
 
-def stage_of(scene: Scene, report: Report) -> Stage:
+def stage_of(scene: Scene, report: Report) -> StagedScene:
     """Look at a scene. Raises SceneError as `lower` does."""
     system = lower(scene)
     arrangement = arrangement_of(system)
@@ -111,7 +111,7 @@ def stage_of(scene: Scene, report: Report) -> Stage:
     places, schematic = _all_places(scene, arrangement, given, unit)
     size, centre = _extent([*known, *(p for p, told in zip(places, given, strict=True) if p and told is None)])
     motions = _motions(arrangement, report)
-    return Stage(
+    return StagedScene(
         scene, report, arrangement, tuple(places), motions, movers(arrangement, motions), unit, size, centre, schematic
     )
 
@@ -242,7 +242,9 @@ def _clear(wanted: Place, taken: Sequence[Place], gap: float, dimension: int) ->
 def axis_of(arrangement: Arrangement, connection: Connection, number: int) -> Array:
     """A direction of a joint in the drawing: of length 1, and of some way where it is left open."""
     given = connection.directions[number] if number < len(connection.directions) else None
-    usual = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)] if arrangement.system.dimension < 3 else [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
+    usual = (
+        [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)] if arrangement.system.dimension < 3 else [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
+    )
     axis = np.array(usual[min(number, 1)] if given is None else arrangement.point(given))
     size = float(np.linalg.norm(axis))
     return axis / size if size > 1e-12 else np.array(usual[0])

@@ -12,16 +12,16 @@ import numpy as np
 from dofkit.base.errors import ArgumentError
 from dofkit.base.spelling import no_such
 from dofkit.methods.classify import classify
-from dofkit.pictures.coordinates import MOST, coordinate_sketch, is_bare
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
+from dofkit.pictures.coordinates import MOST, coordinate_sketch, is_bare
+from dofkit.pictures.directions import phase_sketch
 from dofkit.pictures.layout import page_of
 from dofkit.pictures.mechanism import sketch_of
 from dofkit.pictures.paper import Page
-from dofkit.pictures.directions import phase_sketch
 from dofkit.pictures.player import framed, page_html
 from dofkit.pictures.raster import png_of, write_pdf
 from dofkit.pictures.shapes import Sketch
-from dofkit.pictures.stage import Stage, stage_of
+from dofkit.pictures.stage import StagedScene, stage_of
 from dofkit.pictures.svg import svg_of
 from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
@@ -70,7 +70,7 @@ class Picture:
         target = Path(path)
         write = _WRITERS.get(target.suffix.lower())
         if write is None:
-            raise ArgumentError(no_such(target.suffix or str(path), list(_WRITERS), "kind of picture"))
+            raise ArgumentError(no_such(target.suffix or str(path), list(_WRITERS), "ending"))
         write(self, target)
         return target
 
@@ -126,7 +126,7 @@ def draw(scene: SceneLike, report: Report | None = None) -> Picture:
     return Picture(*whole_sketch(staged(given, told)))
 
 
-def staged(scene: Scene, report: Report) -> Stage:
+def staged(scene: Scene, report: Report) -> StagedScene:
     """The scene with its places, symbols as large as the whole picture needs them."""
     stage = stage_of(scene, report)
     if is_bare(stage.system):
@@ -139,7 +139,7 @@ def staged(scene: Scene, report: Report) -> Stage:
     return replace(stage, unit=max(stage.unit, 0.024 * reach))
 
 
-def whole_sketch(stage: Stage) -> tuple[Sketch, str]:
+def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
     """The sketch of a scene of any kind, and the script that goes with it."""
     if not is_bare(stage.system):
         return sketch_of(stage), ""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from dofkit.pictures.shapes import Array, Place, Role, Shape, State, Vertex, place
-from dofkit.pictures.stage import Stage, axis_of, carriers
+from dofkit.pictures.stage import StagedScene, axis_of, carriers
 from dofkit.scene.symbols import Stroke
 from dofkit.system import GROUND, Connection
 
@@ -15,7 +15,7 @@ from dofkit.system import GROUND, Connection
 RAIL, TICKS = 0.8, 9
 
 
-def joint_shapes(stage: Stage, number: int) -> Iterator[Shape]:
+def joint_shapes(stage: StagedScene, number: int) -> Iterator[Shape]:
     """The strokes of a constraint's symbol."""
     connection, symbol, at = stage.system.connections[number], stage.symbol(number), stage.places[number]
     if at is None:
@@ -36,7 +36,7 @@ def joint_shapes(stage: Stage, number: int) -> Iterator[Shape]:
         yield from _footing(stage, number, at, frame)
 
 
-def _frame(stage: Stage, connection: Connection) -> Array:
+def _frame(stage: StagedScene, connection: Connection) -> Array:
     """Along the axis, across it, and across both, as rows."""
     first = axis_of(stage.arrangement, connection, 0)
     if stage.flat:
@@ -50,7 +50,7 @@ def _frame(stage: Stage, connection: Connection) -> Array:
     return np.array([first, second, np.cross(first, second)])
 
 
-def _stroke(stage: Stage, stroke: Stroke, carrier: str, spot: Array, frame: Array) -> Shape:
+def _stroke(stage: StagedScene, stroke: Stroke, carrier: str, spot: Array, frame: Array) -> Shape:
     role: Role = "joint" if stroke.filled or not stage.flat else "guide"
     vertices = []
     for told in stroke.spots:
@@ -63,18 +63,20 @@ def _stroke(stage: Stage, stroke: Stroke, carrier: str, spot: Array, frame: Arra
     return Shape("line", tuple(vertices), role)
 
 
-def _footing(stage: Stage, number: int, at: Place, frame: Array) -> Iterator[Shape]:
+def _footing(stage: StagedScene, number: int, at: Place, frame: Array) -> Iterator[Shape]:
     """What holds a joint to the ground: hatching along a rail, or a stand under a pin."""
     symbol, connection = stage.symbol(number), stage.system.connections[number]
     if symbol.rails and stage.flat:
         side = frame[1] if frame[1][1] < 0 or (frame[1][1] == 0 and frame[1][0] > 0) else -frame[1]
         gap = RAIL if not connection.points else 0.7
-        yield hatching(stage, stage.spot(number, GROUND) + side * gap * stage.unit, frame[0] * symbol.rails * stage.unit, side)
+        yield hatching(
+            stage, stage.spot(number, GROUND) + side * gap * stage.unit, frame[0] * symbol.rails * stage.unit, side
+        )
     elif not symbol.rails:
         yield from stand(stage, at)
 
 
-def hatching(stage: Stage, middle: Array, half: Array, side: Array, ticks: int = TICKS) -> Shape:
+def hatching(stage: StagedScene, middle: Array, half: Array, side: Array, ticks: int = TICKS) -> Shape:
     """Short strokes along a line, on one side of it, as one zigzag."""
     way = half / max(float(np.linalg.norm(half)), 1e-12)
     slant = (side - way) * max(0.55 * stage.unit, 0.07 * float(np.linalg.norm(half)))
@@ -85,7 +87,7 @@ def hatching(stage: Stage, middle: Array, half: Array, side: Array, ticks: int =
     return Shape("line", tuple(Vertex(GROUND, place(s)) for s in spots), "hatch")
 
 
-def stand(stage: Stage, at: Place) -> Iterator[Shape]:
+def stand(stage: StagedScene, at: Place) -> Iterator[Shape]:
     """A triangle on hatched ground below a point of the world; in space a tripod on a plate."""
     u, root = stage.unit, np.array(at)
     if stage.flat:
@@ -105,6 +107,6 @@ def stand(stage: Stage, at: Place) -> Iterator[Shape]:
         yield Shape("line", (Vertex(GROUND, at), Vertex(GROUND, place(root + corner))), "ground")
 
 
-def name_of(stage: Stage, text: str, vertices: tuple[Vertex, ...], state: State = "plain") -> Shape:
+def name_of(stage: StagedScene, text: str, vertices: tuple[Vertex, ...], state: State = "plain") -> Shape:
     """A name beside the middle of some vertices."""
     return Shape("words", vertices, "name", state, text, size=stage.unit, text=text)
