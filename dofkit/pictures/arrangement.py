@@ -16,7 +16,7 @@ from dofkit.expressions.tree import TIME, Expr, coordinate, parameter
 from dofkit.motion.sampled.configurations import configurations
 from dofkit.pictures.evaluation import derivatives, evaluated, values_at, with_unit_rows
 from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, place
-from dofkit.system import GROUND, PARTICLE_ROLES, System
+from dofkit.system import GROUND, PARTICLE_ROLES, Coordinate, System
 
 #: Rounds of Newton's method, the residual that is as good as 0, and how many beginnings are tried.
 ROUNDS, MET, STARTS = 60, 1e-9, 8
@@ -184,8 +184,11 @@ def poses_of(system: System, numbers: Mapping[Expr, float], *, gibbs: bool) -> d
     """Where everything is; ``gibbs``: turns of spatial bodies are in the system's own charts, else Euler's angles."""
     found = {GROUND: AT_REST}
     rotations = {r.body: r for r in system.rotations}
+    owned: dict[str | None, list[Coordinate]] = {}
+    for c in system.coordinates:
+        owned.setdefault(c.owner, []).append(c)
     for body in system.bodies:
-        own = [c for c in system.coordinates if c.owner == body]
+        own = owned[body]
         told = [float(numbers.get(coordinate(c.name), 0.0)) for c in own]
         start = np.array(place([float(evaluated(e, numbers)) for e in system.starts[body]]))
         turn = np.eye(3)
@@ -207,7 +210,7 @@ def poses_of(system: System, numbers: Mapping[Expr, float], *, gibbs: bool) -> d
         for c in system.coordinates:
             found[c.name] = Displacement(np.eye(3), np.array(place([numbers.get(coordinate(c.name), 0.0)])))
     for particle in system.particles:
-        own = [c for c in system.coordinates if c.owner == particle]
+        own = owned[particle]
         found[particle] = Displacement(np.eye(3), np.array(place([numbers.get(coordinate(c.name), 0.0) for c in own])))
     return found
 

@@ -32,7 +32,7 @@ def coordinate_sketch(stage: StagedScene) -> Sketch:
     system = stage.system
     symbols = [coordinate(c.name) for c in system.coordinates]
     values = [stage.arrangement.numbers.get(s, 0.0) for s in symbols]
-    half = max(1.5, 1.4 * max(map(abs, values)))
+    half = _half(stage, symbols, max(1.5, 1.4 * max(map(abs, values))))
     shapes = [*_axes(stage, symbols, half), *_sets(stage, symbols, half)]
     state: State = "moving" if stage.motions else "plain"
     point = (Vertex(POINT, (0.0, 0.0, 0.0)),)
@@ -49,6 +49,18 @@ def coordinate_sketch(stage: StagedScene) -> Sketch:
         axes=(),
         units="in the scene's units",
     )
+
+
+def _half(stage: StagedScene, symbols: Sequence[Expr], half: float) -> float:
+    """Half of the box that is shown: larger where a curve of the plane would be left out."""
+    if len(symbols) != 2:
+        return half
+    equal = [e for e in finite_relations(stage.system) if e.symbols & set(symbols)]
+    for wider in (half, 2.5 * half, 6.0 * half):
+        bounds = np.array([[-wider, wider]] * MOST)
+        if all(any(True for _ in lines_of_plane(stage.arrangement, e, symbols, bounds)) for e in equal):
+            return wider
+    return half
 
 
 def gauge_sketch(stage: StagedScene) -> Sketch:

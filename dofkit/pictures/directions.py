@@ -46,6 +46,8 @@ def phase_sketch(stage: StagedScene) -> Sketch:
             "a picture of directions needs differential constraints, and two coordinates or more; `draw` shows the rest"
         )
     distribution = Distribution(stage.arrangement)
+    if not distribution.fields:
+        raise NoFormsError("nothing can move here: there are no directions to show")
     found = directions_of(distribution)
     shown = _shown(distribution, found)
     shapes = [*elements(distribution, shown, HALF)] if len(shown) > 1 else []

@@ -107,12 +107,13 @@ def with_unit_rows(rows: Array) -> Array:
     return np.asarray(rows / np.where(size > SMALL, size, 1.0))
 
 
-def kernel(rows: Array, columns: int) -> Array:
-    """A basis of what all rows take to 0, as rows."""
+def kernel(rows: Array, columns: int, dimension: int | None = None) -> Array:
+    """A basis of what all rows take to 0, as rows; of a ``dimension`` where that is known better than by size."""
     if not rows.size:
         return np.eye(columns)
     _, singular, right = np.linalg.svd(with_unit_rows(rows))
-    return np.asarray(right[int(np.sum(singular > SMALL)) :])
+    found = int(np.sum(singular > SMALL)) if dimension is None else max(0, columns - dimension)
+    return np.asarray(right[found:])
 
 
 def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:

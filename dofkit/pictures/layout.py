@@ -125,7 +125,7 @@ def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> PaperScale:
     """The largest scale at which the sketch, wherever it moves, stays on the sheet."""
     margins = margins_of(sketch)
     shapes = [s for s in sketch.shapes if s.kind != "words"]
-    seen = [outline(sketch, s, poses, view)[:, :2] for poses in every for s in shapes]
+    seen = [_box(sketch, s, poses, view) for poses in every for s in shapes]
     points = np.vstack(seen) if seen else np.zeros((1, 2))
     points = points[np.all(np.isfinite(points), axis=1)]
     low, high = np.min(points, axis=0), np.max(points, axis=0)
@@ -136,6 +136,14 @@ def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> PaperScale:
     scale = float(min(wide / sides[0], tall / sides[1]))
     middle = np.array([WIDTH / 2, (margins.high + margins.low) / 2])
     return PaperScale(scale, middle - scale * (low + high) / 2)
+
+
+def _box(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:
+    """Points between which a shape lies on paper."""
+    if shape.kind not in ("hull", "ball"):
+        return outline(sketch, shape, poses, view)[:, :2]
+    seen = np.array([view.seen(sketch.at(v, poses))[:2] for v in shape.vertices])
+    return np.vstack([seen - shape.size, seen + shape.size])
 
 
 def _at_least(low: Array, high: Array, least: float) -> tuple[Array, Array]:

@@ -31,6 +31,8 @@ def level_lines(value: Callable[[Array, Array], Array], box: Sequence[float], co
     found = _axes().contour(x, y, z, levels=[0.0])
     segments = found.allsegs[0]
     found.remove()
+    usual = float(np.ma.median(np.ma.abs(z)))
+    segments = [s for s in segments if _is_zero(value, s, usual)]
     return [s[:: max(1, len(s) // DRAWN)] if len(s) <= DRAWN else _thinned(s) for s in segments if len(s) > 1]
 
 
@@ -40,6 +42,12 @@ def _axes() -> Any:
     from matplotlib.figure import Figure
 
     return Figure().add_subplot()
+
+
+def _is_zero(value: Callable[[Array, Array], Array], line: Array, usual: float) -> bool:
+    """Is a function small along a line, as it is not where it changes its sign through a pole?"""
+    along = np.abs(np.broadcast_to(value(line[:, 0], line[:, 1]), len(line)))
+    return bool(np.median(np.nan_to_num(along, nan=np.inf)) <= 0.5 * usual)
 
 
 def _thinned(line: Array) -> Array:

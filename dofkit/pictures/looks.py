@@ -47,13 +47,13 @@ _PLAIN: Mapping[Role, Ink] = {
 }
 _LOUD: Mapping[State, Ink] = {
     "redundant": Ink("#B87A00", 2.2, (5.0, 2.5), fill="#FBE3B5", layer=6),
-    "conflicting": Ink(VERMILLION, 3.0, (1.2, 1.6), fill="#F7CDB4", layer=6),
+    "conflicting": Ink(VERMILLION, 3.2, (2.2, 1.4), fill="#F7CDB4", layer=6),
 }
 #: What the legend says of each state that occurs.
 MEANINGS: Mapping[State, str] = {
     "moving": "moves",
     "plain": "held still",
-    "redundant": "redundant",
+    "redundant": "redundant, wholly or in part",
     "conflicting": "contradicts others",
 }
 

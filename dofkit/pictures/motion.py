@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dofkit.base.deadline import limited
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import coordinate, parameter
 from dofkit.motion.sampled.configurations import configurations
@@ -21,6 +22,10 @@ STEPS, STEP, FRAMES = 160, 0.1, 96
 FAR, BACK = 0.8, 0.03
 #: Steps where there are several freedoms, and so many places of a sketch are compared.
 SHORT, MOST_SEEN = 50, 60
+#: Of many coordinates fewer steps are made: so many coordinates times steps, but not fewer steps than this.
+MANY, LEAST = 3000, 10
+#: So long a finite motion is looked for.
+SECONDS = 12.0
 
 
 def clips_of(stage: StagedScene, sketch: Sketch) -> list[Clip]:
@@ -49,8 +54,10 @@ class _Seen:
 def _finite(stage: StagedScene, seen: _Seen) -> list[Clip]:
     """A sampled motion, cut where it leaves the picture; none where nothing moves or none was followed."""
     several = len(stage.motions) > 1
+    steps = min(SHORT if several else STEPS, max(LEAST, MANY // max(1, len(stage.system.coordinates))))
     try:
-        told = configurations(stage.system, steps=SHORT if several else STEPS, step=STEP, values=_near_values(stage))
+        with limited(SECONDS):
+            told = configurations(stage.system, steps=steps, step=STEP, values=_near_values(stage))
     except DofkitError:
         return []
     numbers = stage.arrangement.numbers

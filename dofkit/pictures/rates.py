@@ -29,14 +29,15 @@ class FreeMotion(NamedTuple):
     rates: Mapping[Expr, float]
 
 
-def free_motions(arrangement: Arrangement, chosen: Sequence[str] = ()) -> list[FreeMotion]:
+def free_motions(arrangement: Arrangement, chosen: Sequence[str] = (), freedom: int | None = None) -> list[FreeMotion]:
     """Independent first-order motions; each moves one coordinate alone of those ``chosen``, where it can.
 
-    Where time occurs it is what the first of them follows: what is driven moves with it.
+    ``freedom``: how many there are, where that is known and time does not enter. Where time occurs it is what the first
+    of them follows: what is driven moves with it.
     """
     system, numbers = arrangement.system, arrangement.numbers
     rows, columns = velocity_rows(system, numbers)
-    basis = kernel(rows, len(columns))
+    basis = kernel(rows, len(columns), None if columns[-1:] == [TIME] else freedom)
     names = [str(c.args[1]) for c in columns]
     order = [names.index("t")] if columns and columns[-1] == TIME else []
     order += [names.index(n) for n in chosen if n in names]

@@ -39,7 +39,7 @@ def _bar(stage: StagedScene, number: int, connection: Connection) -> Iterator[Sh
         else:
             yield Shape("line", (first, second), "bar")
     for end in ends:
-        if stage.system.dimension == 1 or end.carrier in stage.system.particles:
+        if end.carrier in stage.system.particles:
             continue
         yield Shape("ball", (end,), "joint", size=0.4 * stage.unit)
         if end.carrier == GROUND:

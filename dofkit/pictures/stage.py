@@ -60,7 +60,9 @@ class StagedScene:
         """What the report says of a constraint."""
         if name in self.report.conflicting or name in self.report.infeasible:
             return "conflicting"
-        return "redundant" if name in (self.report.redundant or ()) else "plain"
+        entry = next((e for e in self.report.constraints if e.name == name), None)
+        part = entry is not None and bool(entry.redundant_equations)
+        return "redundant" if part or name in (self.report.redundant or ()) else "plain"
 
     def state_of_body(self, name: str) -> State:
         """Does a body or particle move?"""
@@ -119,7 +121,9 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
 def _motions(arrangement: Arrangement, report: Report) -> tuple[FreeMotion, ...]:
     if report.consistent is False or len(arrangement.system.coordinates) > MOST_COLUMNS:
         return ()
-    return tuple(free_motions(arrangement, report.generalized_coordinates or ()))
+    drawn = arrangement.system.reference is not None
+    freedom = report.instantaneous_dof if drawn else report.velocity_dof
+    return tuple(free_motions(arrangement, report.generalized_coordinates or (), freedom))
 
 
 def _given_place(arrangement: Arrangement, connection: Connection) -> Place | None:
@@ -185,7 +189,7 @@ def _all_places(
     free = [
         k
         for k, c in enumerate(system.connections)
-        if places[k] is None and len(c.members) > 1 and scene.constraints[k].symbol.run == ""
+        if places[k] is None and c.members and scene.constraints[k].symbol.run == ""
     ]
     drawn = any(at is not None for at in places)
     laid = {} if drawn else _layout(system, free, unit)

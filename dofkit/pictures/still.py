@@ -29,6 +29,7 @@ from dofkit.scene.scene import Scene
 
 #: A picture that reaches so much further than its places has larger symbols.
 WIDER = 1.6
+NOTHING = "The scene declares nothing that could move."
 NO_AXES = "More than three coordinates, and nothing that they place: this is the graph of its constraints."
 
 
@@ -145,7 +146,8 @@ def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
         return sketch_of(stage), ""
     if 0 < len(stage.system.coordinates) <= MOST:
         return coordinate_sketch(stage), ""
-    return graph_sketch(stage.scene, stage.system, stage.report, NO_AXES), hover_script(stage.report)
+    reason = NO_AXES if stage.system.coordinates else NOTHING
+    return graph_sketch(stage.scene, stage.system, stage.report, reason), hover_script(stage.report)
 
 
 def graph(scene: SceneLike, report: Report | None = None) -> Picture:

@@ -32,7 +32,8 @@ def joint_shapes(stage: StagedScene, number: int) -> Iterator[Shape]:
     if len(members) > 1 and strokes and not connection.points:
         ends = (Vertex(members[0], place(spot[0])), Vertex(members[1], place(spot[1])))
         yield Shape("line", ends, "guide", state, name)
-    if GROUND in connection.members and strokes and (stage.flat or not symbol.rails):
+    held = GROUND in connection.members or len(members) == 1
+    if held and strokes and (stage.flat or not symbol.rails):
         yield from _footing(stage, number, at, frame)
 
 
@@ -73,7 +74,12 @@ def _footing(stage: StagedScene, number: int, at: Place, frame: Array) -> Iterat
             stage, stage.spot(number, GROUND) + side * gap * stage.unit, frame[0] * symbol.rails * stage.unit, side
         )
     elif not symbol.rails:
-        yield from stand(stage, at)
+        member = connection.members[0]
+        yield from stand(stage, at if GROUND in connection.members else place(_here(stage, number, member)))
+
+
+def _here(stage: StagedScene, number: int, member: str) -> Array:
+    return stage.here(Vertex(member, place(stage.spot(number, member))))
 
 
 def hatching(stage: StagedScene, middle: Array, half: Array, side: Array, ticks: int = TICKS) -> Shape:
