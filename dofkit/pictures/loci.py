@@ -12,6 +12,7 @@ import numpy as np
 from dofkit.expressions.tree import Expr, coordinate
 from dofkit.pictures.arrangement import Arrangement
 from dofkit.pictures.evaluation import derivatives, evaluated, values_at, with_unit_rows
+from dofkit.pictures.raster import require_matplotlib
 from dofkit.pictures.shapes import Array, Role, Shape, Vertex, place
 from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND, Connection, Relation
@@ -24,6 +25,7 @@ STEPS = 220
 
 def level_lines(value: Callable[[Array, Array], Array], box: Sequence[float], count: int = GRID) -> list[Array]:
     """Where a function of the plane is 0 in a box (low x, high x, low y, high y), as lines. Needs matplotlib."""
+    require_matplotlib("a curve of an equation")
     x, y = np.meshgrid(np.linspace(box[0], box[1], count), np.linspace(box[2], box[3], count))
     z = np.ma.masked_invalid(np.broadcast_to(value(x, y), x.shape))
     if z.count() == 0 or float(z.min()) > 0 or float(z.max()) < 0 or float(np.ptp(z)) == 0:

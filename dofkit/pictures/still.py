@@ -22,7 +22,7 @@ from dofkit.pictures.player import framed, page_html
 from dofkit.pictures.raster import png_of, write_pdf
 from dofkit.pictures.shapes import Sketch
 from dofkit.pictures.stage import StagedScene, stage_of
-from dofkit.pictures.svg import svg_of
+from dofkit.pictures.vector import svg_of
 from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
@@ -158,7 +158,7 @@ def graph(scene: SceneLike, report: Report | None = None) -> Picture:
 
     >>> import dofkit
     >>> dofkit.graph("five-particles-ten-links").sketch.notes[0].split(" follows")[0]
-    'l45'
+    'DF'
     """
     given = load(scene)
     told = classify(given) if report is None else report
