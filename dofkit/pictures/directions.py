@@ -100,7 +100,7 @@ def directions_of(distribution: Distribution) -> list[Direction3]:
                 if _adds(found, vector):
                     found.append(Direction3(f"[{name}, {other}]", vector, order))
         level = following
-        if len(found) == len(start) or not any(d.order == order for d in found):
+        if len(found) == len(start) or not any(d.order >= order - 1 for d in found):
             break
     return found
 
