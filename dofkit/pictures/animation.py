@@ -17,7 +17,7 @@ from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_html
 from dofkit.pictures.raster import ExtraMissingError, draw_marks, figure_of, require_matplotlib
 from dofkit.pictures.shapes import Clip, Sketch
-from dofkit.pictures.still import staged, whole_sketch
+from dofkit.pictures.still import Picture, staged, whole_sketch
 from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 
@@ -59,7 +59,7 @@ class Animation:
                 yield page_of(told, frame, standpoint)
 
     def save(self, path: str | Path) -> Path:
-        """Write it as html, gif or mp4, by the path's ending.
+        """Write it as html, gif or mp4, by the path's ending; as svg, png or pdf it stands still.
 
         Raises ArgumentError for any other ending, ExtraMissingError where matplotlib or ffmpeg is missing, OSError.
         """
@@ -130,8 +130,15 @@ def _write_mp4(animation: Animation, path: Path) -> None:
     _write_film(animation, path, FFMpegWriter(fps=RATE, metadata=told, extra_args=flags))
 
 
+def _write_still(animation: Animation, path: Path) -> None:
+    Picture(animation.sketch).save(path)
+
+
 _WRITERS: Mapping[str, Callable[[Animation, Path], None]] = {
     ".html": _write_html,
     ".gif": _write_gif,
     ".mp4": _write_mp4,
+    ".svg": _write_still,
+    ".png": _write_still,
+    ".pdf": _write_still,
 }

@@ -47,7 +47,6 @@ def coordinate_sketch(stage: StagedScene) -> Sketch:
         alternative=f"{alternative(stage.scene, stage.report)} The axes are the coordinates.",
         notes=tuple(notes_of(stage)),
         axes=(),
-        units="in the scene's units",
     )
 
 

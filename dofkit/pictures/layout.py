@@ -17,6 +17,8 @@ from dofkit.pictures.views import View, view_of
 #: The sheet in points, its margin, room for names around the picture, and sizes of texts.
 WIDTH, HEIGHT, MARGIN, ROOM = 460.0, 400.0, 14.0, 26.0
 TITLE, ANSWER, NOTE, NAME = 12.5, 10.0, 8.0, 9.0
+#: The most that a ruler takes, in points.
+RULER = 90.0
 #: Distances (in sizes of its text) and directions in which a name is tried.
 FARS, WAYS = (0.0, 1.3, 2.2, 3.4), 12
 #: The least part of its own size that a sketch is shown as, so that a single dot is no ball.
@@ -68,7 +70,7 @@ def page_of(sketch: Sketch, poses: Poses | None = None, standpoint: Standpoint |
     if sketch.dimension == 3:
         drawn.sort(key=lambda pair: _nearness(sketch, pair[0], here, view))
     names = _name_marks(sketch, here, view, fit, offsets)
-    axes = axes_marks(sketch, view, margins)
+    axes = [*axes_marks(sketch, view, margins), *_ruler_marks(sketch, fit, margins)]
     marks = [*ordered([mark for _, mark in drawn]), *axes, *names, *margins.above, *margins.below]
     return Page(WIDTH, HEIGHT, tuple(marks), sketch.title, sketch.alternative)
 
@@ -182,6 +184,30 @@ def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
             yield Mark(tuple((float(x), float(y)) for x, y in barbs), ink)
             at = tip + way / size * 7.0
             yield Mark(((at[0], at[1] - 2.8),), Ink(GREY, layer=9), text=name, size=NOTE)
+
+
+def ruler_of(sketch: Sketch, fit: PaperScale) -> tuple[float, str] | None:
+    """A round length that can be read off, and its text; None where lengths mean nothing."""
+    if not sketch.units:
+        return None
+    wanted = RULER / fit.scale
+    power = 10.0 ** math.floor(math.log10(wanted))
+    length = next(power * k for k in (5.0, 2.0, 1.0) if power * k <= wanted * (1 + 1e-9))
+    return length, f"{length:g} {sketch.units}"
+
+
+def _ruler_marks(sketch: Sketch, fit: PaperScale, margins: Margins) -> Iterator[Mark]:
+    """A ruler at the right, below."""
+    ruler = ruler_of(sketch, fit)
+    if ruler is None:
+        return
+    length, text = ruler
+    right, y = WIDTH - MARGIN, margins.low + 12.0
+    left = right - length * fit.scale
+    ink = Ink(GREY, 1.0, layer=8)
+    for spots in (((left, y), (right, y)), ((left, y - 3), (left, y + 3)), ((right, y - 3), (right, y + 3))):
+        yield Mark(spots, ink)
+    yield Mark(((right, y - 11.0),), Ink(GREY, layer=9), text=text, size=NOTE - 1, align="end")
 
 
 def _offsets(sketch: Sketch, view: View, fit: PaperScale) -> Iterator[Array]:

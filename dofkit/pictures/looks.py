@@ -35,6 +35,7 @@ _PLAIN: Mapping[Role, Ink] = {
     "axis": Ink(GREY, 0.9, layer=2),
     "locus": Ink(GREEN, 1.8, layer=2),
     "surface": Ink("#8CCDB9", 0.7, layer=2),
+    "plane": Ink("#8A8A8A", 0.8, fill="#F1F1F1", layer=0),
     "node": Ink(INK, 0.8, fill="#333333", layer=7),
     "trace": Ink(PURPLE, 1.1, layer=2),
     "tie": Ink(GREY, 1.0, (5.0, 2.0, 1.0, 2.0), layer=2),

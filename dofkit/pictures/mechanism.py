@@ -9,7 +9,7 @@ from dofkit.pictures.alternative import alternative, answer
 from dofkit.pictures.bodies import body_shapes, force_shapes, particle_shapes, rail_shapes
 from dofkit.pictures.loci import meeting_shapes
 from dofkit.pictures.runs import run_shapes
-from dofkit.pictures.shapes import Shape, Sketch, State, Vertex
+from dofkit.pictures.shapes import Shape, Sketch, State, Vertex, place
 from dofkit.pictures.stage import StagedScene
 from dofkit.pictures.symbols import joint_shapes, name_of
 
@@ -35,7 +35,7 @@ def sketch_of(stage: StagedScene) -> Sketch:
         answer=answer(stage.report),
         alternative=alternative(stage.scene, stage.report),
         notes=tuple(notes_of(stage)),
-        units="in the scene's units",
+        units="of the scene's units of length" if stage.measurable else "",
     )
 
 
@@ -66,9 +66,7 @@ def _anchor(stage: StagedScene, number: int) -> tuple[Vertex, ...]:
     if at is None or not connection.members:
         return ()
     member = next((m for m in connection.members if m in stage.system.bodies), connection.members[0])
-    if member in stage.system.particles:
-        return (Vertex(member, (0.0, 0.0, 0.0)),)
-    return (Vertex(member, at),)
+    return (Vertex(member, place(stage.spot(number, member))),)
 
 
 def notes_of(stage: StagedScene) -> Iterator[str]:

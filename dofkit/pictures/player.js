@@ -166,6 +166,18 @@
     });
   }
 
+  function drawRuler() {
+    const right = data.width - data.margin, left = right - data.ruler[0] * data.scale, y = data.height - 18;
+    pen.strokeStyle = "#6E6E6E";
+    pen.lineWidth = 1;
+    pen.setLineDash([]);
+    for (const spots of [[[left, y], [right, y]], [[left, y - 3], [left, y + 3]], [[right, y - 3], [right, y + 3]]]) {
+      trace(spots, false);
+      pen.stroke();
+    }
+    write(data.ruler[1], right - 0.5 * pen.measureText(data.ruler[1]).width, y + 10, "#6E6E6E", 7);
+  }
+
   function draw() {
     const ratio = (window.devicePixelRatio || 1) * Math.max(1, canvas.clientWidth / data.width);
     const wide = Math.round(data.width * ratio), high = Math.round(data.height * ratio);
@@ -183,6 +195,7 @@
     parts.sort(function (a, b) { return a.layer - b.layer || a.near - b.near || a.order - b.order; });
     for (const part of parts) { if (part.shape.k !== "words") { drawShape(part.shape, part.points); } }
     if (data.axes.length) { drawAxes(view); }
+    if (data.ruler) { pen.font = "7px system-ui, sans-serif"; drawRuler(); }
     for (const part of parts) {
       if (part.shape.k !== "words") { continue; }
       const x = part.points.reduce(function (sum, p) { return sum + p[0]; }, 0) / part.points.length;

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.pictures.layout import HEIGHT, MARGIN, WIDTH, Standpoint, margins_of, name_size, standpoint_of
+from dofkit.pictures.layout import HEIGHT, MARGIN, WIDTH, Standpoint, margins_of, name_size, ruler_of, standpoint_of
 from dofkit.pictures.looks import Ink, ink_of, keys_of
 from dofkit.pictures.shapes import Array, Clip, Displacement, Poses, Sketch
 
@@ -100,6 +100,7 @@ def _panel(sketch: Sketch, standpoint: Standpoint, every: Iterable[Poses]) -> di
         "scale": _number(scale),
         "shift": _rounded(shift),
         "view": [view.azimuth, view.elevation],
+        "ruler": ruler_of(sketch, fit._replace(scale=scale)),
     }
 
 

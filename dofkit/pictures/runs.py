@@ -140,7 +140,7 @@ def ground_plane(middle: Array, half: float) -> Shape:
     """A patch of the plane z = 0 below a point."""
     corners = ((-1, -1), (1, -1), (1, 1), (-1, 1))
     return Shape(
-        "area", tuple(Vertex(GROUND, (middle[0] + x * half, middle[1] + y * half, 0.0)) for x, y in corners), "ground"
+        "area", tuple(Vertex(GROUND, (middle[0] + x * half, middle[1] + y * half, 0.0)) for x, y in corners), "plane"
     )
 
 

@@ -18,7 +18,7 @@ Kind = Literal["line", "area", "hull", "ball", "coil", "bow", "words"]
 #: What a shape is part of.
 Role = Literal[
     "body", "joint", "guide", "bar", "rope", "ground", "hatch", "axis", "locus", "trace", "tie", "force", "point",
-    "name", "field", "bracket", "further", "surface", "node",
+    "name", "field", "bracket", "further", "surface", "node", "plane",
 ]  # fmt: skip
 #: What the report says of it.
 State = Literal["plain", "moving", "redundant", "conflicting"]
@@ -77,7 +77,8 @@ class Sketch:
     """All of a picture but its paper.
 
     ``dimension`` of the world drawn; ``poses`` of what carries its shapes; ``size``: how far it reaches; ``notes`` are
-    told below it, ``alternative`` to who cannot see it. ``axes``: names of the three directions.
+    told below it, ``alternative`` to who cannot see it. ``axes``: names of the three directions; ``units``: of lengths,
+    empty where lengths mean nothing.
     """
 
     title: str

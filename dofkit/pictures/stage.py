@@ -28,7 +28,8 @@ MOST_COLUMNS = 300
 @dataclass(frozen=True)
 class StagedScene:
     """A scene with its places. ``places``: of each constraint's symbol in the drawing (None: it has none); ``unit``:
-    the size of symbols, ``size`` that of the whole, ``schematic``: some places are made up.
+    the size of symbols, ``size`` that of the whole, ``schematic``: some places are made up; ``measurable``: lengths
+    mean something.
     """
 
     scene: Scene
@@ -41,6 +42,7 @@ class StagedScene:
     size: float
     centre: Place
     schematic: bool
+    measurable: bool
 
     @property
     def system(self) -> System:
@@ -114,7 +116,17 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
     size, centre = _extent([*known, *(p for p, told in zip(places, given, strict=True) if p and told is None)])
     motions = _motions(arrangement, report)
     return StagedScene(
-        scene, report, arrangement, tuple(places), motions, movers(arrangement, motions), unit, size, centre, schematic
+        scene=scene,
+        report=report,
+        arrangement=arrangement,
+        places=tuple(places),
+        motions=motions,
+        moving=movers(arrangement, motions),
+        unit=unit,
+        size=size,
+        centre=centre,
+        schematic=schematic,
+        measurable=arrangement.met and not schematic and len({tuple(np.round(p, 9)) for p in known}) > 1,
     )
 
 

@@ -121,7 +121,7 @@ def test_space_is_told_by_rows_of_turns() -> None:
 
 
 def test_other_endings_are_told(tmp_path: Path) -> None:
-    with pytest.raises(ArgumentError, match=r"the endings are \.html, \.gif, \.mp4"):
+    with pytest.raises(ArgumentError, match=r"the endings are \.html, \.gif, \.mp4, "):
         dofkit.animate("crank-held-at-angle").save(tmp_path / "a.avi")
 
 
