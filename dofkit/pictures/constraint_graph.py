@@ -10,6 +10,7 @@ import numpy as np
 
 from dofkit.pictures.alternative import alternative, answer
 from dofkit.pictures.shapes import AT_REST, Place, Shape, Sketch, State, Vertex, place
+from dofkit.pictures.states import state_of
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, Constraint, System
@@ -30,7 +31,7 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
         name = first[1] if first[0] == "constraint" else second[1]
         ends = (Vertex(GROUND, spots[first]), Vertex(GROUND, spots[second]))
         shapes.append(
-            Shape("line", ends, "axis" if _state(report, name) == "plain" else "bar", _state(report, name), name)
+            Shape("line", ends, "axis" if state_of(report, name) == "plain" else "bar", state_of(report, name), name)
         )
     named = len(graph) <= MOST_NAMES
     for node in graph:
@@ -84,12 +85,6 @@ def _spots(graph: nx.Graph) -> dict[_Node, Place]:
     return {n: place(np.asarray(p) * np.array([1.25, 1.0])) for n, p in laid.items()}
 
 
-def _state(report: Report, name: str) -> State:
-    if name in report.conflicting or name in report.infeasible:
-        return "conflicting"
-    return "redundant" if name in (report.redundant or ()) else "plain"
-
-
 def _node(report: Report, node: _Node, spot: Place, unit: float, named: bool) -> Iterator[Shape]:
     kind, name = node
     vertex = (Vertex(GROUND, spot),)
@@ -97,7 +92,7 @@ def _node(report: Report, node: _Node, spot: Place, unit: float, named: bool) ->
         yield Shape("ball", vertex, "ground" if name == GROUND else "node", owner=name, size=0.4 * unit)
         state: State = "plain"
     else:
-        state = _state(report, name)
+        state = state_of(report, name)
         corners = ((-1, -1), (1, -1), (1, 1), (-1, 1))
         rim = tuple(Vertex(GROUND, (spot[0] + 0.32 * unit * x, spot[1] + 0.32 * unit * y, 0.0)) for x, y in corners)
         yield Shape("area", rim, "joint", state, name)

@@ -172,7 +172,11 @@ def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
     long = 20.0
     ways = np.eye(3)[: sketch.dimension]
     seen = [view.seen(way)[:2] for way in ways]
-    root = np.array([MARGIN + 8, margins.low + 8]) - np.minimum(0.0, np.min([*seen, np.zeros(2)], axis=0)) * long
+    longest = max((width_of(name, NOTE) for name in sketch.axes[: sketch.dimension]), default=0.0)
+    root = (
+        np.array([MARGIN + max(8.0, longest / 2), margins.low + 8])
+        - np.minimum(0.0, np.min([*seen, np.zeros(2)], axis=0)) * long
+    )
     ink = Ink(GREY, 1.0, layer=8)
     for name, way in zip(sketch.axes, seen, strict=False):
         tip = root + long * way

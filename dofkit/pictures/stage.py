@@ -11,6 +11,7 @@ import numpy as np
 from dofkit.pictures.arrangement import Arrangement, arrangement_of
 from dofkit.pictures.rates import FreeMotion, free_motions, movers
 from dofkit.pictures.shapes import AT_REST, Array, Place, State, Vertex, place
+from dofkit.pictures.states import state_of
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
@@ -60,11 +61,7 @@ class StagedScene:
 
     def state(self, name: str) -> State:
         """What the report says of a constraint."""
-        if name in self.report.conflicting or name in self.report.infeasible:
-            return "conflicting"
-        entry = next((e for e in self.report.constraints if e.name == name), None)
-        part = entry is not None and bool(entry.redundant_equations)
-        return "redundant" if part or name in (self.report.redundant or ()) else "plain"
+        return state_of(self.report, name)
 
     def state_of_body(self, name: str) -> State:
         """Does a body or particle move?"""
@@ -126,7 +123,9 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
         size=size,
         centre=centre,
         schematic=schematic,
-        measurable=arrangement.met and not schematic and len({tuple(np.round(p, 9)) for p in known}) > 1,
+        measurable=arrangement.met
+        and not (schematic or system.generic)
+        and len({tuple(np.round(p, 9)) for p in known}) > 1,
     )
 
 
