@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from html import escape
 from pathlib import Path
 
@@ -48,7 +49,7 @@ class Picture:
         """What the picture says, in words."""
         return self.sketch.alternative
 
-    @property
+    @cached_property
     def page(self) -> Page:
         """The picture on paper."""
         return page_of(self.sketch)
