@@ -37,6 +37,10 @@ def alternative(scene: Scene, report: Report) -> str:
     told = [f"{scene.title or scene.name}: {', '.join(parts) or 'nothing is declared'}.", f"{answer(report)}."]
     if report.redundant:
         told.append(f"Redundant: {_names(report.redundant)}.")
+    wholly = report.redundant or []
+    in_part = [entry.name for entry in report.constraints if entry.redundant_equations and entry.name not in wholly]
+    if in_part:
+        told.append(f"Redundant in part: {_names(in_part)}.")
     if report.infeasible:
         told.append(f"Cannot be met together: {_names(report.infeasible)}.")
     if report.growth_vector:

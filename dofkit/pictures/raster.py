@@ -19,9 +19,14 @@ class ExtraMissingError(DofkitError):
     """What was asked needs a package that is not installed; the message says which to install."""
 
 
+def has_matplotlib() -> bool:
+    """Is matplotlib installed?"""
+    return find_spec("matplotlib") is not None
+
+
 def require_matplotlib(what: str) -> None:
     """Raise ExtraMissingError where matplotlib is not installed; ``what`` needs it."""
-    if find_spec("matplotlib") is None:
+    if not has_matplotlib():
         raise ExtraMissingError(NO_MATPLOTLIB.format(what))
 
 

@@ -88,7 +88,8 @@ def swings(arrangement: Arrangement, motions: Sequence[FreeMotion], size: float)
     found = []
     for k, motion in enumerate(motions[:MOST_MOTIONS]):
         of = f" {k + 1} of {len(motions)}" if len(motions) > 1 else ""
-        name = f"free motion{of}, to first order: {motion.name}"
+        moved = "time runs" if motion.name == str(TIME.args[1]) else motion.name
+        name = f"free motion{of}, to first order: {moved}"
         far = _reach(arrangement, motion, size)
         sides = [math.sin(2 * math.pi * j / SWING) for j in range(SWING)]
         found.append(Clip(name, tuple(_poses(arrangement, motion, far * s) for s in sides), closed=True))

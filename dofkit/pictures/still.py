@@ -20,7 +20,7 @@ from dofkit.pictures.layout import page_of
 from dofkit.pictures.mechanism import sketch_of
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_html
-from dofkit.pictures.raster import png_of, write_pdf
+from dofkit.pictures.raster import has_matplotlib, png_of, write_pdf
 from dofkit.pictures.shapes import Sketch
 from dofkit.pictures.stage import StagedScene, stage_of
 from dofkit.pictures.vector import svg_of
@@ -79,8 +79,8 @@ class Picture:
     def _repr_html_(self) -> str:
         return framed(self.html()) if self.sketch.dimension == 3 or self.script else self.svg()
 
-    def _repr_png_(self) -> bytes:
-        return png_of(self.page)
+    def _repr_png_(self) -> bytes | None:
+        return png_of(self.page) if has_matplotlib() else None
 
 
 _PAGE = """<!doctype html>

@@ -77,6 +77,16 @@ def test_the_alternative_text_states_the_answer() -> None:
     assert dofkit.draw(APART).alternative.split(". ")[1] == "no motion: AB, AC, BC contradict each other (proved)."
 
 
+def test_what_is_redundant_in_part_is_told() -> None:
+    """A third parallel crank: one equation too many, and no joint that could be left out."""
+    cranks = [("a", 0), ("b", 2), ("c", 4)]
+    joints = [{"name": f"{k}0", "type": "revolute", "between": ["ground", k], "at": [x, 0]} for k, x in cranks]
+    joints += [{"name": f"{k}1", "type": "revolute", "between": [k, "bar"], "at": [x, 1]} for k, x in cranks]
+    picture = dofkit.draw({"dimension": 2, "bodies": ["a", "b", "c", "bar"], "constraints": joints})
+    assert "Redundant in part: c1." in picture.alternative
+    assert states(picture)["c1"] == {"redundant"}
+
+
 def test_chosen_places_and_numbers_are_told() -> None:
     notes = dofkit.draw("simple-pendulum-link").sketch.notes
     assert notes == (
@@ -209,7 +219,7 @@ def test_other_files(tmp_path: Path) -> None:
     assert "href=" not in page
     assert picture._repr_html_().startswith("<iframe srcdoc=")
     assert dofkit.draw("four-bar-linkage")._repr_html_().startswith("<svg")
-    assert picture._repr_png_().startswith(b"\x89PNG")
+    assert (picture._repr_png_() or b"").startswith(b"\x89PNG")
     with pytest.raises(ArgumentError, match=r"there is no ending '\.jpg'"):
         picture.save(tmp_path / "a.jpg")
 
@@ -218,6 +228,7 @@ def test_without_matplotlib_what_needs_it_says_so(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("dofkit.pictures.raster.find_spec", lambda name: None)
     picture = dofkit.draw("four-bar-linkage")
     picture.save(tmp_path / "a.svg")
+    assert picture._repr_png_() is None
     for name in ("a.png", "a.pdf"):
         with pytest.raises(ExtraMissingError, match=r"needs matplotlib: pip install 'dofkit\[pictures\]'"):
             picture.save(tmp_path / name)
