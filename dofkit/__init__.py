@@ -11,6 +11,7 @@ In the order in which one meets them:
 - `classify`: everything that is asked of a scene, as a `Report`; `ask`: one question; `derived_flag`: ranks of forms.
 - `verify`: a second program rechecks the evidence of a report (`classify(scene, certificate=True)`).
 - `lagrange`: equations of motion; `configurations`: points along a motion.
+- `draw`, `animate`, `graph`, `phase`: pictures of a scene (`pip install 'dofkit[pictures]'`).
 - `linkage`, `redundant_links`: graphs of links in general position, without a scene, as a `Linkage`.
 - `load_assignment`, `grade`: homework.
 - `DofkitError`: the base of what is raised; `SceneError` and `TextError` know their places. `__version__`.
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     from dofkit.mobility.graph.answers import Linkage, linkage, redundant_links
     from dofkit.motion.lagrange.equations import lagrange
     from dofkit.motion.sampled.configurations import configurations
+    from dofkit.pictures.animation import animate
+    from dofkit.pictures.still import draw, graph, phase
     from dofkit.report import Report
     from dofkit.scene import Scene, catalog_names, catalog_text, load, loads
 
@@ -44,6 +47,8 @@ __all__ += ["Report", "ask", "derived_flag"]
 __all__ += ["verify"]
 __all__ += ["lagrange"]
 __all__ += ["configurations"]
+__all__ += ["draw"]
+__all__ += ["animate", "graph", "phase"]
 __all__ += ["linkage", "redundant_links"]
 __all__ += ["Linkage"]
 __all__ += ["load_assignment"]
@@ -64,6 +69,10 @@ _HOMES = {
     "verify": "dofkit.methods.certificates.verifying",
     "lagrange": "dofkit.motion.lagrange.equations",
     "configurations": "dofkit.motion.sampled.configurations",
+    "draw": "dofkit.pictures.still",
+    "animate": "dofkit.pictures.animation",
+    "graph": "dofkit.pictures.still",
+    "phase": "dofkit.pictures.still",
     "linkage": "dofkit.mobility.graph.answers",
     "redundant_links": "dofkit.mobility.graph.answers",
     "Linkage": "dofkit.mobility.graph.answers",

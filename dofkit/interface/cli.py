@@ -112,6 +112,30 @@ def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: o
 
 
 @app.command()
+def draw(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
+    """Draw scenes: ground, bodies, joints by their symbols, what moves, is redundant or contradicts."""
+    _pictures(files, "draw", out, kind)
+
+
+@app.command()
+def animate(files: options.Files, out: options.PicturePath = None, kind: options.MovingKind = "html") -> None:
+    """Draw scenes in motion: a page with a slider, a gif or an mp4."""
+    _pictures(files, "animate", out, kind)
+
+
+@app.command()
+def graph(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
+    """Draw constraints and what they hold as a graph, redundant ones marked."""
+    _pictures(files, "graph", out, kind)
+
+
+@app.command()
+def phase(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
+    """Draw the directions that differential constraints allow, and those that their brackets add."""
+    _pictures(files, "phase", out, kind)
+
+
+@app.command()
 def grade(
     assignment: options.Assignment,
     submissions: options.Submissions,
@@ -254,6 +278,12 @@ def schema(
         typer.echo(json.dumps(SCHEMAS[of](), indent=2))
     else:
         raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(SCHEMAS)}, chart", param_hint="WHAT")
+
+
+def _pictures(files: list[str], kind: str, out: Path | None, ending: str) -> None:
+    from dofkit.interface.supervised import pictures
+
+    _print(pictures(files, kind, None if out is None else str(out), ending))
 
 
 def _print(printed: Generator[Printed]) -> None:

@@ -43,12 +43,12 @@ def _used(name: str) -> Any:
 
 def report_lines(given: Given) -> Iterator[Json]:
     """What is printed of the report on a file; before that a sketch of it as a ``report``."""
-    return _answer_lines(given, _report_stages)
+    return answer_lines(given, _report_stages)
 
 
 def motion_lines(given: Given) -> Iterator[Json]:
     """What is printed of the equations of motion of a file."""
-    return _answer_lines(given, _equations)
+    return answer_lines(given, _equations)
 
 
 def cut_lines(cut: Cut) -> Json:
@@ -60,7 +60,7 @@ def cut_lines(cut: Cut) -> Json:
     return _fault_streams(cut.given, cut.given.name, (fault,), None)
 
 
-def _answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]]) -> Iterator[Json]:
+def answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]]) -> Iterator[Json]:
     """Read a file and give its answer, or else its faults, each in its place: no file stops those that follow."""
     name, document = given.name, None
     try:

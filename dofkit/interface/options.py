@@ -132,6 +132,36 @@ CertificateFolder = Annotated[
 ]
 Strict = Annotated[bool, typer.Option("--strict", help="Nothing may be uncovered either.")]
 
+# of pictures
+
+PicturePath = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="PATH", help="Where to write: a file by its ending, or a folder for several scenes."),
+]
+
+
+def _still_kind(name: str) -> str:
+    if name not in STILL_KINDS:
+        raise typer.BadParameter(f"'{name}' is none of {', '.join(STILL_KINDS)}")
+    return name
+
+
+def _moving_kind(name: str) -> str:
+    if name not in MOVING_KINDS:
+        raise typer.BadParameter(f"'{name}' is none of {', '.join(MOVING_KINDS)}")
+    return name
+
+
+STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4")
+StillKind = Annotated[
+    str,
+    typer.Option("--format", metavar="KIND", callback=_still_kind, help=f"In a folder: {', '.join(STILL_KINDS)}."),
+]
+MovingKind = Annotated[
+    str,
+    typer.Option("--format", metavar="KIND", callback=_moving_kind, help=f"In a folder: {', '.join(MOVING_KINDS)}."),
+]
+
 # of `lagrange`
 
 Linearize = Annotated[bool, typer.Option("--linearize", help="Also M, C and K of small motions about an equilibrium.")]

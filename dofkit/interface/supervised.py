@@ -30,7 +30,16 @@ CERTIFICATE_SHARE = 3
 #: The exit status of a certificate that could not be looked at.
 UNREAD = 2
 #: What the worker does is in this module, which it imports itself.
-ONE_FILE = "dofkit.interface.one_file"
+ONE_FILE, ONE_PICTURE = "dofkit.interface.one_file", "dofkit.interface.one_picture"
+#: A picture may take so many times as long as a report.
+PICTURE_SHARE = 3
+
+
+class PictureGiven(NamedTuple):
+    """A kind of picture, the name of a function of dofkit; and where it is written."""
+
+    kind: str
+    path: str
 
 
 @dataclass(frozen=True)
@@ -39,7 +48,7 @@ class Given:
 
     ``data``: its bytes where they were read already; ``budget``: seconds for the scene, ``method``: how to answer;
     ``linearize``: small motions too. ``certificate``: where its certificate is written, None for none. ``widest``: the
-    characters of the longest name of all files.
+    characters of the longest name of all files. ``picture``: the one that is asked for.
     """
 
     file: str
@@ -50,6 +59,7 @@ class Given:
     data: bytes | None = None
     certificate: str | None = None
     widest: int = 0
+    picture: PictureGiven | None = None
 
     @property
     def name(self) -> str:
@@ -127,6 +137,29 @@ def motions(files: Sequence[str], linearize: bool, telling: Telling) -> Generato
     """What is printed of the equations of motion of each file, in their order."""
     given = Given("", DEFAULT_SECONDS, "auto", telling._replace(ascii_only=ascii_only()), linearize)
     return _answers(files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"))
+
+
+def pictures(files: Sequence[str], kind: str, out: str | None, ending: str) -> Generator[Printed]:
+    """What is printed of the picture of each file, in their order: where it was written.
+
+    ``out``: a path for the picture of one file, a folder for those of several (None: this one).
+    """
+    if len(files) == 1 and out is not None and os.path.splitext(out)[1] and not os.path.isdir(out):
+        places = [out]
+    else:
+        names = _own_names(files)
+        suffix = "" if kind in ("draw", "animate") else f"-{kind}"
+        places = [os.path.join(out or "", f"{name}{suffix}.{ending}") for name in names]
+    worker = Worker(modules=(ONE_PICTURE,), fork=can_fork())
+    given = Given("", DEFAULT_SECONDS, "auto", Telling.here(False)._replace(ascii_only=ascii_only()))
+    try:
+        for file, place in zip(files, places, strict=True):
+            asked = replace(given, file=file, data=_data(file), picture=PictureGiven(kind, place))
+            job = Job(f"{ONE_PICTURE}:picture_lines", asked, PICTURE_SHARE * limit(given.budget))
+            outcome = worker.run(job)
+            yield Printed(**outcome.value) if outcome.finished else _plain(asked, outcome.reason)
+    finally:
+        worker.kill()
 
 
 def verification(given: CertificateGiven) -> tuple[str, str, int]:

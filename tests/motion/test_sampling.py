@@ -230,3 +230,15 @@ def test_what_cannot_be_sampled_is_said(constraints: list[str], options: dict[st
         scene["configuration"] = {"x": 0, "y": 0}
     with pytest.raises(NoMotionError, match=message):
         along(scene, **options)
+
+
+def test_time_stands_still_where_only_an_inequality_holds_it() -> None:
+    scene = {
+        "coordinates": ["x", "y"],
+        "constraints": ["x^2 + y^2 <= 1 + t"],
+        "configuration": {"x": 0, "y": 0},
+    }
+    found = along(scene, steps=40, step=0.1)
+    assert len(found) > 10
+    assert {c["t"] for c in found} == {0.0}
+    assert max(math.hypot(c["x"], c["y"]) for c in found) == pytest.approx(1, abs=0.1)  # to the wall at t = 0

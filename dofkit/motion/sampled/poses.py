@@ -74,6 +74,8 @@ class PoseRelations:
             self.plain.append(ex.TIME)
             self.scales, self.angles = np.append(self.scales, 1.0), np.append(self.angles, False)
         self.constants = {s: 1.0 for e in limits for s in e.symbols if s.args[0] == "parameter"}
+        if not self.timed and any(ex.TIME in e.symbols for e in limits):
+            self.constants[ex.TIME] = 0.0  # only limits know of time: it stands still
 
     @property
     def columns(self) -> int:

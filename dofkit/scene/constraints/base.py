@@ -13,6 +13,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.expressions.vectors import Vec, minus, square
 from dofkit.scene.fields import WrittenModel
 from dofkit.scene.frames import Placed
+from dofkit.scene.symbols import Symbol
 from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
@@ -34,6 +35,8 @@ class ConstraintBase(WrittenModel):
     other_keys: ClassVar[Mapping[str, str]] = {}
     #: What everyone else may know of the type.
     facts: ClassVar[TypeFacts] = TypeFacts()
+    #: How the type is drawn.
+    symbol: ClassVar[Symbol]
 
     @classmethod
     def kind(cls) -> str:

@@ -19,6 +19,7 @@ from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Placed, between
 from dofkit.scene.ledger import symbols_of
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point
+from dofkit.scene.symbols import Symbol
 from dofkit.scene.world import World
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -44,6 +45,7 @@ class Link(ConstraintBase):
     between: Ends = Field(description="the two points")
     length: Value | None = Field(None, description="their distance; may hold t; by default that of the drawing")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
+    symbol: ClassVar[Symbol] = Symbol(run="bar")
 
     def relations(self, world: World) -> Iterator[Relation]:
         if _told_to_move(self, world):
@@ -167,6 +169,7 @@ class Rigid(ConstraintBase):
     examples: ClassVar[Mapping[int, str]] = {0: "{type: rigid, members: [A, B, C]}"}
     members: Annotated[tuple[str, ...], Field(min_length=2)] = Field(description="particles")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, complete=True)
+    symbol: ClassVar[Symbol] = Symbol(run="bars")
 
     def relations(self, world: World) -> Iterator[Relation]:
         seen: set[str] = set()
@@ -215,6 +218,7 @@ class String(ConstraintBase):
     along: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(description="the points it runs along, in order")
     length: Value | None = Field(None, description="its length; may hold t; by default that of the drawing")
     facts: ClassVar[TypeFacts] = TypeFacts(string=True)
+    symbol: ClassVar[Symbol] = Symbol(run="rope")
 
     def relations(self, world: World) -> Iterator[Relation]:
         points = [world.point(point, "along", i) for i, point in enumerate(self.along)]

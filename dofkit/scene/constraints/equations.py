@@ -17,6 +17,7 @@ from dofkit.scene.frames import Placed
 from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point
+from dofkit.scene.symbols import Symbol
 from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
@@ -35,6 +36,7 @@ class Equation(ConstraintBase):
     understood: ClassVar[tuple[str, ...]] = ("formula", "relation", "inequality", "pfaffian")
     text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, surface=True)
+    symbol: ClassVar[Symbol] = Symbol(run="locus")
 
     def relations(self, world: World) -> Iterator[Relation]:
         for e, sense in world.relations(self.text, "text"):
@@ -82,6 +84,7 @@ class On(ConstraintBase):
         tuple[Text, ...] | None, Field(min_length=1), BeforeValidator(_texts, json_schema_input_type=str | list[str])
     ] = Field(None, description="equations in x, y, z: a curve in space is where two surfaces meet")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, lettered=True, surface=True, shared=True)
+    symbol: ClassVar[Symbol] = Symbol(run="locus")
 
     def texts(self) -> Iterator[str]:
         yield from () if self.surface is None else (self.surface,)

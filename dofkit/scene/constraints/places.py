@@ -15,6 +15,7 @@ from dofkit.scene.constraints.base import ConstraintBase, component_relations, f
 from dofkit.scene.fields import Vector
 from dofkit.scene.frames import Frame, Placed, between
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point, show_vector
+from dofkit.scene.symbols import POINT, RING, Symbol, axle, prism, rail
 from dofkit.scene.world import Direction, World
 from dofkit.system import GROUND, Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -36,6 +37,7 @@ class Fixed(ConstraintBase):
     point: Point | None = Field(None, description="a particle or a point of a body")
     body: str | None = Field(None, description="a body")
     facts: ClassVar[TypeFacts] = TypeFacts(_fixed_rows, joint=True, held=True)
+    symbol: ClassVar[Symbol] = Symbol(plane=(POINT,), space=(POINT,))
 
     def relations(self, world: World) -> Iterator[Relation]:
         if (self.point is None) == (self.body is None):
@@ -86,6 +88,7 @@ class Coincident(ConstraintBase):
     examples: ClassVar[Mapping[int, str]] = {0: "{type: coincident, between: [A, B]}"}
     between: Ends = Field(description="the two points")
     facts: ClassVar[TypeFacts] = TypeFacts(_coincident_rows, joint=True, merged=True)
+    symbol: ClassVar[Symbol] = Symbol(plane=(RING, POINT), space=(RING, POINT))
 
     def relations(self, world: World) -> Iterator[Relation]:
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
@@ -127,6 +130,11 @@ class Slot(ConstraintBase):
 
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
     facts: ClassVar[TypeFacts] = TypeFacts(across_a_line, joint=True, slides=True, contact=True)
+    symbol: ClassVar[Symbol] = Symbol(
+        plane=(rail(4.0, 0.7, 1), rail(4.0, -0.7, 1), RING),
+        space=(axle(4.0, 1), *prism(0.6, 4.0, 1)[2:], RING),
+        rails=4.0,
+    )
 
     def relations(self, world: World) -> Iterator[Relation]:
         point = world.point(self.point, "point")

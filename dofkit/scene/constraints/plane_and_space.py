@@ -23,6 +23,7 @@ from dofkit.scene.constraints.joints import (
     turn_rate,
 )
 from dofkit.scene.frames import Frame
+from dofkit.scene.symbols import RING, Stroke, Symbol, axle, box, cylinder, prism, rail
 from dofkit.scene.world import World
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -49,6 +50,7 @@ class Revolute(Driven):
     facts: ClassVar[TypeFacts] = TypeFacts(
         _revolute_rows, turn_rate, axial=True, half_turns=True, joint=True, planar_pair=True
     )
+    symbol: ClassVar[Symbol] = Symbol(plane=(RING,), space=(axle(1.5), *cylinder(0.5, 0.7)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         yield from together(first, second, world.place(self.at, "at"))
@@ -87,6 +89,11 @@ class Prismatic(Driven):
     facts: ClassVar[TypeFacts] = TypeFacts(
         _prismatic_rows, slide_rate, slides=True, half_turns=True, joint=True, planar_pair=True
     )
+    symbol: ClassVar[Symbol] = Symbol(
+        plane=(rail(3.2, 0.8), rail(3.2, -0.8), Stroke(box(1.3, 0.7), 1, closed=True, filled=True)),
+        space=(*prism(0.35, 2.6, 1), *prism(0.65, 0.9)),
+        rails=3.2,
+    )
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         if self.at is not None:
@@ -111,6 +118,18 @@ class Weld(Joint):
     examples: ClassVar[Mapping[int, str]] = {0: "{type: weld, between: [crank, rod]}"}
     understood: ClassVar[tuple[str, ...]] = ("glue", "glued", "clamp", "fastened", "rigid_joint")
     facts: ClassVar[TypeFacts] = TypeFacts(_weld_rows, welded=True, half_turns=True, joint=True)
+    symbol: ClassVar[Symbol] = Symbol(
+        plane=(
+            Stroke(box(0.55, 0.55), closed=True, filled=True),
+            Stroke(((-0.55, -0.55), (0.55, 0.55))),
+            Stroke(((-0.55, 0.55), (0.55, -0.55))),
+        ),
+        space=(
+            *prism(0.5, 0.5),
+            Stroke(((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))),
+            Stroke(((-0.5, 0.5, -0.5), (0.5, -0.5, 0.5))),
+        ),
+    )
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         world.welds.append((first.name, second.name))

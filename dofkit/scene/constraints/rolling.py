@@ -15,6 +15,7 @@ from dofkit.scene.constraints.base import ConstraintBase
 from dofkit.scene.constraints.joints import Joint
 from dofkit.scene.fields import Value, as_written
 from dofkit.scene.frames import Frame
+from dofkit.scene.symbols import Symbol
 from dofkit.scene.world import World
 from dofkit.system import GROUND, Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -33,6 +34,7 @@ class Roll(ConstraintBase):
     radius: Value = Field(description="its radius")
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
     facts: ClassVar[TypeFacts] = TypeFacts(joint=True)
+    symbol: ClassVar[Symbol] = Symbol(run="wheel", size="radius")
 
     def relations(self, world: World) -> Iterator[Relation]:
         radius = world.fixed(self.radius, "radius")
@@ -88,6 +90,7 @@ class Gear(Joint):
     carrier: str | None = Field(None, description="the body that carries both axes, as in a planetary gear")
     dimensions: ClassVar[tuple[int, ...]] = (2,)
     facts: ClassVar[TypeFacts] = TypeFacts(_gear_rows, joint=True, geared=True)
+    symbol: ClassVar[Symbol] = Symbol(run="teeth")
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         ratio = world.mentioned.number = world.fixed(self.ratio, "ratio")

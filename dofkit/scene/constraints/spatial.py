@@ -28,6 +28,7 @@ from dofkit.scene.constraints.joints import (
 from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
 from dofkit.scene.parts import show_vector
+from dofkit.scene.symbols import RING, Stroke, Symbol, arc, axle, cylinder, helix, plate, prism
 from dofkit.scene.world import Direction, World, within
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -56,6 +57,7 @@ class Cylindrical(Driven):
     }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(_cylindrical_rows, slide_rate, axial=True, half_turns=True, joint=True)
+    symbol: ClassVar[Symbol] = Symbol(space=(*cylinder(0.3, 2.4, 1), *cylinder(0.6, 1.0)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         place, axis = world.place(self.at, "at"), self.directed(world)
@@ -86,6 +88,7 @@ class Screw(Driven):
     facts: ClassVar[TypeFacts] = TypeFacts(
         _screw_rows, turn_rate, by_turn=True, axial=True, half_turns=True, joint=True
     )
+    symbol: ClassVar[Symbol] = Symbol(space=(helix(0.4, 2.4, 6, 1), axle(2.4, 1), *prism(0.65, 0.6)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         place, axis = world.place(self.at, "at"), self.directed(world)
@@ -120,6 +123,14 @@ class Universal(LocatedJoint):
     )
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(_universal_rows, directions=2, axial=True, half_turns=True, joint=True)
+    symbol: ClassVar[Symbol] = Symbol(
+        space=(
+            Stroke(((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0))),
+            Stroke(((0.0, -1.0, 0.0), (0.0, 1.0, 0.0)), 1),
+            Stroke(tuple((c, 0.0, s) for _, c, s in arc(1.0, 0.0, 180.0))),
+            Stroke(tuple((0.0, c, s) for _, c, s in arc(1.0, 180.0, 360.0)), 1),
+        )
+    )
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         yield from together(first, second, world.place(self.at, "at"))
@@ -168,6 +179,13 @@ class Spherical(LocatedJoint):
     axis: Vector | None = Field(None, description="not needed: the joint turns every way")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(_spherical_rows, half_turns=True, joint=True)
+    symbol: ClassVar[Symbol] = Symbol(
+        space=(
+            RING,
+            Stroke(arc(0.75, 150.0, 390.0)),
+            Stroke(tuple((c, 0.0, s) for _, c, s in arc(0.75, 150.0, 390.0))),
+        )
+    )
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         if self.axis is not None:
@@ -189,6 +207,7 @@ class Planar(Axial):
     }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(_planar_rows, half_turns=True, joint=True)
+    symbol: ClassVar[Symbol] = Symbol(space=(plate(-0.15, 2.2), plate(0.15, 1.2, 1)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         if self.at is not None:

@@ -1,0 +1,286 @@
+"""A sketch put on paper: its scale, its marks, names that do not overlap, title, answer, legend and notes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from dofkit.pictures.looks import GREY, INK, Ink, ink_of, keys_of
+from dofkit.pictures.outlines import outline
+from dofkit.pictures.paper import HIGH, Mark, Page, ordered, width_of, wrapped
+from dofkit.pictures.shapes import Array, Poses, Shape, Sketch
+from dofkit.pictures.views import View, view_of
+
+#: The sheet in points, its margin, room for names around the picture, and sizes of texts.
+WIDTH, HEIGHT, MARGIN, ROOM = 460.0, 400.0, 14.0, 26.0
+TITLE, ANSWER, NOTE, NAME = 12.5, 10.0, 8.0, 9.0
+#: The most that a ruler takes, in points.
+RULER = 90.0
+#: Distances (in sizes of its text) and directions in which a name is tried.
+FARS, WAYS = (0.0, 1.3, 2.2, 3.4), 12
+#: The least part of its own size that a sketch is shown as, so that a single dot is no ball.
+LEAST = 0.55
+FAINT = Ink("#444444", layer=9)
+
+
+class PaperScale(NamedTuple):
+    """How the sketch stands on the sheet: points by a unit of length, and where the origin is."""
+
+    scale: float
+    shift: Array
+
+    def put(self, seen: Array) -> Array:
+        """Where on the sheet a point is."""
+        return np.asarray(self.scale * seen[..., :2] + self.shift)
+
+
+class Standpoint(NamedTuple):
+    """From where a sketch is seen, how it stands on the sheet, and how far each name is from what it names."""
+
+    view: View
+    fit: PaperScale
+    offsets: tuple[Array, ...]
+
+
+class Margins(NamedTuple):
+    """What stands above and below the picture."""
+
+    above: tuple[Mark, ...]
+    below: tuple[Mark, ...]
+    high: float
+    low: float
+
+
+def standpoint_of(sketch: Sketch, every: Sequence[Poses] = ()) -> Standpoint:
+    """Where a sketch is seen from, so that it stays on the sheet in ``every`` pose."""
+    view = view_of(sketch)
+    fit = fit_of(sketch, view, [sketch.poses, *every])
+    return Standpoint(view, fit, tuple(_offsets(sketch, view, fit)))
+
+
+def page_of(sketch: Sketch, poses: Poses | None = None, standpoint: Standpoint | None = None) -> Page:
+    """A sketch on paper, with everything where ``poses`` put it (by default where it is drawn)."""
+    here = sketch.poses if poses is None else poses
+    view, fit, offsets = standpoint or standpoint_of(sketch)
+    margins = margins_of(sketch)
+    drawn = [(s, mark_of(sketch, s, here, view, fit)) for s in sketch.shapes if s.kind != "words"]
+    if sketch.dimension == 3:
+        drawn.sort(key=lambda pair: _nearness(sketch, pair[0], here, view))
+    names = _name_marks(sketch, here, view, fit, offsets)
+    axes = [*axes_marks(sketch, view, margins), *_ruler_marks(sketch, fit, margins)]
+    marks = [*ordered([mark for _, mark in drawn]), *axes, *names, *margins.above, *margins.below]
+    return Page(WIDTH, HEIGHT, tuple(marks), sketch.title, sketch.alternative)
+
+
+def _nearness(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> float:
+    return float(np.mean([view.seen(sketch.at(v, poses))[2] for v in shape.vertices]))
+
+
+def margins_of(sketch: Sketch) -> Margins:
+    """Title and answer above; legend and notes below."""
+    above, y = [], HEIGHT - MARGIN
+    for line in wrapped(sketch.title, TITLE, 0.88 * (WIDTH - 2 * MARGIN)):
+        y -= TITLE
+        above.append(Mark(((MARGIN, y),), FAINT._replace(line=INK), text=line, size=TITLE, align="start", bold=True))
+        y -= TITLE * (HIGH - 1)
+    for line in wrapped(sketch.answer, ANSWER, WIDTH - 2 * MARGIN):
+        y -= ANSWER
+        above.append(Mark(((MARGIN, y),), FAINT, text=line, size=ANSWER, align="start"))
+        y -= ANSWER * (HIGH - 1)
+    below, low = [], MARGIN
+    lines = [line for note in sketch.notes for line in wrapped(note, NOTE, WIDTH - 2 * MARGIN)]
+    for line in reversed(lines):
+        below.append(Mark(((MARGIN, low),), FAINT, text=line, size=NOTE, align="start"))
+        low += NOTE * HIGH
+    rows = _legend(sketch)
+    for row in reversed(rows):
+        below += [_raised(mark, low) for mark in row]
+        low += NOTE * HIGH * 1.15
+    return Margins(tuple(above), tuple(below), y - 2.0, low + 2.0)
+
+
+def _raised(mark: Mark, by: float) -> Mark:
+    return mark._replace(spots=tuple((x, y + by) for x, y in mark.spots))
+
+
+def _legend(sketch: Sketch) -> list[list[Mark]]:
+    """A sample and a word for each state that occurs, in rows."""
+    rows: list[list[Mark]] = [[]]
+    x = MARGIN
+    for ink, text in keys_of(sketch.shapes):
+        wide = 22 + width_of(text, NOTE) + 14
+        if x + wide > WIDTH - MARGIN and rows[-1]:
+            rows.append([])
+            x = MARGIN
+        box = ((x, 0.0), (x + 16, 0.0), (x + 16, 7.0), (x, 7.0))
+        spots = box if ink.fill else ((x, 3.5), (x + 16, 3.5))
+        rows[-1].append(Mark(spots, ink, closed=bool(ink.fill)))
+        rows[-1].append(Mark(((x + 21, 0.5),), FAINT, text=text, size=NOTE, align="start"))
+        x += wide
+    return [row for row in rows if row]
+
+
+def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> PaperScale:
+    """The largest scale at which the sketch, wherever it moves, stays on the sheet."""
+    margins = margins_of(sketch)
+    shapes = [s for s in sketch.shapes if s.kind != "words"]
+    seen = [_box(sketch, s, poses, view) for poses in every for s in shapes]
+    points = np.vstack(seen) if seen else np.zeros((1, 2))
+    points = points[np.all(np.isfinite(points), axis=1)]
+    low, high = np.min(points, axis=0), np.max(points, axis=0)
+    largest = float(np.max(high - low))
+    low, high = _at_least(low, high, LEAST * sketch.size if largest < LEAST * sketch.size else 0.15 * largest)
+    sides = high - low
+    wide, tall = WIDTH - 2 * (MARGIN + ROOM), margins.high - margins.low - 2 * ROOM * 0.7
+    scale = float(min(wide / sides[0], tall / sides[1]))
+    middle = np.array([WIDTH / 2, (margins.high + margins.low) / 2])
+    return PaperScale(scale, middle - scale * (low + high) / 2)
+
+
+def _box(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:
+    """Points between which a shape lies on paper."""
+    if shape.kind not in ("hull", "ball"):
+        return outline(sketch, shape, poses, view)[:, :2]
+    seen = np.array([view.seen(sketch.at(v, poses))[:2] for v in shape.vertices])
+    return np.vstack([seen - shape.size, seen + shape.size])
+
+
+def _at_least(low: Array, high: Array, least: float) -> tuple[Array, Array]:
+    """The same box, with sides no shorter than ``least``."""
+    more = np.maximum(0.0, least - (high - low)) / 2
+    return low - more, high + more
+
+
+def mark_of(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: PaperScale) -> Mark:
+    """A shape on the sheet."""
+    spots = fit.put(outline(sketch, shape, poses, view))
+    told = tuple((float(x), float(y)) for x, y in spots)
+    closed = shape.kind in ("area", "hull", "ball")
+    ink = ink_of(shape)
+    if not closed:
+        ink = ink._replace(fill=None)
+    return Mark(told, ink, closed=closed, owner=shape.owner)
+
+
+def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
+    """The directions of the world, in a corner."""
+    if not sketch.axes:
+        return
+    long = 20.0
+    ways = np.eye(3)[: sketch.dimension]
+    seen = [view.seen(way)[:2] for way in ways]
+    longest = max((width_of(name, NOTE) for name in sketch.axes[: sketch.dimension]), default=0.0)
+    root = (
+        np.array([MARGIN + max(8.0, longest / 2), margins.low + 8])
+        - np.minimum(0.0, np.min([*seen, np.zeros(2)], axis=0)) * long
+    )
+    ink = Ink(GREY, 1.0, layer=8)
+    for name, way in zip(sketch.axes, seen, strict=False):
+        tip = root + long * way
+        size = float(np.linalg.norm(way))
+        yield Mark(((root[0], root[1]), (tip[0], tip[1])), ink)
+        if size > 0.15:
+            ahead, side = way / size * 4.0, np.array([-way[1], way[0]]) / size * 2.0
+            barbs = (tip - ahead + side, tip, tip - ahead - side)
+            yield Mark(tuple((float(x), float(y)) for x, y in barbs), ink)
+            at = tip + way / size * 7.0
+            yield Mark(((at[0], at[1] - 2.8),), Ink(GREY, layer=9), text=name, size=NOTE)
+
+
+def ruler_of(sketch: Sketch, fit: PaperScale) -> tuple[float, str] | None:
+    """A round length that can be read off, and its text; None where lengths mean nothing."""
+    if not sketch.units:
+        return None
+    wanted = RULER / fit.scale
+    power = 10.0 ** math.floor(math.log10(wanted))
+    length = next(power * k for k in (5.0, 2.0, 1.0) if power * k <= wanted * (1 + 1e-9))
+    return length, f"{length:g} {sketch.units}"
+
+
+def _ruler_marks(sketch: Sketch, fit: PaperScale, margins: Margins) -> Iterator[Mark]:
+    """A ruler at the right, below."""
+    ruler = ruler_of(sketch, fit)
+    if ruler is None:
+        return
+    length, text = ruler
+    right, y = WIDTH - MARGIN, margins.low + 12.0
+    left = right - length * fit.scale
+    ink = Ink(GREY, 1.0, layer=8)
+    for spots in (((left, y), (right, y)), ((left, y - 3), (left, y + 3)), ((right, y - 3), (right, y + 3))):
+        yield Mark(spots, ink)
+    yield Mark(((right, y - 11.0),), Ink(GREY, layer=9), text=text, size=NOTE - 1, align="end")
+
+
+def _offsets(sketch: Sketch, view: View, fit: PaperScale) -> Iterator[Array]:
+    """How far each name stands from what it names: where it covers least."""
+    margins = margins_of(sketch)
+    words = [s for s in sketch.shapes if s.kind == "words"]
+    busy = _busy(sketch, sketch.poses, view, fit)
+    taken: list[tuple[float, float, float, float]] = []
+    for shape in words:
+        anchor, size = _anchor(sketch, shape, sketch.poses, view, fit), name_size(sketch)
+        offset = _best_offset(shape, anchor, size, (busy, taken, margins))
+        at, wide = anchor + offset, width_of(shape.text, size) / 2
+        taken.append((at[0] - wide, at[0] + wide, at[1] - size / 2, at[1] + size / 2))
+        yield offset
+
+
+def name_size(sketch: Sketch) -> float:
+    """The size of names: smaller where there are many."""
+    return NAME if sum(s.kind == "words" for s in sketch.shapes) < 26 else NAME - 2
+
+
+def _anchor(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: PaperScale) -> Array:
+    return np.asarray(np.mean([fit.put(view.seen(sketch.at(v, poses))) for v in shape.vertices], axis=0))
+
+
+def _name_marks(sketch: Sketch, poses: Poses, view: View, fit: PaperScale, offsets: Sequence[Array]) -> Iterator[Mark]:
+    size = name_size(sketch)
+    for shape, offset in zip((s for s in sketch.shapes if s.kind == "words"), offsets, strict=True):
+        x, y = _anchor(sketch, shape, poses, view, fit) + offset
+        spot = (float(x), float(y) - 0.35 * size)
+        yield Mark((spot,), ink_of(shape), text=shape.text, size=size, owner=shape.owner)
+
+
+def _busy(sketch: Sketch, poses: Poses, view: View, fit: PaperScale) -> Array:
+    """Points of all that is drawn, a few points of length apart."""
+    found = [np.zeros((0, 2))]
+    for shape in sketch.shapes:
+        if shape.kind == "words":
+            continue
+        spots = fit.put(outline(sketch, shape, poses, view))
+        ends = np.vstack([spots[1:], spots[:1]]) if shape.kind in ("area", "hull", "ball") else spots[1:]
+        for a, b in zip(spots, ends, strict=False):
+            count = 1 + int(min(60.0, math.hypot(*(b - a)) / 5.0))
+            found.append(a + np.outer(np.arange(count) / count, b - a))
+    return np.vstack(found)
+
+
+def _best_offset(
+    shape: Shape,
+    anchor: Array,
+    size: float,
+    around: tuple[Array, Sequence[tuple[float, float, float, float]], Margins],
+) -> Array:
+    """Where beside its anchor a name covers least."""
+    busy, taken, margins = around
+    wide, high = width_of(shape.text, size) / 2 + 1.5, size / 2 + 1.0
+    best, least = np.zeros(2), math.inf
+    for far in FARS:
+        for k in range(WAYS if far else 1):
+            angle = 2 * math.pi * (k + 1.5) / WAYS
+            way = np.array([math.cos(angle), math.sin(angle)])
+            at = anchor + way * (far * size) + way * np.array([wide, high]) * (1 if far else 0)
+            inside = (np.abs(busy[:, 0] - at[0]) < wide) & (np.abs(busy[:, 1] - at[1]) < high)
+            cost = float(np.sum(inside)) + 0.7 * far + (12.0 if not far and len(shape.vertices) < 3 else 0.0)
+            for x0, x1, y0, y1 in taken:
+                if at[0] - wide < x1 and at[0] + wide > x0 and at[1] - high < y1 and at[1] + high > y0:
+                    cost += 40.0
+            if not (wide < at[0] < WIDTH - wide and margins.low + high < at[1] < margins.high - high):
+                cost += 60.0
+            if cost < least:
+                best, least = at - anchor, cost
+    return best

@@ -1,0 +1,141 @@
+"""A page that turns and plays a sketch: one file, its script inside, nothing fetched."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Sequence
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+
+from dofkit.pictures.layout import HEIGHT, MARGIN, WIDTH, Standpoint, margins_of, name_size, ruler_of, standpoint_of
+from dofkit.pictures.looks import Ink, ink_of, keys_of
+from dofkit.pictures.shapes import Array, Clip, Displacement, Poses, Sketch
+
+#: Pixels of an inline page beyond its picture.
+BESIDE = 190
+#: Part of the panel that a sketch of space fills, so that it can be turned.
+FILL = 0.94
+
+
+def page_html(sketch: Sketch, clips: Sequence[Clip]) -> str:
+    """A page with a sketch that can be played, and turned where it is of space."""
+    package = files("dofkit.pictures")
+    data = json.dumps(player_data(sketch, clips), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    parts = {
+        "title": escape(sketch.title),
+        "answer": escape(sketch.answer),
+        "alternative": escape(sketch.alternative, quote=True),
+        "legend": _legend(sketch),
+        "notes": "".join(f"<p>{escape(note)}</p>" for note in sketch.notes),
+        "data": data,
+        "script": (package / "player.js").read_text(encoding="utf-8"),
+    }
+    frame = (package / "player.html").read_text(encoding="utf-8")
+    return re.sub("@([a-z]+)@", lambda found: parts[found[1]], frame)
+
+
+def framed(page: str) -> str:
+    """A page inside another one, which its script and style do not touch."""
+    height = int(HEIGHT * 1.2) + BESIDE
+    return (
+        f'<iframe srcdoc="{escape(page, quote=True)}" sandbox="allow-scripts" title="dofkit" '
+        f'style="width:100%;max-width:{int(WIDTH * 1.5)}px;height:{height}px;border:0"></iframe>'
+    )
+
+
+def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
+    """What the script needs: shapes on their carriers, poses frame by frame, and where it is all seen from."""
+    every = [frame for clip in clips for frame in clip.frames]
+    standpoint = standpoint_of(sketch, every)
+    carriers = list(dict.fromkeys(v.carrier for s in sketch.shapes for v in s.vertices))
+    looks: dict[Ink, int] = {}
+    offsets = iter(standpoint.offsets)
+    shapes = []
+    for shape in sketch.shapes:
+        told: dict[str, Any] = {
+            "k": shape.kind,
+            "v": [[carriers.index(v.carrier), *_rounded(v.at)] for v in shape.vertices],
+            "i": looks.setdefault(ink_of(shape), len(looks)),
+        }
+        if shape.size:
+            told["s"] = _number(shape.size)
+        if shape.kind == "words":
+            told |= {"t": shape.text, "o": _rounded(next(offsets))}
+        shapes.append(told)
+    return {
+        "dimension": sketch.dimension,
+        "axes": list(sketch.axes[: sketch.dimension]),
+        "shapes": shapes,
+        "looks": [[k.line, k.width, list(k.dash), k.fill, k.dense, k.hatch, k.layer] for k in looks],
+        "names": name_size(sketch),
+        "still": _told_poses(sketch, carriers, sketch.poses),
+        "clips": [_told_clip(sketch, carriers, clip) for clip in clips],
+        **_panel(sketch, standpoint, every),
+    }
+
+
+def _panel(sketch: Sketch, standpoint: Standpoint, every: Iterable[Poses]) -> dict[str, Any]:
+    """The panel's size, and how the sketch stands on it."""
+    margins = margins_of(sketch)
+    width, height = WIDTH, margins.high - margins.low
+    view, fit, _ = standpoint
+    if sketch.dimension == 3:
+        reached = [sketch.at(v, p) for p in (sketch.poses, *every) for s in sketch.shapes for v in s.vertices]
+        low, high = np.min(reached, axis=0), np.max(reached, axis=0)
+        middle = (low + high) / 2
+        radius = max(float(np.max(np.linalg.norm(np.array(reached) - middle, axis=1))), 1e-9)
+        scale = FILL * min(width, height) / 2 / radius
+        shift = np.array([width / 2, height / 2])
+    else:
+        middle, scale, shift = np.zeros(3), fit.scale, fit.shift - np.array([0.0, margins.low])
+    return {
+        "width": width,
+        "height": height,
+        "margin": MARGIN,
+        "centre": _rounded(middle),
+        "scale": _number(scale),
+        "shift": _rounded(shift),
+        "view": [view.azimuth, view.elevation],
+        "ruler": ruler_of(sketch, fit._replace(scale=scale)),
+    }
+
+
+def _told_clip(sketch: Sketch, carriers: Sequence[str], clip: Clip) -> dict[str, Any]:
+    frames = [_told_poses(sketch, carriers, frame) for frame in clip.frames]
+    return {"name": clip.name, "closed": clip.closed, "frames": frames}
+
+
+def _told_poses(sketch: Sketch, carriers: Sequence[str], poses: Poses) -> list[list[float]]:
+    """Each carrier's shift, then what its turn is made of, where it turns: cosine and sine, or three rows."""
+    return [_told_pose(sketch, poses[c]) if c in poses else [0.0, 0.0, 0.0] for c in carriers]
+
+
+def _told_pose(sketch: Sketch, pose: Displacement) -> list[float]:
+    if np.allclose(pose.turn, np.eye(3), atol=1e-9):
+        return _rounded(pose.shift)
+    if sketch.dimension < 3:
+        return [*_rounded(pose.shift), *_rounded(pose.turn[:2, 0])]
+    return [*_rounded(pose.shift), *_rounded(pose.turn.ravel())]
+
+
+def _number(value: float) -> float:
+    return float(f"{value:.6g}") if np.isfinite(value) else 0.0
+
+
+def _rounded(values: Array | Sequence[float]) -> list[float]:
+    return [_number(float(v)) for v in values]
+
+
+def _legend(sketch: Sketch) -> str:
+    rows = []
+    for ink, text in keys_of(sketch.shapes):
+        dash = f' stroke-dasharray="{" ".join(map(str, ink.dash))}"' if ink.dash else ""
+        line = f'stroke="{ink.line}" stroke-width="{ink.width}"{dash}'
+        fill = f'<rect x="1" y="2" width="18" height="9" fill="{ink.fill}" {line}/>' if ink.fill else None
+        sample = fill or f'<path d="M1 6.5H19" {line}/>'
+        rows.append(f'<span><svg width="20" height="13" aria-hidden="true">{sample}</svg> {escape(text)}</span>')
+    return "".join(rows)

@@ -1,0 +1,94 @@
+"""Where things stand in a picture: the drawing's own places, and places that meet the constraints."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dofkit
+from dofkit.expressions.tree import coordinate, parameter
+from dofkit.pictures.arrangement import SCHEMATIC, arrangement_of, poses_of
+from dofkit.pictures.evaluation import evaluated
+from dofkit.pictures.rates import free_motions, movers
+from dofkit.scene.lowering import lower
+
+
+def numbers(scene: Any) -> dict[str, float]:
+    found = arrangement_of(lower(dofkit.load(scene)))
+    return {str(s.args[1]): v for s, v in found.numbers.items()}
+
+
+def test_a_drawing_is_taken_as_it_is() -> None:
+    found = arrangement_of(lower(dofkit.load("pinned-truss")))
+    assert found.note is None
+    assert found.met
+    assert [found.poses[p].shift.tolist() for p in "AB"] == [[0, 0, 0], [4, 0, 0]]
+
+
+def test_places_that_are_left_open_meet_the_constraints() -> None:
+    found = numbers("double-pendulum-links")
+    assert math.hypot(found["x_A"], found["y_A"]) == pytest.approx(1, abs=1e-8)
+    assert math.hypot(found["x_B"] - found["x_A"], found["y_B"] - found["y_A"]) == pytest.approx(1, abs=1e-8)
+    assert found["y_B"] < found["y_A"] < 0  # it hangs
+
+
+def test_inequalities_are_met_too() -> None:
+    inside = {"particles": [{"name": "P"}], "constraints": ["x_P^2 + y_P^2 + z_P^2 <= 1/100"]}
+    found = numbers(inside)
+    assert found["x_P"] ** 2 + found["y_P"] ** 2 + found["z_P"] ** 2 <= 0.0100001
+
+
+def test_what_cannot_be_met_is_a_schematic() -> None:
+    found = arrangement_of(lower(dofkit.load({"coordinates": ["x"], "constraints": ["x = 1", "x = 2"]})))
+    assert not found.met
+    assert found.note == SCHEMATIC
+
+
+def test_a_planar_body_turns_about_its_origin() -> None:
+    scene = {"dimension": 2, "bodies": ["b"], "configuration": {"x_b": 1, "y_b": 2, "theta_b": 0}}
+    system = lower(dofkit.load(scene))
+    turned = {coordinate("x_b"): 1.0, coordinate("y_b"): 2.0, coordinate("theta_b"): math.pi / 2}
+    moved = poses_of(system, turned, gibbs=True)["b"].moved((3, 2, 0))
+    assert moved == pytest.approx([1, 4, 0])  # (2, 0) from the origin becomes (0, 2)
+
+
+def test_a_body_of_space_turns_by_its_gibbs_vector() -> None:
+    system = lower(dofkit.load({"bodies": ["b"]}))
+    values = dict(zip([coordinate(c.name) for c in system.coordinates], [0, 0, 0, 0, 0, 1.0], strict=True))
+    pose = poses_of(system, values, gibbs=True)["b"]  # g = tan(45 deg) e_z: a right angle
+    assert pose.moved((1, 0, 0)) == pytest.approx([0, 1, 0])
+    assert pose.back(pose.moved((1, 2, 3))) == pytest.approx((1, 2, 3))
+
+
+def test_expressions_have_the_values_of_floating_point() -> None:
+    scene = {"coordinates": ["x"], "parameters": ["a"], "constraints": ["a sin(x)^2 + sqrt(x) - atan2(x, 2) = 0"]}
+    e = lower(dofkit.load(scene)).constraints[0].relations[0].expr
+    found = evaluated(e, {coordinate("x"): np.array([1.0, 4.0]), parameter("a"): 3.0})
+    expected = [3 * math.sin(x) ** 2 + math.sqrt(x) - math.atan2(x, 2) for x in (1, 4)]
+    assert found.tolist() == pytest.approx(expected)
+
+
+def test_the_velocities_of_a_four_bar_are_those_of_its_poles() -> None:
+    """v_B = (-2, 0) for a crank at 1; (v_C - v_B).(C - B) = 0 with v_C = w (-3, -1) gives w = 8/13 of the rocker."""
+    found = arrangement_of(lower(dofkit.load("four-bar-linkage")))
+    (motion,) = free_motions(found, ["theta_crank"])
+    rates = {str(s.args[1]): v for s, v in motion.rates.items()}
+    assert rates["theta_crank"] == 1
+    assert rates["theta_rocker"] == pytest.approx(8 / 13, abs=1e-6)
+    assert movers(found, [motion]) == {"crank", "coupler", "rocker"}
+
+
+def test_only_what_moves_is_said_to_move() -> None:
+    found = arrangement_of(lower(dofkit.load("frame-held-fast")))
+    assert movers(found, free_motions(found)) == {"rod"}
+    assert free_motions(arrangement_of(lower(dofkit.load("crank-held-at-angle")))) == []
+
+
+def test_what_is_driven_moves_with_time() -> None:
+    found = arrangement_of(lower(dofkit.load("four-bar-driven-crank")))
+    (motion,) = free_motions(found)
+    assert motion.name == "t"
+    assert movers(found, [motion]) == {"crank", "coupler", "rocker"}

@@ -1,0 +1,67 @@
+"""Pictures on the command line: where they are written, and what is said of files that cannot be read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from dofkit.interface import cli
+
+
+def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    """Run in this process: exit status, standard output, standard error."""
+    try:
+        cli.app(list(arguments))
+    except SystemExit as stop:
+        status = stop.code if isinstance(stop.code, int) else 0
+    told = capsys.readouterr()
+    return status, told.out, told.err
+
+
+def test_one_picture_goes_to_its_file(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    out = tmp_path / "new" / "bar.svg"
+    status, told, err = called(capsys, "draw", "four-bar-linkage", "--out", str(out))
+    assert (status, told, err) == (0, f"{out}\n", "")
+    assert "1 degree of freedom" in out.read_text(encoding="utf-8")
+
+
+def test_several_go_to_a_folder_and_a_bad_one_stops_none(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    status, told, err = called(capsys, "draw", "four-bar-linkage", "nosuch", "slider-crank", "--out", str(tmp_path))
+    assert status == 2
+    assert told.split() == [str(tmp_path / "four-bar-linkage.svg"), str(tmp_path / "slider-crank.svg")]
+    assert "there is no file 'nosuch'" in err
+
+
+def test_each_command_names_its_files(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for command in ("draw", "graph", "animate"):
+        assert called(capsys, command, "four-bar-linkage")[0] == 0
+    assert called(capsys, "phase", "disc-rolling-on-plane", "--format", "html")[0] == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "disc-rolling-on-plane-phase.html",
+        "four-bar-linkage-graph.svg",
+        "four-bar-linkage.html",
+        "four-bar-linkage.svg",
+    ]
+
+
+def test_what_is_no_picture_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    status, _, err = called(capsys, "draw", "four-bar-linkage", "--out", str(tmp_path / "a.jpg"))
+    assert status == 2
+    assert "there is no ending '.jpg'" in err
+    status, _, err = called(capsys, "phase", "four-bar-linkage", "--out", str(tmp_path / "a.svg"))
+    assert status == 2
+    assert "needs differential constraints" in err
+    assert called(capsys, "animate", "four-bar-linkage", "--format", "svg")[0] == 2
+
+
+def test_a_scene_with_a_fault_is_told_with_its_line(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "bad.yaml"
+    path.write_text("coordinates: [theta]\nconstraints:\n- thta = 1\n", encoding="utf-8")
+    status, _, err = called(capsys, "draw", str(path), "--out", str(tmp_path / "a.svg"))
+    assert status == 2
+    assert "did you mean `theta`" in err
+    assert not (tmp_path / "a.svg").exists()

@@ -1,0 +1,87 @@
+"""The directions that forms allow, against brackets worked out by hand."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dofkit
+from dofkit.pictures.arrangement import arrangement_of
+from dofkit.pictures.directions import NoFormsError, directions_of
+from dofkit.pictures.fields import Distribution
+from dofkit.scene.lowering import lower
+
+HEISENBERG: dict[str, Any] = {"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy - y dx"]}
+SKATE: dict[str, Any] = {"coordinates": ["x", "y", "theta"], "constraints": ["sin(theta) dx - cos(theta) dy = 0"]}
+MARTINET: dict[str, Any] = {
+    "coordinates": ["x", "y", "z"],
+    "constraints": ["dz = y^2 dx"],
+    "configuration": {"x": 0, "y": 0, "z": 0},
+}
+
+
+def distribution(scene: Any) -> Distribution:
+    return Distribution(arrangement_of(lower(dofkit.load(scene))))
+
+
+def growth(scene: Any) -> list[int]:
+    orders = [d.order for d in directions_of(distribution(scene))]
+    return [sum(o <= k for o in orders) for k in range(1, max(orders) + 1)]
+
+
+def test_the_fields_satisfy_the_forms() -> None:
+    found = distribution(HEISENBERG)
+    x, y = found.start[:2]
+    for vector in found.at(found.start):
+        assert vector[2] == pytest.approx(x * vector[1] - y * vector[0], abs=1e-6)
+
+
+def test_the_bracket_of_heisenberg_is_twice_the_third_direction() -> None:
+    """X1 = d/dx - y d/dz, X2 = d/dy + x d/dz: [X1, X2] = 2 d/dz."""
+    found = distribution(HEISENBERG)
+    found.pivots = [0, 1]
+    bracket = directions_of(found)[-1]
+    assert bracket.order == 2
+    assert bracket.vector == pytest.approx([0, 0, 2], abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("scene", "expected"),
+    [
+        (HEISENBERG, [2, 3]),
+        (SKATE, [2, 3]),
+        (MARTINET, [2, 2, 3]),  # at y = 0 the first bracket vanishes: [X2, [X1, X2]] = -2 d/dz
+        ("disc-rolling-on-plane", [2, 3, 4]),
+        ("x-dy-plus-y-dx", [1]),
+        ("rolling-ball-euler-angles", [3, 5]),
+    ],
+)
+def test_brackets_grow_as_worked_out_by_hand(scene: Any, expected: list[int]) -> None:
+    assert growth(scene) == expected
+
+
+def test_the_picture_tells_the_growth_and_what_is_shown() -> None:
+    sketch = dofkit.phase("disc-rolling-on-plane").sketch
+    assert sketch.axes == ("x", "y", "theta")
+    assert sketch.notes[0] == "Growth vector (2, 3, 4); shown: x, y, theta. Left out: phi."
+    assert "Growth vector (2, 3, 4)" in sketch.alternative
+    names = {s.text for s in sketch.shapes if s.kind == "words"}
+    assert {"X1", "X2", "[X1, X2]"} <= names
+
+
+def test_small_discs_lie_in_what_is_allowed() -> None:
+    sketch = dofkit.phase(SKATE).sketch
+    discs = [s for s in sketch.shapes if s.kind == "area"]
+    assert len(discs) > 50
+    for disc in discs:
+        corners = np.array([v.at for v in disc.vertices])
+        centre = np.mean(corners, axis=0)
+        across = np.array([np.sin(centre[2]), -np.cos(centre[2]), 0])
+        assert (corners - centre) @ across == pytest.approx(np.zeros(len(corners)), abs=1e-5)
+
+
+def test_finite_constraints_have_no_such_picture() -> None:
+    with pytest.raises(NoFormsError, match="needs differential constraints"):
+        dofkit.phase("four-bar-linkage")

@@ -1,0 +1,160 @@
+"""Moving pictures: what the frames hold, which motions are shown, and what their files say."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dofkit
+from dofkit.base.errors import ArgumentError
+from dofkit.pictures.animation import STILL, Animation
+from dofkit.pictures.raster import ExtraMissingError
+
+#: Of the truss with corners (0, 0), (4, 0), (1, 3): AB, AC, BC.
+LENGTHS = [4, 10**0.5, 18**0.5]
+
+
+def test_a_four_bar_turns_around_in_one_line() -> None:
+    (clip,) = dofkit.animate("four-bar-linkage").clips
+    assert clip.closed
+    assert len(clip.frames) > 60
+    pins = np.array([f["crank"].moved((0, 2, 0)) for f in clip.frames])
+    assert np.linalg.norm(pins, axis=1) == pytest.approx(2)  # the crank is 2 long, about the origin
+    angles = np.unwrap(np.arctan2(pins[:, 1], pins[:, 0]))
+    assert np.ptp(angles) > 6.0  # and goes all the way around
+
+
+def test_hinges_hold_in_every_frame() -> None:
+    (clip,) = dofkit.animate("slider-crank").clips
+    scene = dofkit.load("slider-crank")
+    joints = [c.model_dump() for c in scene.constraints if c.kind() == "revolute"]
+    assert len(joints) == 3
+    for frame in clip.frames:
+        for joint in joints:
+            at = (*map(float, joint["at"]), 0.0)
+            first, second = (frame[body].moved(at) for body in joint["between"])
+            assert first == pytest.approx(second, abs=1e-9)
+
+
+def test_bars_keep_their_lengths() -> None:
+    clip = dofkit.animate("pinned-truss").clips[0]
+    for frame in clip.frames:
+        places = [frame[p].shift for p in "ABC"]
+        gaps = [float(np.linalg.norm(a - b)) for a, b in combinations(places, 2)]
+        assert gaps == pytest.approx(LENGTHS, abs=1e-9)
+
+
+def test_each_of_several_freedoms_is_shown_by_itself() -> None:
+    names = [clip.name for clip in dofkit.animate("planetary-gear-bodies").clips]
+    assert names == [
+        "a finite motion, with all freedoms",
+        "free motion 1 of 2, to first order: theta_arm",
+        "free motion 2 of 2, to first order: theta_sun",
+    ]
+
+
+def test_a_motion_of_first_order_only_is_shown() -> None:
+    """A link drawn through the line of its ends: C may move across to first order, and not at all in truth."""
+    points = {"A": [0, 0], "B": [2, 0], "C": [1, 0]}
+    links = [["A", "C"], ["C", "B"]]
+    scene = {
+        "dimension": 2,
+        "particles": [{"name": n, "at": p} for n, p in points.items()],
+        "constraints": [{"type": "fixed", "point": n} for n in "AB"] + [{"type": "link", "between": e} for e in links],
+    }
+    found = dofkit.animate(scene)
+    assert [clip.name for clip in found.clips] == ["free motion, to first order: y_C"]
+    assert "1 to first order at this singular drawing" in found.alternative
+    heights = [f["C"].shift[1] for f in found.clips[0].frames]
+    assert max(heights) > 0.1
+    assert min(heights) < -0.1
+
+
+def test_what_does_not_move_says_so() -> None:
+    found = dofkit.animate("crank-held-at-angle")
+    assert found.clips == ()
+    assert STILL in found.sketch.notes
+    assert len(list(found.pages())) == 1
+
+
+def test_coordinates_alone_move_too() -> None:
+    disc = dofkit.animate("disc-rolling-on-plane")
+    assert {s.text for s in disc.sketch.shapes if s.kind == "words"} == {"x", "y", "theta", "phi"}
+    frames = disc.clips[0].frames
+    assert frames[0]["phi"].shift[0] != frames[-1]["phi"].shift[0]
+
+
+# -- files -----------------------------------------------------------------------------------------
+
+
+def data_of(found: Animation) -> dict[str, Any]:
+    match = re.search(r'<script type="application/json" id="data">(.*?)</script>', found.html(), re.S)
+    assert match is not None
+    told: dict[str, Any] = json.loads(match[1])
+    return told
+
+
+def test_the_page_holds_all_it_needs() -> None:
+    found = dofkit.animate("four-bar-linkage")
+    page = found.html()
+    assert not re.search(r"https?://|src=|href=|@import|url\(", page)
+    assert 'aria-label="Planar four-bar linkage: 3 bodies, 4 constraints. 1 degree of freedom (proved)."' in page
+    assert "MIT licence" in page
+    told = data_of(found)
+    assert told["dimension"] == 2
+    assert len(told["clips"]) == 1
+    assert {len(pose) for frame in told["clips"][0]["frames"] for pose in frame} <= {3, 5}
+    assert len(page) < 100_000
+
+
+def test_space_is_told_by_rows_of_turns() -> None:
+    told = data_of(dofkit.animate("universal-joint-alone"))
+    assert told["dimension"] == 3
+    assert max(len(pose) for clip in told["clips"] for frame in clip["frames"] for pose in frame) == 12
+
+
+def test_other_endings_are_told(tmp_path: Path) -> None:
+    with pytest.raises(ArgumentError, match=r"the endings are \.html, \.gif, \.mp4, "):
+        dofkit.animate("crank-held-at-angle").save(tmp_path / "a.avi")
+
+
+def test_without_ffmpeg_an_mp4_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    animation = pytest.importorskip("matplotlib.animation")
+    monkeypatch.setattr(animation.FFMpegWriter, "isAvailable", classmethod(lambda cls: False))
+    with pytest.raises(ExtraMissingError, match="ffmpeg"):
+        dofkit.animate("crank-held-at-angle").save(tmp_path / "a.mp4")
+
+
+@pytest.mark.sweep
+def test_a_gif_moves(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    from PIL import Image
+
+    with Image.open(dofkit.animate("pendulum-in-plane").save(tmp_path / "a.gif")) as image:
+        assert getattr(image, "n_frames", 1) > 60
+
+
+@pytest.mark.sweep
+@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="needs ffmpeg")
+def test_an_mp4_is_written(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    path = dofkit.animate("pendulum-in-plane").save(tmp_path / "a.mp4")
+    assert b"ftyp" in path.read_bytes()[:16]
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize("name", dofkit.catalog_names())
+def test_the_whole_catalog_is_animated(name: str) -> None:
+    pytest.importorskip("matplotlib")
+    found = dofkit.animate(name)
+    report = dofkit.classify(name)
+    moves = bool(report.velocity_dof) or report.scleronomic is False
+    assert bool(found.clips) == moves
+    data_of(found)

@@ -1,0 +1,103 @@
+"""The page in headless Chromium, without a network: no error, a click on play moves a body, dragging turns."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import dofkit
+
+CHROMIUM = next(
+    (path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None
+)
+pytestmark = [
+    pytest.mark.sweep,
+    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium"),
+    pytest.mark.skipif(find_spec("playwright") is None, reason="needs playwright"),
+]
+
+
+class Viewer:
+    """A page of a browser that is offline, and what its console said."""
+
+    def __init__(self, page: Any) -> None:
+        self.page, self.said = page, list[str]()
+        page.on("console", lambda message: self.said.append(message.text))
+        page.on("pageerror", lambda error: self.said.append(str(error)))
+        page.on("request", lambda request: self.said.extend([request.url] * (not request.url.startswith("file:"))))
+
+    def show(self, path: Path) -> bytes:
+        """Open a file, and what its canvas shows."""
+        self.page.goto(path.as_uri())
+        return self.shot()
+
+    def shot(self) -> bytes:
+        """What the canvas shows."""
+        found: bytes = self.page.locator("canvas").screenshot()
+        return found
+
+
+@pytest.fixture(scope="module")
+def viewer() -> Iterator[Viewer]:
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        context = browser.new_context(offline=True, viewport={"width": 760, "height": 800})
+        yield Viewer(context.new_page())
+        browser.close()
+
+
+@pytest.mark.parametrize("name", ["four-bar-linkage", "rssr-linkage", "planetary-gear-bodies", "disc-rolling-on-plane"])
+def test_a_click_on_play_moves_a_body(viewer: Viewer, name: str, tmp_path: Path) -> None:
+    before = viewer.show(dofkit.animate(name).save(tmp_path / "a.html"))
+    viewer.page.click("#play")
+    viewer.page.wait_for_timeout(600)
+    viewer.page.click("#play")
+    assert viewer.shot() != before
+    assert int(viewer.page.input_value("#slider")) > 0
+    assert viewer.page.inner_text("#play") == "Play"
+    assert viewer.said == []
+
+
+def test_the_slider_shows_any_frame(viewer: Viewer, tmp_path: Path) -> None:
+    before = viewer.show(dofkit.animate("four-bar-linkage").save(tmp_path / "a.html"))
+    viewer.page.evaluate("s = document.querySelector('#slider'); s.value = 30; s.dispatchEvent(new Event('input'))")
+    moved = viewer.shot()
+    viewer.page.evaluate("s = document.querySelector('#slider'); s.value = 0; s.dispatchEvent(new Event('input'))")
+    assert moved != before
+    assert viewer.shot() == before
+
+
+def test_another_motion_can_be_chosen(viewer: Viewer, tmp_path: Path) -> None:
+    viewer.show(dofkit.animate("planetary-gear-bodies").save(tmp_path / "a.html"))
+    assert viewer.page.locator("#clip option").count() == 3
+    viewer.page.select_option("#clip", "2")
+    assert viewer.page.get_attribute("#slider", "max") == "31"
+    assert viewer.said == []
+
+
+def test_dragging_turns_a_picture_of_space(viewer: Viewer, tmp_path: Path) -> None:
+    before = viewer.show(dofkit.draw("rssr-linkage").save(tmp_path / "a.html"))
+    box = viewer.page.locator("canvas").bounding_box()
+    viewer.page.mouse.move(box["x"] + 200, box["y"] + 200)
+    viewer.page.mouse.down()
+    viewer.page.mouse.move(box["x"] + 300, box["y"] + 220)
+    viewer.page.mouse.up()
+    assert viewer.shot() != before
+    assert not viewer.page.locator(".controls").is_visible()
+    assert viewer.said == []
+
+
+def test_pointing_at_a_constraint_lights_its_circuit(viewer: Viewer, tmp_path: Path) -> None:
+    viewer.page.goto(dofkit.graph("five-particles-ten-links").save(tmp_path / "a.html").as_uri())
+    faint = "document.querySelectorAll('[style*=\"opacity: 0.15\"]').length"
+    assert viewer.page.evaluate(faint) == 0
+    viewer.page.hover("path[data-owner=DF] >> nth=-1")
+    assert viewer.page.evaluate(faint) > 0
+    assert viewer.said == []

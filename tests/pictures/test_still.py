@@ -1,0 +1,275 @@
+"""Still pictures: what they say of a report, in colour, pattern and words, and the files they are written to."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+import dofkit
+from dofkit.base.errors import ArgumentError
+from dofkit.pictures import svg
+from dofkit.pictures.coordinates import POINT
+from dofkit.pictures.layout import page_of
+from dofkit.pictures.looks import ink_of
+from dofkit.pictures.mechanism import FREE_PLACES
+from dofkit.pictures.paper import HIGH, Page, width_of
+from dofkit.pictures.raster import ExtraMissingError
+from dofkit.pictures.still import Picture
+
+DOOR: dict[str, Any] = {
+    "title": "A door",
+    "bodies": ["door"],
+    "constraints": [
+        {"name": "lower", "type": "revolute", "between": ["ground", "door"], "at": [0, 0, 0], "axis": [0, 0, 1]},
+        {"name": "upper", "type": "revolute", "between": ["ground", "door"], "at": [0, 0, 2], "axis": [0, 0, 1]},
+    ],
+}
+APART: dict[str, Any] = {
+    "dimension": 2,
+    "particles": [{"name": "A", "at": [0, 0]}, {"name": "B", "at": [3, 0]}, "C"],
+    "constraints": [
+        {"name": "AB", "type": "link", "between": ["A", "B"]},
+        {"name": "AC", "type": "link", "between": ["A", "C"], "length": 1},
+        {"name": "BC", "type": "link", "between": ["B", "C"], "length": 1},
+    ],
+}
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def states(picture: Picture) -> dict[str, set[str]]:
+    found: dict[str, set[str]] = {}
+    for shape in picture.sketch.shapes:
+        if shape.kind != "words":
+            found.setdefault(shape.owner, set()).add(shape.state)
+    return found
+
+
+def test_redundant_and_moving_parts_are_told() -> None:
+    found = states(dofkit.draw(DOOR))
+    assert found["upper"] == {"redundant"}
+    assert found["lower"] == {"plain"}
+    assert found["door"] == {"moving"}
+
+
+def test_conflicting_parts_are_told() -> None:
+    found = states(dofkit.draw(APART))
+    assert found["AB"] == found["AC"] == found["BC"] == {"conflicting"}
+    assert found["C"] == {"plain"}
+
+
+def test_states_differ_by_pattern_not_by_colour_alone() -> None:
+    shape = next(s for s in dofkit.draw(APART).sketch.shapes if s.owner == "AB" and s.kind == "line")
+    inks = [ink_of(shape._replace(state=state)) for state in ("plain", "redundant", "conflicting")]
+    assert len({ink.dash for ink in inks}) == 3
+    body = next(s for s in dofkit.draw(DOOR).sketch.shapes if s.role == "body")
+    assert not ink_of(body).hatch
+    assert ink_of(body._replace(state="plain")).hatch
+
+
+def test_the_alternative_text_states_the_answer() -> None:
+    told = dofkit.draw(DOOR).alternative
+    assert told.startswith("A door: 1 body, 2 constraints. 1 degree of freedom (")
+    assert told.endswith("Redundant: upper.")
+    assert dofkit.draw(APART).alternative.split(". ")[1] == "no motion: AB, AC, BC contradict each other (proved)."
+
+
+def test_what_is_redundant_in_part_is_told() -> None:
+    """A third parallel crank: one equation too many, and no joint that could be left out."""
+    cranks = [("a", 0), ("b", 2), ("c", 4)]
+    joints = [{"name": f"{k}0", "type": "revolute", "between": ["ground", k], "at": [x, 0]} for k, x in cranks]
+    joints += [{"name": f"{k}1", "type": "revolute", "between": [k, "bar"], "at": [x, 1]} for k, x in cranks]
+    picture = dofkit.draw({"dimension": 2, "bodies": ["a", "b", "c", "bar"], "constraints": joints})
+    assert "Redundant in part: c1." in picture.alternative
+    assert states(picture)["c1"] == {"redundant"}
+
+
+def test_chosen_places_and_numbers_are_told() -> None:
+    notes = dofkit.draw("simple-pendulum-link").sketch.notes
+    assert notes == (
+        "The scene gives no positions: these were chosen so as to meet its constraints.",
+        "Drawn with l = 1.",
+    )
+    ends = [["ground", "a"], ["a", "b"], ["b", "ground"]]
+    chain = {"dimension": 2, "bodies": ["a", "b"], "constraints": [{"type": "revolute", "between": e} for e in ends]}
+    assert FREE_PLACES in dofkit.draw(chain).sketch.notes
+    assert dofkit.draw("four-bar-linkage").sketch.notes == ()
+
+
+def test_coordinates_alone_show_their_set() -> None:
+    pytest.importorskip("matplotlib")
+    sketch = dofkit.draw({"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}).sketch
+    curve = [sketch.at(v) for s in sketch.shapes if s.role == "locus" for v in s.vertices]
+    assert len(curve) > 30
+    assert all(x * x + y * y == pytest.approx(1, abs=2e-2) for x, y, _ in curve)
+    assert {v.carrier for s in sketch.shapes if s.kind == "ball" for v in s.vertices} == {POINT}
+
+
+def test_a_pole_is_no_curve() -> None:
+    pytest.importorskip("matplotlib")
+    sketch = dofkit.draw({"coordinates": ["x", "y"], "constraints": ["1/x = y"]}).sketch
+    curve = [sketch.at(v) for s in sketch.shapes if s.role == "locus" for v in s.vertices]
+    assert curve
+    assert all(abs(x * y - 1) < 0.1 for x, y, _ in curve)
+
+
+def test_surfaces_of_space_meet_in_a_curve() -> None:
+    pytest.importorskip("matplotlib")
+    sketch = dofkit.draw("particle-on-latitude").sketch  # R = 1, z = sin(1)
+    curve = [sketch.at(v) for s in sketch.shapes if s.role == "locus" for v in s.vertices]
+    assert len(curve) > 30
+    assert all(x * x + y * y == pytest.approx(0.2919, abs=1e-3) for x, y, _ in curve)  # cos(1)^2
+    assert all(z == pytest.approx(0.8415, abs=1e-3) for _, _, z in curve)
+
+
+@pytest.mark.parametrize("odd", [{"dimension": 2}, {"coordinates": ["x"], "constraints": ["x^2 = 4"]}])
+def test_odd_scenes_are_drawn(odd: dict[str, Any]) -> None:
+    for door in (dofkit.draw, dofkit.graph):
+        assert ElementTree.fromstring(door(odd).svg()).tag == f"{SVG}svg"
+
+
+# -- on paper --------------------------------------------------------------------------------------
+
+
+def boxes(page: Page) -> list[tuple[float, float, float, float, str]]:
+    found = []
+    for mark in page.marks:
+        if mark.text:
+            (x, y), wide = mark.spots[0], width_of(mark.text, mark.size)
+            left = {"start": x, "middle": x - wide / 2, "end": x - wide}[mark.align]
+            found.append((left, left + wide, y, y + mark.size * (HIGH - 0.4), mark.text))
+    return found
+
+
+@pytest.mark.parametrize("name", ["four-bar-linkage", "planetary-gear-bodies", "rccc-linkage", "slider-crank"])
+def test_names_do_not_overlap_and_stay_on_the_sheet(name: str) -> None:
+    page = page_of(dofkit.draw(name).sketch)
+    for a, b in combinations(boxes(page), 2):
+        apart = a[1] <= b[0] or b[1] <= a[0] or a[3] <= b[2] or b[3] <= a[2]
+        assert apart, (a[4], b[4])
+    spots = [spot for mark in page.marks for spot in mark.spots]
+    assert all(0 <= x <= page.width and 0 <= y <= page.height for x, y in spots)
+
+
+def test_what_is_drawn_fills_the_sheet() -> None:
+    page = page_of(dofkit.draw("four-bar-linkage").sketch)
+    xs = [x for mark in page.marks if not mark.text for x, _ in mark.spots]
+    assert max(xs) - min(xs) > 0.75 * page.width
+
+
+# -- files -----------------------------------------------------------------------------------------
+
+
+HOSTILE: dict[str, Any] = {
+    "title": "<script>alert(1)</script> & $x^2$ @data@",
+    "dimension": 2,
+    "particles": ["P"],
+    "constraints": [{"name": "</script><b>&", "type": "link", "between": [[0, 0], "P"], "length": 1}],
+}
+
+
+def test_svg_has_a_title_and_a_description() -> None:
+    root = ElementTree.fromstring(dofkit.draw("four-bar-linkage").svg())
+    assert root.attrib["role"] == "img"
+    assert [root.findtext(f"{SVG}{tag}") for tag in ("title", "desc")] == [
+        "Planar four-bar linkage",
+        "Planar four-bar linkage: 3 bodies, 4 constraints. 1 degree of freedom (proved).",
+    ]
+
+
+def test_a_small_picture_for_another_page() -> None:
+    text = svg("four-bar-linkage", dofkit.classify("four-bar-linkage"), width=200)
+    assert text.startswith("<svg ")
+    assert ElementTree.fromstring(text).attrib["width"] == "200"
+
+
+def test_names_are_text_and_never_markup() -> None:
+    root = ElementTree.fromstring(dofkit.draw(HOSTILE).svg())
+    assert root.findtext(f"{SVG}title") == HOSTILE["title"]
+    assert not root.findall(f".//{SVG}script")
+    graph = dofkit.graph(HOSTILE).svg()
+    assert graph.count("<script>") == graph.count("</script>") == 1
+    page = dofkit.animate(HOSTILE).html()
+    assert "<script>alert" not in page
+    assert page.count("</script>") == 2
+    assert "@data@" in page.split("<canvas")[0]
+
+
+def test_png_holds_its_alternative_text(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    from PIL import Image
+
+    path = dofkit.draw("four-bar-linkage").save(tmp_path / "a.png")
+    with Image.open(path) as image:
+        assert image.size[0] > 900
+        assert image.info["Title"] == "Planar four-bar linkage"
+        assert image.info["Description"].endswith("1 degree of freedom (proved).")
+
+
+def test_other_files(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    picture = dofkit.draw(DOOR)
+    assert picture.save(tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
+    page = picture.save(tmp_path / "a.html").read_text(encoding="utf-8")
+    assert "<canvas" in page
+    assert "src=" not in page
+    assert "href=" not in page
+    assert picture._repr_html_().startswith("<iframe srcdoc=")
+    assert dofkit.draw("four-bar-linkage")._repr_html_().startswith("<svg")
+    assert (picture._repr_png_() or b"").startswith(b"\x89PNG")
+    with pytest.raises(ArgumentError, match=r"there is no ending '\.jpg'"):
+        picture.save(tmp_path / "a.jpg")
+
+
+def test_without_matplotlib_what_needs_it_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("dofkit.pictures.raster.find_spec", lambda name: None)
+    picture = dofkit.draw("four-bar-linkage")
+    picture.save(tmp_path / "a.svg")
+    assert picture._repr_png_() is None
+    for name in ("a.png", "a.pdf"):
+        with pytest.raises(ExtraMissingError, match=r"needs matplotlib: pip install 'dofkit\[pictures\]'"):
+            picture.save(tmp_path / name)
+    with pytest.raises(ExtraMissingError, match=r"pip install 'dofkit\[pictures\]'"):
+        dofkit.draw({"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]})
+    with pytest.raises(ExtraMissingError, match=r"pip install 'dofkit\[pictures\]'"):
+        dofkit.animate("four-bar-linkage").save(tmp_path / "a.gif")
+
+
+# -- graphs ----------------------------------------------------------------------------------------
+
+
+def test_the_graph_joins_constraints_to_what_they_hold() -> None:
+    picture = dofkit.graph("four-bar-linkage")
+    drawn = [s for s in picture.sketch.shapes if s.kind == "line"]
+    assert len(drawn) == 8  # four hinges, two bodies each
+    assert {s.owner for s in picture.sketch.shapes if s.kind == "ball"} == {"ground", "crank", "coupler", "rocker"}
+
+
+def test_circuits_are_told_and_lit() -> None:
+    picture = dofkit.graph(DOOR)
+    assert picture.sketch.notes == ("upper follows from lower.",)
+    assert '{"upper": ["upper", "lower"]}' in picture.svg()
+    assert picture._repr_html_().startswith("<iframe")
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize("name", dofkit.catalog_names())
+def test_the_whole_catalog_is_drawn(name: str, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    picture = dofkit.draw(name)
+    root = ElementTree.fromstring(picture.svg())
+    assert root.findtext(f"{SVG}desc") == picture.alternative
+    assert picture.save(tmp_path / "a.png").stat().st_size > 8000
+    spots = [spot for mark in picture.page.marks for spot in mark.spots]
+    assert all(0 <= x <= picture.page.width and 0 <= y <= picture.page.height for x, y in spots)
+    texts = [box for box in boxes(picture.page) if box[4]]
+    overlapping = [
+        (a[4], b[4])
+        for a, b in combinations(texts, 2)
+        if min(a[1], b[1]) - max(a[0], b[0]) > 2 and min(a[3], b[3]) - max(a[2], b[2]) > 2
+    ]
+    assert not overlapping
+    ElementTree.fromstring(dofkit.graph(name).svg())
