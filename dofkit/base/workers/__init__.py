@@ -9,8 +9,19 @@ A worker is a fresh Python that imports what the job names and nothing of the ca
 guard; it takes jobs over a pipe and bounds its own memory and processor time. Its parent keeps the wall clock.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from dofkit.base.surface import handed_on
 from dofkit.base.workers.job import Ended, Job, JobOutcome, Json
-from dofkit.base.workers.pool import Pool
 from dofkit.base.workers.worker import MEMORY, Worker
 
+if TYPE_CHECKING:
+    from dofkit.base.workers.pool import Pool
+
 __all__ = ["MEMORY", "Ended", "Job", "JobOutcome", "Json", "Pool", "Worker"]
+
+
+def __getattr__(name: str) -> Any:
+    return handed_on(__name__, {"Pool": "dofkit.base.workers.pool"}, name)

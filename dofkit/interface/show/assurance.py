@@ -39,6 +39,11 @@ _WAYS = (
     ),
     ("graph of rigid links", "links as a graph, each counted where it is needed"),
 )
+#: What the model says of relations that hold no velocities, and what that means.
+_NO_TEST = (
+    "no integrability test where all relations are finite (d(dg) = 0)",
+    "relations between coordinates are holonomic as they stand, so that nothing is tested for integrability",
+)
 #: Hypotheses shorter than this name other arguments only.
 _TERSE = 14
 _FIELDS = {
@@ -55,7 +60,8 @@ _FIELDS = {
 
 def how_sure(report: Report, arguments: bool) -> list[Remark]:
     """What was computed with, in which way, what the verdicts mean; and by which ``arguments``."""
-    told = [Remark(label, text) for label, text in (("the model", report.modelled), ("the way", way(report))) if text]
+    model = report.modelled.replace(*_NO_TEST)
+    told = [Remark(label, text) for label, text in (("the model", model), ("the way", way(report))) if text]
     used = verdicts_of(report)
     told += [Remark(verdict, meaning) for verdict, meaning in VERDICT_MEANS.items() if verdict in used]
     return [*told, *_arguments(report)] if arguments else told
