@@ -24,6 +24,7 @@ ROUNDS, MET, STARTS = 60, 1e-9, 8
 MOST_COORDINATES = 400
 #: What carries the point that stands for the configuration, where there is nothing but coordinates.
 POINT = "configuration"
+EXAMPLES = "The scene gives no positions: these are examples."
 CHOSEN = "The scene gives no positions: these were chosen so as to meet its constraints."
 SCHEMATIC = "A schematic drawing: no positions were found that meet all constraints."
 
@@ -68,7 +69,7 @@ def arrangement_of(system: System) -> Arrangement:
         found = onto(system, start)
         if found is not None:
             free = not any(c.relations for c in system.constraints)
-            note = "The scene gives no positions: these are examples." if free else CHOSEN
+            note = EXAMPLES if free else CHOSEN
             return Arrangement(system, found, note, True)
     try:
         told = configurations(system, steps=0)[0]

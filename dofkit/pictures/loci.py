@@ -34,7 +34,7 @@ def level_lines(value: Callable[[Array, Array], Array], box: Sequence[float], co
     segments = found.allsegs[0]
     found.remove()
     usual = float(np.median(np.abs(z.compressed())))
-    segments = [s for s in segments if _is_zero(value, s, usual)]
+    segments = [s for s in segments if len(s) > 1 and _is_zero(value, s, usual)]
     return [s[:: max(1, len(s) // DRAWN)] if len(s) <= DRAWN else _thinned(s) for s in segments if len(s) > 1]
 
 

@@ -87,7 +87,7 @@ def keys_of(shapes: Iterable[Shape]) -> list[tuple[Ink, str]]:
         if shape.role in ("body", "point") and shape.state in ("moving", "plain"):
             box = _PLAIN["body"] if shape.state == "plain" else ink._replace(dense=0.5)
             found.setdefault(MEANINGS[shape.state], box)
-        elif shape.state in _LOUD and shape.role != "name":
+        elif shape.state in _LOUD and ink.dash == _LOUD[shape.state].dash:
             found.setdefault(MEANINGS[shape.state], ink._replace(fill=None, width=2.4))
         elif shape.role == "bracket":
             found.setdefault("bracket", ink)

@@ -71,10 +71,10 @@ def _anchor(stage: StagedScene, number: int) -> tuple[Vertex, ...]:
 
 def notes_of(stage: StagedScene) -> Iterator[str]:
     """What is told below a picture."""
-    if stage.arrangement.note is not None:
-        yield stage.arrangement.note
     if stage.schematic:
         yield FREE_PLACES
+    elif stage.arrangement.note is not None:
+        yield stage.arrangement.note
     used = {s for c in stage.system.constraints for r in c.relations for s in r.expr.symbols}
     shown = [p for p in stage.system.parameters if parameter(p) in used]
     if shown:

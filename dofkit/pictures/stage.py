@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import networkx as nx
 import numpy as np
 
-from dofkit.pictures.arrangement import Arrangement, arrangement_of
+from dofkit.pictures.arrangement import EXAMPLES, Arrangement, arrangement_of
 from dofkit.pictures.rates import FreeMotion, free_motions, movers
 from dofkit.pictures.shapes import AT_REST, Array, Place, State, Vertex, place
 from dofkit.pictures.states import state_of
@@ -112,6 +112,7 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
     places, schematic = _all_places(scene, arrangement, given, unit)
     size, centre = _extent([*known, *(p for p, told in zip(places, given, strict=True) if p and told is None)])
     motions = _motions(arrangement, report)
+    apart = len({tuple(np.round(p, 9)) for p in known}) > 1
     return StagedScene(
         scene=scene,
         report=report,
@@ -123,9 +124,7 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
         size=size,
         centre=centre,
         schematic=schematic,
-        measurable=arrangement.met
-        and not (schematic or system.generic)
-        and len({tuple(np.round(p, 9)) for p in known}) > 1,
+        measurable=apart and arrangement.met and not (schematic or system.generic or arrangement.note == EXAMPLES),
     )
 
 
