@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.command_line import called
 from shared.grading_jobs import orders
 from shared.homework_cases import FILES, document
 from shared.late import LONG
@@ -46,15 +47,10 @@ def assignment(tmp_path: Path) -> str:
     return str(path)
 
 
-def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, list[dict[str, Any]], str]:
-    """Run in this process: exit status, the objects on standard output, standard error."""
-    status = 0
-    try:
-        cli.app(list(arguments))
-    except SystemExit as stop:
-        status = stop.code if isinstance(stop.code, int) else 0
-    told = capsys.readouterr()
-    return status, [json.loads(line) for line in told.out.splitlines()], told.err
+def lines_of(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, list[dict[str, Any]], str]:
+    """Exit status, the objects on standard output, standard error."""
+    status, out, err = called(capsys, *arguments)
+    return status, [json.loads(line) for line in out.splitlines()], err
 
 
 def read(path: Path, data: str | bytes) -> list[tuple[str, Any]]:
@@ -174,7 +170,7 @@ def test_a_folder_is_read_in_order_and_nobody_in_it_is_lost(tmp_path: Path) -> N
 def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table = tmp_path / "t.csv"
     table.write_text("student,p.f,p.label,p.eq,p.zz\nana,1,,x^2 = 1 - y^2,\nbo,2,((,,5\nana,1,,,\ncy,1\n")
-    status, told, err = called(capsys, "grade", assignment, str(table), "--workers", "1")
+    status, told, err = lines_of(capsys, "grade", assignment, str(table), "--workers", "1")
     assert (status, err) == (2, "")
     assert [line["student"] for line in told] == ["ana", "bo", "ana", "cy"]
     assert [line["score"] for line in told] == [3.0, 0.0, None, None]
@@ -192,7 +188,7 @@ def test_results_within_the_folder_are_no_submissions(
 ) -> None:
     (tmp_path / "z.csv").write_text("student,p.f\nana,1\n")
     for form, out in (("native", "a.jsonl"), ("native", "a.jsonl"), ("html", "b"), ("html", "b")):
-        assert called(capsys, "grade", assignment, str(tmp_path), "--format", form, "--out", str(tmp_path / out)) == (
+        assert lines_of(capsys, "grade", assignment, str(tmp_path), "--format", form, "--out", str(tmp_path / out)) == (
             (0, [], "") if form == "native" else (2, [], "")
         )
     assert length(tmp_path / "a.jsonl") == 1
@@ -200,7 +196,7 @@ def test_results_within_the_folder_are_no_submissions(
 
 def test_nothing_that_is_read_is_overwritten(assignment: str, capsys: pytest.CaptureFixture[str]) -> None:
     before = Path(assignment).read_bytes()
-    status, _, err = called(capsys, "grade", assignment, assignment, "--out", assignment)
+    status, _, err = lines_of(capsys, "grade", assignment, assignment, "--out", assignment)
     assert (status, Path(assignment).read_bytes()) == (2, before)
     assert "--out would overwrite" in err
 
@@ -261,7 +257,7 @@ def test_check_only_tells_how_answers_are_read(
     path = tmp_path / "s.json"
     answers = {"p": {"f": "f = 3 - 1 = 2", "label": "no holonomic", "eq": "y = (("}}
     path.write_text(json.dumps({"student": "ana", "answers": answers}))
-    status, (told,), _ = called(capsys, "grade", assignment, str(path), "--check-only", "--workers", "1")
+    status, (told,), _ = lines_of(capsys, "grade", assignment, str(path), "--check-only", "--workers", "1")
     read = {item["question"]: (item["status"], item["read_as"]) for item in told["items"]}
     assert (status, read["f"], read["eq"]) == (0, ("read", "2"), ("unreadable", ""))
     assert read["label"] == ("read", "non-holonomic")
@@ -282,7 +278,7 @@ def test_what_is_no_assignment_is_told_with_its_place(
 ) -> None:
     path = tmp_path / "a.yaml"
     path.write_text(text)
-    status, told, err = called(capsys, "grade", str(path), str(path))
+    status, told, err = lines_of(capsys, "grade", str(path), str(path))
     assert (status, told) == (2, [])
     assert err.startswith(f"{path}:")
     assert said in err
@@ -293,7 +289,7 @@ def test_what_is_no_assignment_is_told_with_its_place(
     "more", [["--format", "word"], ["--check-only", "--format", "html"], ["--scheduler", "tcp://127.0.0.1:1"]]
 )
 def test_options_that_cannot_be_are_told(more: list[str], assignment: str, capsys: pytest.CaptureFixture[str]) -> None:
-    status, told, err = called(capsys, "grade", assignment, assignment, *more)
+    status, told, err = lines_of(capsys, "grade", assignment, assignment, *more)
     assert (status, told) == (2, [])
     assert "error:" in err
 

@@ -7,20 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.command_line import called
 
 import dofkit
-from dofkit.interface import cli
-
-
-def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    """Run in this process: exit status, standard output, standard error."""
-    status = 0
-    try:
-        cli.app(list(arguments))
-    except SystemExit as stop:
-        status = stop.code if isinstance(stop.code, int) else 0
-    told = capsys.readouterr()
-    return status, told.out, told.err
 
 
 @pytest.fixture

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.command_line import called
 from shared.late import LONG
 
 import dofkit
-from dofkit.interface import cli
 
 GOOD = "coordinates: [x, y]\nconstraints:\n- x dy + y dx = 0\n"
 BAD = "coordinates: [theta]\nconstraints:\n- theta = 1\n- thta = 1\n- 2 thtta = 1\n"
@@ -25,16 +25,6 @@ ENVIRONMENT = {**os.environ, "NO_COLOR": "1", "PYTHONHASHSEED": "1"}
 def run(*arguments: str, stdin: bytes = b"", env: dict[str, str] | None = None) -> subprocess.CompletedProcess[bytes]:
     command = [sys.executable, "-m", "dofkit", *arguments]
     return subprocess.run(command, input=stdin, capture_output=True, check=False, env={**ENVIRONMENT, **(env or {})})
-
-
-def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    """Run in this process: exit status, standard output, standard error."""
-    try:
-        cli.app(list(arguments))
-    except SystemExit as stop:
-        status = stop.code if isinstance(stop.code, int) else 0
-    told = capsys.readouterr()
-    return status, told.out, told.err
 
 
 @pytest.fixture

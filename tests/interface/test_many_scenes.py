@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.command_line import called
 from shared.late import LONG
 
 import dofkit
@@ -30,16 +31,6 @@ constraints:
 - {name: lower, type: revolute, between: [ground, door], at: [0, 0, 0], axis: [0, 0, 1]}
 - {name: upper, type: revolute, between: [ground, door], at: [0, 0, 2], axis: [0, 0, 1]}
 """
-
-
-def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    """Run in this process: exit status, standard output, standard error."""
-    try:
-        cli.app(list(arguments))
-    except SystemExit as stop:
-        status = stop.code if isinstance(stop.code, int) else 0
-    told = capsys.readouterr()
-    return status, told.out, told.err
 
 
 @pytest.fixture(autouse=True)
@@ -226,6 +217,7 @@ def test_undecided_fails_where_it_is_asked(capsys: pytest.CaptureFixture[str]) -
         ("Laman1970", "theorem", "minimally rigid"),
         ("revolute", "type of constraint", "between (the two bodies"),
         ("rheonomic", "word", "Time enters"),
+        ("hinge", "another word", "`revolute`"),
     ],
 )
 def test_words_are_explained(word: str, kind: str, said: str, capsys: pytest.CaptureFixture[str]) -> None:

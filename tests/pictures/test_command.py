@@ -5,18 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-
-from dofkit.interface import cli
-
-
-def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    """Run in this process: exit status, standard output, standard error."""
-    try:
-        cli.app(list(arguments))
-    except SystemExit as stop:
-        status = stop.code if isinstance(stop.code, int) else 0
-    told = capsys.readouterr()
-    return status, told.out, told.err
+from shared.command_line import called
 
 
 def test_one_picture_goes_to_its_file(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
