@@ -16,8 +16,9 @@ from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
 from dofkit.scene.fields import WrittenModel, faults_of
+from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
-from dofkit.scene.reading import find, load
+from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene
 from dofkit.scene.tagged_union import TaggedUnion
 

@@ -10,7 +10,7 @@ from dofkit.base.errors import DofkitError
 from dofkit.base.workers import Json
 from dofkit.checker import CheckError, Verification, verify
 from dofkit.interface.supervised import CertificateGiven
-from dofkit.scene.reading import find
+from dofkit.scene.found_files import find
 
 #: Exit statuses: all is well, something failed, something could not be read.
 VERIFIED, REFUSED, UNREAD = 0, 1, 2

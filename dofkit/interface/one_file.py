@@ -18,7 +18,8 @@ from dofkit.methods.classify import with_certificate
 from dofkit.methods.stages import stages
 from dofkit.motion import lagrange
 from dofkit.report import Report
-from dofkit.scene.reading import SceneFile, find
+from dofkit.scene.found_files import find
+from dofkit.scene.reading import SceneFile
 from dofkit.scene.scene import Scene
 
 

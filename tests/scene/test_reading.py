@@ -15,7 +15,8 @@ import dofkit
 from dofkit.base.documents import read_document
 from dofkit.base.documents.document import MOST_SLOW, _from_block, _from_flow, _from_yaml
 from dofkit.base.errors import Fault, SceneError
-from dofkit.scene.reading import MOST_FAULTS, SceneFile, find, load, loads
+from dofkit.scene.found_files import find
+from dofkit.scene.reading import MOST_FAULTS, SceneFile, load, loads
 from dofkit.scene.scene import Scene
 
 HERE = Path(__file__).parents[1]
