@@ -13,10 +13,11 @@ from dofkit.base.deadline import OutOfTimeError, by_processor
 from dofkit.base.errors import TextError
 from dofkit.base.spelling import nearest
 from dofkit.exact.points.balls import PRECISION
+from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared, Problem, load_assignment
-from dofkit.homework.judgement import NOTHING, Given, Judgement, needs_review
+from dofkit.homework.judgement import NOTHING, DoubtError, Given, Judgement, needs_review
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result
 
@@ -81,7 +82,7 @@ class Grader:
         items: list[Item] = []
         for question in problem.questions:
             answer = given.get(question.id)
-            if answer is None or (isinstance(answer, str) and not answer.strip()):
+            if answer is None or says_nothing(answer):
                 items.append(self._item(problem, question, _MISSING))
                 continue
             spot = _spot(problem, question, answer, earlier)
@@ -113,6 +114,8 @@ class Grader:
         try:
             with by_processor(self.seconds), ctx.workprec(PRECISION):
                 found = question.judge(answer, key, earlier)
+        except DoubtError as error:
+            return needs_review("", error.message)
         except TextError as error:
             hint = f" ({error.hint})" if error.hint else ""
             return Judgement("unreadable", NOTHING, "", (), f"{error.message}{hint}", error.column or 1)

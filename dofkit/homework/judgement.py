@@ -6,12 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from dofkit.base.errors import TextError
 from dofkit.homework.result import Status
 
 #: What stands in a submission as an answer.
 Given = str | int | float | Fraction | Sequence["Given"]
 
 FULL, HALF, NOTHING = Fraction(1), Fraction(1, 2), Fraction(0)
+
+
+class DoubtError(TextError):
+    """An answer that can be read, in more than one way: a person has to look."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.classification.dependence.equivalence import Sameness, compare, is_integral
-from dofkit.homework.answers.words import is_none, one_text, split_words
+from dofkit.homework.answers.words import is_none, one_text
 from dofkit.homework.judgement import HALF, NOTHING, Given, Judgement, needs_review, partly, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions.base import Earlier, QuestionBase
@@ -110,7 +110,7 @@ class IntegralQuestion(QuestionBase):
             yield Fault(f"'{self.constraint}' is not differential", ("constraint",), hint=hint)
 
     def read(self, answer: Given, key: Key) -> str:
-        return "none" if _none(answer) else self._reading(answer, key).shown
+        return "none" if is_none(answer) else self._reading(answer, key).shown
 
     def _reading(self, answer: Given, key: Key) -> Read:
         return read_equations(_texts(answer), key.names, constants=True)
@@ -124,7 +124,7 @@ class IntegralQuestion(QuestionBase):
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         entry = key.constraints[self.constraint]
-        if _none(answer):
+        if is_none(answer):
             if entry.holonomic is None:
                 return needs_review("none", "dofkit does not know whether the constraint integrates.")
             told = "The constraint does integrate to a finite relation."
@@ -154,10 +154,6 @@ def _unknown(names: tuple[str, ...], key: Key) -> Iterator[Fault]:
 
 def _texts(answer: Given) -> str | list[str]:
     return [one_text(part) for part in answer] if isinstance(answer, (list, tuple)) else one_text(answer)
-
-
-def _none(answer: Given) -> bool:
-    return is_none(split_words(answer)) if isinstance(answer, str) else False
 
 
 def _with_answer(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:

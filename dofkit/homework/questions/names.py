@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from dofkit.homework.answers.words import chosen, is_none, split_words
+from dofkit.homework.answers.words import is_none, names_of
 from dofkit.homework.judgement import Given, Judgement, needs_review, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.selection import can_be_dropped, determine
@@ -22,8 +22,7 @@ class Coordinates(QuestionBase):
         return ", ".join(self._names(answer, key)) or "none"
 
     def _names(self, answer: Given, key: Key) -> list[str]:
-        words = split_words(answer)
-        return [] if is_none(words) else chosen(words, key.coordinates, "coordinate")
+        return [] if is_none(answer) else names_of(answer, key.coordinates, "coordinate")
 
     def solution(self, key: Key) -> str:
         names = key.report.generalized_coordinates
@@ -55,8 +54,7 @@ class Redundant(QuestionBase):
         return ", ".join(self._names(answer, key)) or "none"
 
     def _names(self, answer: Given, key: Key) -> list[str]:
-        words = split_words(answer)
-        return [] if is_none(words) else chosen(words, list(key.constraints), "constraint")
+        return [] if is_none(answer) else names_of(answer, list(key.constraints), "constraint")
 
     def solution(self, key: Key) -> str:
         redundant = key.report.redundant

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from dofkit.homework.answers.words import number
+from dofkit.homework.answers.counts import number
 from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain
@@ -30,7 +30,11 @@ _CONVENTIONS = {
 
 
 class NumberQuestion(QuestionBase):
-    """A number that the report tells."""
+    """A number that the report tells; ``letters``: what it is called."""
+
+    letters: ClassVar[frozenset[str]] = frozenset(
+        {"f", "dof", "ndof", "df", "fg", "fhg", "ddl", "gdl", "s", "freiheitsgrade", "degrees of freedom"}
+    )
 
     def truth(self, key: Key) -> int | None:
         """The right number; None where dofkit does not know it."""
@@ -51,18 +55,18 @@ class NumberQuestion(QuestionBase):
         yield from ()
 
     def number(self, answer: Given) -> Fraction | None:
-        return number(answer)
+        return number(answer, self.letters)
 
     def read(self, answer: Given, key: Key) -> str:
         del key
-        return as_written(number(answer))
+        return as_written(number(answer, self.letters))
 
     def solution(self, key: Key) -> str:
         found = self.truth(key)
         return "" if found is None else f"The answer is {found}."
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
-        given, truth = number(answer), self.truth(key)
+        given, truth = number(answer, self.letters), self.truth(key)
         shown = as_written(given)
         if truth is None:
             return needs_review(shown, "dofkit does not know this number for certain.")
@@ -116,6 +120,7 @@ class VelocityDof(NumberQuestion):
 class CountQuestion(NumberQuestion):
     """k: the number of independent finite constraint equations, coordinates less the configuration's dimension."""
 
+    letters: ClassVar[frozenset[str]] = frozenset({"k", "r", "m", "nc", "constraints", "bindungen"})
     ask: Literal["k"] = Field(description="the number of independent finite constraint equations")
 
     def truth(self, key: Key) -> int | None:
