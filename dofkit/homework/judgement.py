@@ -56,3 +56,12 @@ def partly(share: Fraction, read_as: str, feedback: str = "", *codes: str) -> Ju
 def needs_review(read_as: str, reason: str) -> Judgement:
     """Not decided: a person has to look."""
     return Judgement("needs_review", None, read_as, (), f"This could not be decided and will be looked at: {reason}")
+
+
+def agreed(found: Sequence[Judgement]) -> Judgement:
+    """What all readings of an answer come to; where they are judged differently a person has to look."""
+    first = found[0]
+    shown = " or ".join(dict.fromkeys(one.read_as for one in found))
+    if all((one.status, one.share) == (first.status, first.share) for one in found):
+        return replace(first, read_as=shown)
+    return needs_review(shown, "it can be read in more than one way.")

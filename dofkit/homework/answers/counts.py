@@ -71,7 +71,7 @@ def _segments(script: Script) -> Iterator[Script]:
             if not before or before[-1] in "+-*/=(^":
                 continue
             inside = part.cut(*group.span(1))
-            if _only_number(inside.text):
+            if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
                 yield inside
             part = part.replaced(re.compile(re.escape(group[0])), lambda m: " " * len(m[0]))
         if part.text.strip():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import NamedTuple
 
 from dofkit.base.errors import TextError
@@ -56,6 +57,7 @@ _WORDS: dict[str, tuple[str, bool]] = {
 }
 #: What misspelt labels are compared with.
 _GUESSED = [w for w in _WORDS if w[:3] in ("hol", "scl", "skl", "rhe", "bil", "uni")]
+_LONGEST = 24
 _NEGATIONS = words("not non no non- not- isn't isnt nicht kein keine never neither nor weder noch pas ni nao ne' né")
 #: Words over which a negation reaches.
 _FILLING = words(
@@ -133,6 +135,7 @@ def _split(answer: Given) -> list[Word]:
     return [Word(w.text, script.columns[w.column - 1]) for w in split_words(script.text)]
 
 
+@lru_cache(maxsize=4096)
 def _label(text: str) -> tuple[str, bool] | None:
     """The part that a word names and whether it says that it holds; misspelt labels are read too."""
     bare = _HYPHEN.sub("", text)
@@ -140,7 +143,7 @@ def _label(text: str) -> tuple[str, bool] | None:
         return _WORDS[bare]
     negated = next((n for n in ("non", "not", "nicht", "nao", "no") if bare.startswith(n)), "")
     rest = bare[len(negated) :]
-    near = closest(rest, _GUESSED, ALIKE)
+    near = closest(rest, _GUESSED, ALIKE) if len(rest) <= _LONGEST else None
     if near is None:
         return None
     part, holds = _WORDS[near]

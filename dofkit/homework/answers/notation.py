@@ -36,6 +36,12 @@ def _mended(match: re.Match[str]) -> str:
     return "\\" + _CONTROLS[match[0][0]] + match[0][1:]
 
 
+def _dotted(name: str, mark: str) -> str:
+    """`x_dot`, and `xdot_1` of a name with an index."""
+    stem, _, index = re.sub(r"\\var|[{}\\]", "", name).partition("_")
+    return f"{stem}{mark}_{index}" if index else f"{stem}_{mark}"
+
+
 _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
     (re.compile(pattern), by)
     for pattern, by in (
@@ -59,16 +65,19 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\\(?:[dtc]?frac)\s*(\d|[A-Za-z])\s*(?=\{)", r"\\frac{\1}"),
         (r"\\(?:[dtc]?frac)\s*(\d)\s*([A-Za-z])", r"\\frac{\1}{\2}"),
         (r"\\(?:[dtc]?frac)\s*(\{[^{}]*\})\s*(\d|[A-Za-z])(?![\w}])", r"\\frac\1{\2}"),
+        (r"\\[dtc]?frac\s+([A-Za-z\d])\s*([A-Za-z\d])(?!\w)", r"\\frac{\1}{\2}"),
         (r"\\[dtc]frac(?![A-Za-z])", r"\\frac"),
+        (r"\A\s*(?:sp\.|sympy\.)?(?:Eq|Equality)\((.*),\s*(0|[^,()]*(?:\([^()]*\)[^,()]*)*)\)\s*\Z", r"\1 = \2"),
         (r"\\(?:mathrm|text|rm|operatorname)\s*\{\s*d\s*\}\s*|\\dd(?![A-Za-z])\s*|(?<![A-Za-z])ⅆ", "d"),
         (rf"\\frac\s*\{{\s*d\s*\^\s*\{{?\s*2\s*\}}?\s*({_NAME})\s*\}}\s*\{{\s*d\s*t\s*\^\s*\{{?\s*2\s*\}}?\s*\}}",
          lambda m: f" ddot({m[1]}) "),
         (rf"\\frac\s*\{{\s*d\s*({_NAME})\s*\}}\s*\{{\s*d\s*t\s*\}}", lambda m: f" dot({m[1]}) "),
         (rf"\\(dd?ot)\s*\{{\s*\{{?\s*({_NAME})\s*\}}?\s*\}}((?:_\{{?\w+\}}?)?)", lambda m: f" {m[1]}({m[2]}{m[3]}) "),
         (rf"\\(dd?ot)\s*({_NAME})", lambda m: f" {m[1]}({m[2]}) "),
-        (rf"\b(dd?ot)\(\s*({_NAME})\s*\)",
-         lambda m: f" {m[2].lstrip(chr(92)).replace('{', '').replace('}', '').replace('ell', 'l')}_{m[1]} "
-         if "_" not in m[2] else f" {_dotted(m[2], m[1])} "),
+        (r"Derivative\(\s*(\w+)(?:\(t\))?\s*,\s*t\s*\)", lambda m: f" {_dotted(m[1], 'dot')} "),
+        (r"Derivative\(\s*(\w+)(?:\(t\))?\s*,\s*(?:\(t\s*,\s*2\)|t\s*,\s*[t2])\s*\)",
+         lambda m: f" {_dotted(m[1], 'ddot')} "),
+        (rf"\b(dd?ot)\(\s*({_NAME})\s*\)", lambda m: f" {_dotted(m[2], m[1])} "),
         (r"\bd\s*/\s*(?:dt|\(dt\))\s*(?=[(\[{])", "Ddt"),
         (r"\\frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\}\s*(?:\\left)?\s*(?=[(\[{])", "Ddt"),
         (r"\{,\}", "."),
@@ -90,11 +99,6 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\b(?:np|numpy|math|sp|sympy)\.(?=[a-z])", ""),
     )
 )  # fmt: skip
-
-
-def _dotted(name: str, mark: str) -> str:
-    stem, _, index = name.replace("{", "").replace("}", "").lstrip("\\").partition("_")
-    return f"{stem}{mark}_{index}"
 
 
 _JOINED = (
@@ -146,6 +150,6 @@ def script_of(text: str) -> Script:
 
 #: A plain text without any of these needs no rule.
 _ODD = re.compile(
-    r"[\\$&`\"{>]|:=|\bdd?ot\(|\bd/|np\.|math\.|sympy\.|sp\.|numpy\.|<br"
+    r"Derivative|Eq\(|Equality|[\\$&`\"{>]|:=|\bdd?ot\(|\bd/|np\.|math\.|sympy\.|sp\.|numpy\.|<br"
     r"|\b(?:sen|tg|Sin|Cos|Tan|Sqrt|Exp|SIN|COS|TAN|SQRT|EXP)\b"
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from functools import lru_cache
 
 _LETTERS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
 _MARKS = re.compile("[\u0300-\u036f]")
@@ -95,6 +96,7 @@ FILLING = words(
 )
 
 
+@lru_cache(maxsize=4096)
 def plain(text: str) -> str:
     """A text in small letters, without accents, blanks around it and the stop at its end.
 
