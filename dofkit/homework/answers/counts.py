@@ -18,7 +18,7 @@ _HINT = "write a number such as 3"
 _COMMA = re.compile(r"(?<=\d),(?=\d)")
 _GROUP = re.compile(r"\s*\(([^()]*)\)")
 _SEGMENT = re.compile(
-    r"[;\n]|,(?!\d)|:(?!=)|(?<=[^\d\s])\.(?=\s)|\s[-–—]\s(?=[^\W\d])|"
+    r"[;\n]|,(?!\d)|:(?!=)|(?<=[^\d\s])\.(?=\s)|\s[-–—]\s(?=[^\W\d_]{3})|"
     r"(?<=\s)(?:so|therefore|hence|thus|also|donc|luego|quindi|portanto|daher|folglich)(?=\s)",
     re.IGNORECASE,
 )
@@ -62,21 +62,24 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
 
 
 def _segments(script: Script) -> Iterator[Script]:
-    """What stands between separators, each part of it in parentheses by itself."""
+    """What stands between separators, and a number in parentheses that repeats one; other parentheses are remarks."""
+    for group in _GROUP.finditer(script.text):
+        before = script.text[: group.start()].rstrip()
+        if before and before[-1] not in "+-*/=(^":
+            inside = script.cut(*group.span(1))
+            if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
+                yield inside
+            script = script.replaced(re.compile(re.escape(group[0])), _blank)
     place = 0
     for cut in [*(m.span() for m in _SEGMENT.finditer(script.text)), (len(script.text), len(script.text))]:
         part = script.cut(place, cut[0])
-        for group in _GROUP.finditer(part.text):
-            before = part.text[: group.start()].rstrip()
-            if not before or before[-1] in "+-*/=(^":
-                continue
-            inside = part.cut(*group.span(1))
-            if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
-                yield inside
-            part = part.replaced(re.compile(re.escape(group[0])), lambda m: " " * len(m[0]))
         if part.text.strip():
             yield part
         place = cut[1]
+
+
+def _blank(match: re.Match[str]) -> str:
+    return " " * len(match[0])
 
 
 def _only_number(text: str) -> bool:

@@ -132,7 +132,16 @@ def _split(answer: Given) -> list[Word]:
     for pattern, by in _PHRASES:
         script = script.replaced(pattern, by)
     script = script.replaced(_SLASH, " ")
-    return [Word(w.text, script.columns[w.column - 1]) for w in split_words(script.text)]
+    found = [Word(w.text, script.columns[w.column - 1]) for w in split_words(script.text)]
+    return [Word(part, w.column) for w in found for part in _parted(w.text)]
+
+
+def _parted(text: str) -> list[str]:
+    """`holonomic-scleronomic` is two labels."""
+    parts = _HYPHEN.split(text)
+    if len(parts) == 2 and all(_label(plain(part)) for part in parts):
+        return parts
+    return [text]
 
 
 @lru_cache(maxsize=4096)

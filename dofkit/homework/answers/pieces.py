@@ -134,7 +134,7 @@ def _at_words(text: str, names: Names) -> Iterator[tuple[int, int]]:
 def _cleaned(script: Script, names: Names) -> Script | None:
     """An equation without what stands around it; None where there is only a remark."""
     script = script.stripped()
-    while (group := _GROUP.search(script.text)) is not None and _is_remark(group[1] or group[2] or "", names):
+    while (group := _GROUP.search(script.text)) is not None and _is_remark(group[1] or group[2] or "", names, 3):
         script = script.replaced(re.compile(re.escape(group[0])), " ").stripped()
     script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|(?<=[^\d\s])\.\s*\Z|(?<=\d)\.\s*\Z|!\s*\Z"), "").stripped()
     for lead in (_TITLED, _INTRODUCED):
@@ -169,9 +169,9 @@ def _of_coordinates(text: str, names: Names) -> bool:
     return any(s.args[0] != "parameter" for c in found for s in c.left.symbols)
 
 
-def _is_remark(text: str, names: Names) -> bool:
+def _is_remark(text: str, names: Names, least: int = 5) -> bool:
     """Words of which none is a name, more than one or one that is known to say nothing."""
-    if re.search(r"[=<>≤≥+*/^\\\d±|]", text):
+    if re.search(r"[=<>≤≥+*/^\\\d±|·⋅×−√½⅓¼¾²³¹⁰-₉]", text):
         return False
     found = [plain(w) for w in _WORDS.findall(text)]
     unknown = [w for w in found if not _known(w, names)]
@@ -180,7 +180,7 @@ def _is_remark(text: str, names: Names) -> bool:
     long = [w for w in unknown if len(w) > 3]
     if any(w in _REMARKED for w in unknown) or len(unknown) > 2 or (len(unknown) > 1 and bool(long)):
         return True
-    return len(unknown) == 1 and len(unknown[0]) > 4 and unknown[0] not in GREEK.values()
+    return len(unknown) == 1 and len(unknown[0]) >= least and unknown[0] not in GREEK.values()
 
 
 def several(scripts: Sequence[Script]) -> str:

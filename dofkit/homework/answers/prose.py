@@ -23,7 +23,7 @@ def _phrases(text: str) -> frozenset[str]:
 NUMBERS: dict[str, int] = {
     word: n
     for n, forms in enumerate((
-        "zero null zéro cero nil", "one ein eins eine einen un une uno una um uma single",
+        "zero null zéro cero nil", "one ein eins eine einen einer eines un une uno una um uma single",
         "two zwei deux dos due dois duas", "three drei trois tres tre três", "four vier quatre cuatro quattro quatro",
         "five fünf fuenf cinq cinco cinque", "six sechs seis sei", "seven sieben sept siete sette sete",
         "eight acht huit ocho otto oito", "nine neun neuf nueve nove", "ten zehn dix diez dieci dez",
@@ -33,7 +33,7 @@ NUMBERS: dict[str, int] = {
 }  # fmt: skip
 #: What is counted.
 UNITS = words(
-    "dof dofs fhg ddl gdl gdls degree degrees deg of freedom freiheitsgrad freiheitsgrade freiheitsgraden "
+    "dof dofs fhg ddl gdl gdls degree degrees deg of di do freedom freiheitsgrad freiheitsgrade freiheitsgraden "
     "degre degres de d liberte liberta grado grados gradi libertad grau graus liberdade equation "
     "equations constraint constraints gleichung gleichungen zwangsbedingung zwangsbedingungen bindung "
     "bindungen contrainte contraintes liaison liaisons ecuacion ecuaciones restriccion restricciones "
@@ -87,12 +87,13 @@ NOTHING_SAID = frozenset(
 )
 #: Words between words of an answer that say nothing.
 FILLING = words(
-    "a an the is it be also really either both these are and or as for example e.g. der die das ein eine "
-    "einen ist es auch und sind die winkel angle angles position positions coordinate coordinates le la "
-    "les un une est c'est aussi et sont el los las uno una es son tambien y lo il gli i e anche sono o os "
-    "as um uma tambem constraint constraints with to by von vom mit bindung bindungen koordinate "
-    "koordinaten coordonnees coordenadas redundant redundante redundantes generalized generalised "
-    "verallgemeinerte one choice possible set wir wahlen choose can be dropped of"
+    "only just nur seulement solo solamente soltanto somente allein seul l'angle un'angolo a an the is it be also "
+    "really either both these are and or as for example e.g. der die das ein eine einen ist es auch und sind "
+    "winkel angle angles position positions coordinate coordinates le la les un une est c'est aussi et sont el "
+    "los las uno una son tambien y lo il gli i e anche sono o os um uma tambem constraint constraints with to by "
+    "von vom mit bindung bindungen koordinate koordinaten coordonnees coordenadas redundant redundante "
+    "redundantes generalized generalised verallgemeinerte one choice possible set wir wahlen choose can dropped "
+    "of"
 )
 
 

@@ -46,6 +46,8 @@ _FUNCTION = re.compile(
     r"(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{?\w{0,2}\}?)?)\s*=(?!=)\s*"
 )
 _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
+_CALLED = re.compile(r"\A\s*\\?([^\W\d_]\w*)\s*\(\s*\\?(?:var)?([^\W\d_]\w*)\s*\)\s*=(?!=)")
+_POWER_OF_E = re.compile(r"(?<![\w\\])([A-Za-zα-ωΑ-Ω])e(?=\s*(?:\^|\*\*))")
 _CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGNORECASE)
 _SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓")
 
@@ -70,6 +72,11 @@ class Reading(NamedTuple):
     def shown(self) -> str:
         """In the grammar of scenes."""
         return "; ".join(as_text(c) for c in self.relations)
+
+    @property
+    def claim(self) -> Reading:
+        """The last relation alone, to which arrows lead."""
+        return self._replace(relations=self.relations[-1:], bare=self.bare[-1:], derived=False)
 
     @property
     def on_coordinates(self) -> bool:
@@ -194,9 +201,10 @@ def _readings(pieces: Pieces, vocabulary: Vocabulary) -> Iterator[Reading]:
     ways: list[tuple[tuple[Comparison, ...], tuple[bool, ...], Vocabulary]] = [((), (), vocabulary)]
     for script in pieces.scripts:
         more = []
+        script = _plainer(script, vocabulary)
         for relations, bare, own in ways:
             for found, grown in _ways(script, own):
-                alone = len(found) == 1 and not _RELATION.search(_without_lead(script, own).text)
+                alone = len(found) == 1 and not _RELATION.search(script.text)
                 more.append(((*relations, *found), (*bare, *[alone] * len(found)), grown))
         ways = more
         if len(ways) > MOST_READINGS:
@@ -207,7 +215,6 @@ def _readings(pieces: Pieces, vocabulary: Vocabulary) -> Iterator[Reading]:
 
 def _ways(script: Script, vocabulary: Vocabulary) -> Iterator[tuple[tuple[Comparison, ...], Vocabulary]]:
     """The relations of one piece, in every way, and the names known then."""
-    script = _without_lead(script, vocabulary)
     if vocabulary.signs_apart and _SIGNS.search(script.text):
         for up, down in ("+-", "-+"):
             yield from _ways(script.replaced(_PLUS, up).replaced(_MINUS, down), vocabulary)
@@ -225,6 +232,7 @@ def _ways(script: Script, vocabulary: Vocabulary) -> Iterator[tuple[tuple[Compar
             for n, way in enumerate(error.readings):
                 if vocabulary.choice.get(kind, n) != n:
                     continue
+                way = f" {way} "
                 text = script.text[: start - 1] + way + script.text[end - 1 :]
                 place = script.columns[start - 1]
                 columns = (*script.columns[: start - 1], *[place] * len(way), *script.columns[end - 1 :])
@@ -243,11 +251,26 @@ def _ways(script: Script, vocabulary: Vocabulary) -> Iterator[tuple[tuple[Compar
             raise script.moved(error) from None
 
 
+def _plainer(script: Script, vocabulary: Vocabulary) -> Script:
+    """Without a leading name; `r(phi) =` is r, `Ce^x` is C e^x."""
+    script = _without_lead(script, vocabulary)
+    match = _CALLED.match(script.text)
+    if match is not None and {spelled(match[1]), spelled(match[2])} <= vocabulary.names.coordinates:
+        script = script.replaced(_CALLED, lambda m: f"{m[1]} =")
+    if vocabulary.names.lookup.meaning("e") is not None:
+        return script
+    return script.replaced(
+        _POWER_OF_E, lambda m: m[0] if vocabulary.names.lookup.meaning(m[0]) is not None else f"{m[1]} e"
+    )
+
+
 def _without_lead(script: Script, vocabulary: Vocabulary) -> Script:
     """Without `f(x, y) =` before an expression or an equation; `const.` is the name of a constant."""
     script = script.replaced(_CONSTANTS, "const")
     lead = _FUNCTION.match(script.text)
     if lead is None or lead.end() == len(script.text):
+        return script
+    if "(" not in lead[0] and not re.match(r"\s*[fgh]", lead[0]) and "=" not in script.text[lead.end() :]:
         return script
     name = re.sub(r"[\\{}]", "", lead[0].split("=")[0].split("(")[0]).strip()
     if vocabulary.names.lookup.meaning(name) is not None or re.search(

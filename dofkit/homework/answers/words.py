@@ -21,7 +21,8 @@ from dofkit.scene.fields import as_written, exact
 MOST_CHARACTERS = 2000
 _SEPARATORS = re.compile(r"[,;\s]+(?:and|und|et|&)[,;\s]+|[,;\s]+|\s*&\s*")
 _REMARK = re.compile(r"(?<=\w)\s*\([^()]*[^\W\d_]{3}[^()]*\)")
-_COMMAND = re.compile(r"\\(?=[A-Za-z])")
+_TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=")
+_COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
 _BRACES = re.compile(r"_\{(\w+)\}")
 
 
@@ -84,6 +85,7 @@ def is_none(answer: object) -> bool:
 def names_of(answer: object, known: Sequence[str], what: str) -> list[str]:
     """The known names that an answer lists; remarks in parentheses and words around them are read over."""
     if isinstance(answer, str):
+        answer = _TITLE.sub(lambda m: " " * len(m[0]), answer) if "q" not in known else answer
         answer = _REMARK.sub(lambda m: " " * len(m[0]), answer)
     words = split_words(answer)
     table = NameTable(known)

@@ -75,6 +75,9 @@ class EquationComparison:
                     told = "Its numbers are rounded: write them exactly, as roots and fractions."
                     return partly(HALF, way.shown, told, ROUNDED)
         if way.derived and found.status != "right":
+            last = self._found(way.claim)
+            if last.status == "right":
+                return last
             return needs_review(way.shown, "whether the last of the equations alone is meant.")
         return found
 

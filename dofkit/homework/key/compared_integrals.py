@@ -25,6 +25,7 @@ _LEFT_OUT = "The constant of integration was left out: `... = C`."
 
 def integral_judgement(way: Reading, key: Key, name: str) -> Judgement:
     """What one reading of an answer is worth as the integral of the constraint of this name."""
+    way = way.claim if way.derived else way
     read = _with_constants(way, key)
     if read.moving:
         told = "This still holds velocities: the finite relation that it integrates to is asked for."
@@ -36,7 +37,7 @@ def integral_judgement(way: Reading, key: Key, name: str) -> Judgement:
     family = _leaves(key, read, name)
     if family is Leaves.ALL or (family is Leaves.ONE and not read.constants):
         return right(read.shown, remark)
-    if family is Leaves.OPEN or way.derived:
+    if family is Leaves.OPEN:
         return needs_review(read.shown, "whether it is an integral was not decided in the time there is.")
     return wrong(read.shown, "Its differential is not the constraint.", "WRONG_INTEGRAL")
 

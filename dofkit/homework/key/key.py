@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
@@ -30,10 +30,14 @@ SCENE_SECONDS = 60.0
 
 @dataclass(frozen=True)
 class Key:
-    """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means."""
+    """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means.
+
+    ``also``: further coordinates that an answer may use, and what they are.
+    """
 
     scene: Scene
     convention: Convention = "configuration"
+    also: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def report(self) -> Report:

@@ -26,6 +26,8 @@ def without_own(reading: Reading, scene: Scene) -> Reading | None:
     if any(c.relation != "=" for c in reading.relations):
         return None
     sums = [c.left - c.right for c in reading.relations]
+    if any(sum(_mentions(e, name) for e in sums) < 2 for name in reading.own):
+        return None
     for name in reading.own:
         symbol = ex.coordinate(name) if name in reading.moving else ex.parameter(name)
         found = _eliminated(sums, symbol, scene)
@@ -39,6 +41,10 @@ def without_own(reading: Reading, scene: Scene) -> Reading | None:
     return Reading(relations, (False,) * len(relations), meant=reading.meant)
 
 
+def _mentions(e: Expr, name: str) -> bool:
+    return any(len(s.args) > 1 and s.args[1] == name for s in e.symbols)
+
+
 def _eliminated(sums: Sequence[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
     holding = [e for e in sums if symbol in e.symbols]
     rest = [e for e in sums if symbol not in e.symbols]
@@ -47,7 +53,34 @@ def _eliminated(sums: Sequence[Expr], symbol: Expr, scene: Scene) -> list[Expr] 
         if symbol not in slope.symbols and never_zero(slope, scene):
             value = -substitute(e, {symbol: ZERO}) / slope
             return rest + [substitute(other, {symbol: value}) for other in holding if other is not e]
+    along = _without_length(holding, symbol, scene)
+    if along is not None:
+        return [*rest, along]
     return _without_angle(holding, rest, symbol, scene)
+
+
+def _without_length(holding: Sequence[Expr], symbol: Expr, scene: Scene) -> Expr | None:
+    """Two relations a = r cos(A), b = r sin(A): there is such an r where a sin(A) = b cos(A), and only there."""
+    if len(holding) != 2:
+        return None
+    slopes = [diff(e, symbol) for e in holding]
+    rest = [substitute(e, {symbol: ZERO}) for e in holding]
+    turns = [_turn(slope, scene) for slope in slopes]
+    if None in turns or {t[0] for t in turns if t} != {"sin", "cos"} or len({t[1] for t in turns if t}) != 1:
+        return None
+    if any(symbol in e.symbols for e in slopes):
+        return None
+    return rest[0] * slopes[1] - rest[1] * slopes[0]
+
+
+def _turn(e: Expr, scene: Scene) -> tuple[str, Expr] | None:
+    """A sine or cosine times what is never 0: which, and of what."""
+    factors = e.args if e.op == "mul" else (e,)
+    turning = [f for f in factors if f.op == "fn" and f.args[0] in ("sin", "cos")]
+    others = [f for f in factors if f not in turning]
+    if len(turning) != 1 or not all(never_zero(f, scene) for f in others):
+        return None
+    return turning[0].args[0], turning[0].args[1]
 
 
 def _without_angle(holding: Sequence[Expr], rest: list[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:

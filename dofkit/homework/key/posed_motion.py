@@ -20,6 +20,7 @@ from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import Given
 from dofkit.homework.key.compared_equations import undeclared
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_coordinates import offered
 from dofkit.homework.key.own_names import renamed
 from dofkit.scene.added_equations import as_text
 
@@ -75,9 +76,12 @@ def _posed(way: Reading, key: Key, value: bool) -> PosedMotion:
     known = tuple(ex.parameter(n) for n in multipliers)
     if value and (len(rest) != 1 or not rest[0][1]):
         raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
-    if not other or defined == set(other):
-        if other:
-            key = key.with_own(other, tuple(as_text(c) for c in defining))
+    if defined != set(other) and not defined and set(other) <= set(key.also):
+        key = offered(key, other)
+        defined = set(other)
+    elif defined and defined == set(other):
+        key = key.with_own(other, tuple(as_text(c) for c in defining))
+    if defined == set(other):
         table = {ex.parameter(n): ex.coordinate(n) for n in other}
         relations = tuple(_substituted(c, table) for c, _ in rest)
         return PosedMotion(key, relations, _shown(relations, value), known)

@@ -9,6 +9,7 @@ from pydantic import Field
 from dofkit.homework.answers.words import is_none, names_of
 from dofkit.homework.judgement import Given, Judgement, needs_review, right, wrong
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_coordinates import chosen_coordinates
 from dofkit.homework.key.selection import can_be_dropped, determine
 from dofkit.homework.questions.base import Earlier, QuestionBase
 
@@ -19,10 +20,7 @@ class Coordinates(QuestionBase):
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
     def read(self, answer: Given, key: Key) -> str:
-        return ", ".join(self._names(answer, key)) or "none"
-
-    def _names(self, answer: Given, key: Key) -> list[str]:
-        return [] if is_none(answer) else names_of(answer, key.coordinates, "coordinate")
+        return ", ".join(chosen_coordinates(answer, key).names) or "none"
 
     def solution(self, key: Key) -> str:
         names = key.report.generalized_coordinates
@@ -30,7 +28,8 @@ class Coordinates(QuestionBase):
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        names, report = self._names(answer, key), key.report
+        names, key = chosen_coordinates(answer, key)
+        report = key.report
         dof = report.dof
         shown = ", ".join(names) or "none"
         if dof is None:
