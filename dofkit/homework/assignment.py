@@ -16,6 +16,7 @@ from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.key.own_coordinates import faults_of_own
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
+from dofkit.homework.sentences.said import Language
 from dofkit.scene.fields import WrittenModel, faults_of
 from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
@@ -70,6 +71,7 @@ class Assignment(WrittenModel):
     title: str = Field(description="its title")
     convention: Convention = Field("configuration", description='which freedom a bare "degrees of freedom" means')
     feedback: FeedbackLevel = Field("hint", description="`hint` says what went wrong, `full` also what is right")
+    language: Language = Field("en", description="the language of the feedback: `en`, `de`, `fr` or `es`")
     problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
 
 

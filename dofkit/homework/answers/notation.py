@@ -67,7 +67,6 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\\(?:[dtc]?frac)\s*(\{[^{}]*\})\s*(\d|[A-Za-z])(?![\w}])", r"\\frac\1{\2}"),
         (r"\\[dtc]?frac\s+([A-Za-z\d])\s*([A-Za-z\d])(?!\w)", r"\\frac{\1}{\2}"),
         (r"\\[dtc]frac(?![A-Za-z])", r"\\frac"),
-        (r"\A\s*(?:sp\.|sympy\.)?(?:Eq|Equality)\((.*),\s*(0|[^,()]*(?:\([^()]*\)[^,()]*)*)\)\s*\Z", r"\1 = \2"),
         (r"\\(?:mathrm|text|rm|operatorname)\s*\{\s*d\s*\}\s*|\\dd(?![A-Za-z])\s*|(?<![A-Za-z])ⅆ", "d"),
         (rf"\\frac\s*\{{\s*d\s*\^\s*\{{?\s*2\s*\}}?\s*({_NAME})\s*\}}\s*\{{\s*d\s*t\s*\^\s*\{{?\s*2\s*\}}?\s*\}}",
          lambda m: f" ddot({m[1]}) "),
@@ -138,11 +137,40 @@ def _closed(text: str, start: int) -> int | None:
     return None
 
 
+_COMMAND = re.compile(
+    rf"(?<!\\)\\(?=(?:{'|'.join(sorted(_COMMANDS, key=len, reverse=True))})(?![a-z])|[^\\\s\"/abefnrtuvxNLPU_0-9])"
+)
+
+
+def backslashes_kept(text: str) -> str:
+    """The text of a document with backslashes doubled that begin commands of LaTeX, or mean nothing in quotes."""
+    return _COMMAND.sub(r"\\\\", text)
+
+
+_EQUALITY = re.compile(r"\A\s*(?:sp\.|sympy\.)?(?:Eq|Equality)(?=\()")
+
+
+def _as_equation(script: Script) -> Script:
+    """`Eq(a, b)` is a = b."""
+    match = _EQUALITY.match(script.text)
+    end = None if match is None else _closed(script.text, match.end())
+    if match is None or end is None or script.text[end + 1 :].strip():
+        return script
+    depth = 0
+    for i in range(match.end() + 1, end):
+        depth += (script.text[i] in "([{") - (script.text[i] in ")]}")
+        if script.text[i] == "," and depth == 0:
+            left, right = script.cut(match.end() + 1, i), script.cut(i + 1, end)
+            return Script(f"{left.text} = {right.text}", (*left.columns[:-1], *left.columns[-1:] * 3, *right.columns))
+    return script
+
+
 def script_of(text: str) -> Script:
     """A text in plain signs; what the grammar does not know stays as it is, and is refused there."""
     script = Script.of(text).replaced(_BROKEN, _mended).replaced(_WIDE, _narrow)
     if script.text.isascii() and not _ODD.search(script.text):
         return script
+    script = _as_equation(script)
     for pattern, by in _RULES:
         script = script.replaced(pattern, by)
     return script

@@ -38,8 +38,8 @@ _INTRODUCED = re.compile(
 )  # fmt: skip
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
 _REMARKED = words(
-    "constant constante const konstante konst costante cte arbitrary beliebig arbitraire real reell reel reale any some "
-    "positive angle radius length hence therefore so thus daher also donc luego quindi qed given fixed fest fester"
+    "constant constante const konstante konst costante cte arbitrary beliebig arbitraire real reell reel reale any "
+    "some positive angle radius length hence therefore so thus daher also donc luego quindi qed given fixed fest fester"
 )
 _ABOUT_CONSTANT = re.compile(
     r"\s*(?:with|mit|where|wobei|avec|con|où|donde|dove)?\s*[^\W\d_][\w]{0,8}\s*"

@@ -16,6 +16,7 @@ from dofkit.homework.judgement import HALF, NOTHING, Given, Judgement, needs_rev
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
 from dofkit.homework.key.second_derivatives import held_accelerations
+from dofkit.homework.sentences.said import say
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.system import System
@@ -95,8 +96,8 @@ class EquationComparison:
         for other, names in renamed(way, self.key.scene, self.key.constants):
             found = self._declared(other)
             if found.status == "right":
-                told = ", ".join(f"{own} as {name}" for own, name in names.items())
-                return right(other.shown, f"Your {told}: the problem calls it so.")
+                told = ", ".join(f"{own} = {name}" for own, name in names.items())
+                return right(other.shown, say("Read {names}: so the problem calls it.", names=told))
         raise undeclared(way, self.key)
 
     def _declared(self, way: Reading, shown: str = "") -> Judgement:
@@ -135,8 +136,9 @@ class EquationComparison:
         if not 0 < share < 1:
             return wrong(shown, told, code)
         missing = [n for n, met in zip(self.names, found.met, strict=True) if not met]
-        told = f"{told} {len(self.names) - len(missing)} of {len(self.names)} constraints follow from it."
-        return partly(share, shown, told, code)
+        met = len(self.names) - len(missing)
+        count = say("{number} of {all} constraints follow from it.", number=met, all=len(self.names))
+        return partly(share, shown, told, code).saying(count)
 
 
 def undeclared(way: Reading, key: Key) -> UnknownNameError:

@@ -10,11 +10,12 @@ from pydantic import BeforeValidator, Field
 from dofkit.base.errors import Fault
 from dofkit.homework.answers.relations import Reading, Vocabulary, readings_of
 from dofkit.homework.answers.words import is_none
-from dofkit.homework.judgement import Given, Judgement, agreed, needs_review, right, wrong
+from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
 from dofkit.homework.key.compared_equations import EquationComparison
 from dofkit.homework.key.compared_integrals import integral_judgement
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions.base import Earlier, QuestionBase
+from dofkit.homework.sentences.said import say
 from dofkit.scene.fields import Listed, suggestion
 
 
@@ -39,8 +40,8 @@ class EquationQuestion(QuestionBase):
     def _ways(self, answer: Given, key: Key) -> list[Reading]:
         return readings_of(answer, Vocabulary(key.names, free=True, accelerations=True))
 
-    def solution(self, key: Key) -> str:
-        return f"For example: {'; '.join(key.constraints[name].text for name in self.constraint)}."
+    def solution(self, key: Key) -> Sentence:
+        return say("For example: {text}.", text="; ".join(key.constraints[name].text for name in self.constraint))
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
@@ -69,11 +70,11 @@ class IntegralQuestion(QuestionBase):
     def _ways(self, answer: Given, key: Key) -> list[Reading]:
         return readings_of(answer, Vocabulary(key.names, signs_apart=True))
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]
         if entry.holonomic is False:
-            return f"There is none: {entry.reason}"
-        return "" if entry.integral is None else f"For example: {entry.integral}."
+            return say("There is none: {reason}", reason=entry.reason)
+        return "" if entry.integral is None else say("For example: {text}.", text=entry.integral)
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier

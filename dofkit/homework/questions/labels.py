@@ -10,10 +10,11 @@ from pydantic import Field
 
 from dofkit.base.errors import Fault
 from dofkit.homework.answers.label_words import TERMS, label_text, read_labels, word_of
-from dofkit.homework.judgement import Given, Judgement, needs_review, partly
+from dofkit.homework.judgement import Given, Judgement, Sentence, needs_review, partly
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
+from dofkit.homework.sentences.said import say
 from dofkit.report import ConstraintEntry
 from dofkit.scene.fields import Listed, suggestion
 
@@ -38,10 +39,11 @@ class LabelQuestion(QuestionBase):
         del key
         return label_text(read_labels(answer))
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         truth = truths(key.constraints[self.constraint])
         known = [word_of(p, holds) for p in self.parts if (holds := truth[p]) is not None]
-        return f"It is {', '.join(known)}: {key.constraints[self.constraint].reason}" if known else ""
+        reason = key.constraints[self.constraint].reason
+        return say("It is {labels}: {reason}", labels=", ".join(known), reason=reason) if known else ""
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
@@ -53,15 +55,20 @@ class LabelQuestion(QuestionBase):
         missing = [p for p in self.parts if p not in given]
         twice = [p for p in self.parts if len(given.get(p, ())) > 1]
         codes: list[str] = []
-        told: list[str] = []
+        told: list[Sentence] = []
         for p in self.parts:
             if p not in good and p not in missing and p not in twice:
                 code, why = explain_label(p, entry, key)
                 codes.append(code)
                 told.append(why)
-        told += [f"You did not say whether it is {TERMS[p].holds} or {TERMS[p].fails}." for p in missing]
-        told += [f"It cannot be both {TERMS[p].holds} and {TERMS[p].fails}." for p in twice]
-        return partly(Fraction(len(good), len(self.parts)), shown, " ".join(told), *codes)
+        told += [
+            say("You did not say whether it is {holds} or {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails)
+            for p in missing
+        ]
+        told += [
+            say("It cannot be both {holds} and {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails) for p in twice
+        ]
+        return partly(Fraction(len(good), len(self.parts)), shown, "", *codes).saying(*told)
 
 
 def truths(entry: ConstraintEntry) -> dict[str, bool | None]:

@@ -11,13 +11,14 @@ from pydantic import Field
 from dofkit.base.errors import DofkitError, Fault
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.homework.judgement import HALF, Given, Judgement, agreed, needs_review, partly, right, wrong
+from dofkit.homework.judgement import HALF, Given, Judgement, Sentence, agreed, needs_review, partly, right, wrong
 from dofkit.homework.key.compared_motion import AnsweredMotion, same_lagrangian
 from dofkit.homework.key.compared_motion import MotionSameness as Found
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.posed_motion import PosedMotion, posed_motions
 from dofkit.homework.key.right_motion import RightMotion, is_zero
 from dofkit.homework.questions.base import Earlier, QuestionBase
+from dofkit.homework.sentences.said import say
 from dofkit.scene.fields import suggestion
 
 
@@ -49,16 +50,16 @@ class _MotionQuestion(QuestionBase):
             raise posed.error
         motion = posed.key.motion
         if isinstance(motion, DofkitError):
-            return needs_review(posed.shown, f"dofkit has no equations of motion here ({motion}).")
+            return needs_review(posed.shown, say("dofkit has no equations of motion here ({reason}).", reason=motion))
         return self._judgement(posed, motion)
 
     def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
         raise NotImplementedError
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         return "" if isinstance(key.motion, DofkitError) else self._solution(key.motion)
 
-    def _solution(self, known: RightMotion) -> str:
+    def _solution(self, known: RightMotion) -> Sentence:
         raise NotImplementedError
 
 
@@ -91,8 +92,8 @@ class Lagrangian(_Value):
             shown, "It is another Lagrangian: Euler's equation of the difference is not 0.", "WRONG_LAGRANGIAN"
         )
 
-    def _solution(self, known: RightMotion) -> str:
-        return f"For example: L = {to_text(known.lagrangian)}."
+    def _solution(self, known: RightMotion) -> Sentence:
+        return say("For example: {text}.", text=f"L = {to_text(known.lagrangian)}")
 
 
 class _OfCoordinate(_Value):
@@ -122,15 +123,15 @@ class _OfCoordinate(_Value):
             return wrong(shown, "The sign is wrong.", "SIGN")
         return wrong(shown, self._feedback(), self._code())
 
-    def _feedback(self) -> str:
+    def _feedback(self) -> Sentence:
         raise NotImplementedError
 
     def _code(self) -> str:
         raise NotImplementedError
 
-    def _solution(self, known: RightMotion) -> str:
+    def _solution(self, known: RightMotion) -> Sentence:
         wanted = self._right(known)
-        return f"For example: {to_text(self._unreduced(known) if wanted is None else wanted)}."
+        return say("For example: {text}.", text=to_text(self._unreduced(known) if wanted is None else wanted))
 
 
 class Momentum(_OfCoordinate):
@@ -144,8 +145,8 @@ class Momentum(_OfCoordinate):
     def _unreduced(self, known: RightMotion) -> Expr:
         return known.unreduced[self.coordinate][0]
 
-    def _feedback(self) -> str:
-        return f"The generalized momentum is the derivative of L by {self.coordinate}dot."
+    def _feedback(self) -> Sentence:
+        return say("The generalized momentum is the derivative of L by {velocity}.", velocity=f"{self.coordinate}dot")
 
     def _code(self) -> str:
         return "WRONG_MOMENTUM"
@@ -162,8 +163,11 @@ class GeneralizedForce(_OfCoordinate):
     def _unreduced(self, known: RightMotion) -> Expr:
         return known.unreduced[self.coordinate][1]
 
-    def _feedback(self) -> str:
-        return f"It is the derivative of L by {self.coordinate}, with the forces that have no potential."
+    def _feedback(self) -> Sentence:
+        return say(
+            "It is the derivative of L by {coordinate}, with the forces that have no potential.",
+            coordinate=self.coordinate,
+        )
 
     def _code(self) -> str:
         return "WRONG_FORCE"
@@ -200,7 +204,7 @@ class MotionQuestion(_MotionQuestion):
         rows = [r for r, t in zip(answered.rows or (), told, strict=True) if t is Found.FOLLOWS]
         place = known.names.index(self.coordinate or "")
         if not any(is_zero(row[place], known.positive) is False for row in rows):
-            told_why = f"It does not say what the acceleration of {self.coordinate} is."
+            told_why = say("It does not say what the acceleration of {coordinate} is.", coordinate=self.coordinate)
             return wrong(shown, told_why, Found.TRIVIAL.value)
         if len(rows) == 1 and len(known.names) > 1 and self._of_another(rows[0], answered, known, place):
             return wrong(shown, "This is the equation of another coordinate.", "OTHER_COORDINATE")
@@ -211,11 +215,11 @@ class MotionQuestion(_MotionQuestion):
         told = [_proportional(row[:-1], other[:-1], known.positive) for other in answered.right]
         return not told[place] and any(told)
 
-    def _solution(self, known: RightMotion) -> str:
+    def _solution(self, known: RightMotion) -> Sentence:
         given = known.equations
         own = None if self.coordinate is None else given.get(self.coordinate)
         chosen = list(given.values()) if own is None else [own]
-        return "For example: " + "; ".join(f"{to_text(e)} = 0" for e in chosen) + "."
+        return say("For example: {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
 
 
 def _all(found: tuple[list[Found], int], known: RightMotion, shown: str) -> Judgement:
@@ -227,12 +231,14 @@ def _all(found: tuple[list[Found], int], known: RightMotion, shown: str) -> Judg
         return right(shown)
     if good:
         share = Fraction(max(rank, 0), wanted)
-        return partly(
-            share, shown, f"These fix {max(rank, 0)} of {wanted} accelerations: something is missing.", "WEAKER"
+        told_why = say(
+            "These fix {number} of {all} accelerations: something is missing.", number=max(rank, 0), all=wanted
         )
+        return partly(share, shown, told_why, "WEAKER")
     share = Fraction(max(0, min(rank, wanted - 1)), wanted) if wanted > 1 else (HALF if rank else Fraction(0))
     number = sum(t is Found.NOT for t in told)
-    return partly(share, shown, f"{number} of {len(told)} equations do not hold for the motion.", Found.NOT.value)
+    told_why = say("{number} of {all} equations do not hold for the motion.", number=number, all=len(told))
+    return partly(share, shown, told_why, Found.NOT.value)
 
 
 def _proportional(a: Sequence[Expr], b: Sequence[Expr], positive: frozenset[Expr]) -> bool:

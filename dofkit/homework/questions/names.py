@@ -7,11 +7,12 @@ from typing import Literal
 from pydantic import Field
 
 from dofkit.homework.answers.words import is_none, names_of
-from dofkit.homework.judgement import Given, Judgement, needs_review, right, wrong
+from dofkit.homework.judgement import Given, Judgement, Sentence, needs_review, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import chosen_coordinates
 from dofkit.homework.key.selection import can_be_dropped, determine
 from dofkit.homework.questions.base import Earlier, QuestionBase
+from dofkit.homework.sentences.said import say
 
 
 class Coordinates(QuestionBase):
@@ -22,9 +23,9 @@ class Coordinates(QuestionBase):
     def read(self, answer: Given, key: Key) -> str:
         return ", ".join(chosen_coordinates(answer, key).names) or "none"
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         names = key.report.generalized_coordinates
-        return "" if names is None else f"For example: {', '.join(names) or 'none'}."
+        return "" if names is None else say("For example: {text}.", text=", ".join(names) or "none")
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
@@ -55,9 +56,9 @@ class Redundant(QuestionBase):
     def _names(self, answer: Given, key: Key) -> list[str]:
         return [] if is_none(answer) else names_of(answer, list(key.constraints), "constraint")
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         redundant = key.report.redundant
-        return "not decided" if redundant is None else f"For example: {', '.join(redundant) or 'none'}."
+        return "" if redundant is None else say("For example: {text}.", text=", ".join(redundant) or "none")
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
