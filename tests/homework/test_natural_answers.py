@@ -32,9 +32,10 @@ def grader(name: str) -> Grader:
 
 
 def rows(name: str) -> Iterator[tuple[str, str, Any]]:
-    for place, by_verdict in document(name)["answers"].items():
-        for verdict, answers in by_verdict.items():
-            yield from ((place, verdict, answer) for answer in answers)
+    for part in ("answers", "later"):
+        for place, by_verdict in document(name)[part].items():
+            for verdict, answers in by_verdict.items():
+                yield from ((place, verdict, answer) for answer in answers)
 
 
 @cache

@@ -28,6 +28,7 @@ _WORD = re.compile(r"d\.\s?o\.\s?f\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
 _FIGURE = re.compile(r"[\d½⅓⅔¼¾]")
+_BETWEEN = re.compile(r"\s*\d+\s*[-–]\s*\d+\s*")
 _ENDING = re.compile(r"[\s.!]+$")
 _NONE = words("none no kein keine keinen aucun ninguno ninguna nessuno nenhum")
 
@@ -109,6 +110,8 @@ def _segment(script: Script) -> Fraction | None:
         raise DoubtError("its numbers contradict each other", script.columns[0], _HINT)
     if failure is not None and not found:
         raise failure
+    if found and found[-1] < 0 and _BETWEEN.fullmatch(script.text):
+        raise DoubtError("it says more than one number", script.columns[0], _HINT)
     return found[-1] if found else None
 
 

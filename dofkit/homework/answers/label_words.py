@@ -80,7 +80,8 @@ _PHRASES = tuple(
         (r"\b(?:doesn't|does\s+not|no)\s+(?:contain|involve|explicit)\s+(?:the\s+)?(?:time|t)\b(?:\s+dependence)?",
          _TIMELESS),
         (r"\bdepend(?:s|ent|ing)?\s+(?:explicitly\s+)?(?:on|of)\s+(?:the\s+)?time\b", _TIMED),
-        (r"\btime[\s-]+independent\b", _TIMELESS),
+        (r"\btime[\s-]+independent\b|\bindependent\s+of\s+(?:the\s+)?time\b|\bunabh[aä]ngig\s+von\s+der\s+zeit\b",
+         _TIMELESS),
         (r"\btime[\s-]+dependent\b", _TIMED),
         (r"\b(one|two|single|double)[\s-]+sided\b", r" \1sided "),
         (r"\bh[aä]ngt\s+nicht\s+(?:explizit\s+)?von\s+der\s+zeit\s+ab\b", _TIMELESS),
@@ -91,6 +92,11 @@ _PHRASES = tuple(
         (r"\bdepende\s+(?:expl[ií]citamente\s+)?del\s+tiempo\b|\bdependiente\s+del\s+tiempo\b", _TIMED),
     )
 )  # fmt: skip
+_ABOUT = {
+    "holonomic": re.compile(r"integr"),
+    "scleronomic": re.compile(r"\btime|zeit|temps|tiempo|tempo\b"),
+    "bilateral": re.compile(r"\bside|seitig|\bcote|\blado|\blato"),
+}
 _HINT = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral"
 
 
@@ -157,6 +163,11 @@ def _label(text: str) -> tuple[str, bool] | None:
         return None
     part, holds = _WORDS[near]
     return part, holds != bool(negated)
+
+
+def mentions(part: str, answer: Given) -> bool:
+    """Is something said of a part in other words, such as `integrable` or `time`?"""
+    return isinstance(answer, str) and _ABOUT[part].search(plain(answer)) is not None
 
 
 def word_of(part: str, holds: bool) -> str:

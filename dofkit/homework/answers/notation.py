@@ -51,7 +51,8 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\\right\s*\\?\}|\\\}", ")"),
         (r"\\left\s*\.|\\right\s*\.", ""),
         (r"\$\$?|\\\(|\\\)|\\\[|\\\]", " "),
-        (r"(?<!\\)&", " "),
+        (r"&\s*(?=\\?[=<>])|(?<==)\s*&", " "),
+        (r"(?<!\\)&", ";"),
         (r"\\&", " and "),
         (r"```(?:math|latex)?|`", " "),
         (r"\\ell(?![A-Za-z])|ℓ", " l "),
@@ -122,8 +123,7 @@ def with_differentials(script: Script) -> Script:
         if end is None or mixed:
             continue
         inside = script.text[start + 1 : end]
-        whole = re.compile(re.escape(script.text[match.start() : end + 1]))
-        script = script.replaced(whole, lambda m, inside=inside: f"diff({inside}, t)")
+        script = script.spliced(match.start(), end + 1, f"diff({inside}, t)")
     return script
 
 
@@ -147,6 +147,7 @@ def backslashes_kept(text: str) -> str:
     return _COMMAND.sub(r"\\\\", text)
 
 
+_ALIGNED = re.compile(r"(?<!\\)&")
 _EQUALITY = re.compile(r"\A\s*(?:sp\.|sympy\.)?(?:Eq|Equality)(?=\()")
 
 
@@ -171,6 +172,8 @@ def script_of(text: str) -> Script:
     if script.text.isascii() and not _ODD.search(script.text):
         return script
     script = _as_equation(script)
+    if "\\begin" in script.text:
+        script = script.replaced(_ALIGNED, " ")
     for pattern, by in _RULES:
         script = script.replaced(pattern, by)
     return script

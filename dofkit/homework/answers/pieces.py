@@ -46,6 +46,8 @@ _ABOUT_CONSTANT = re.compile(
     r"(?:(?:∈|\bin\b|is|ist|est|es|è|:)\s*(?:R|ℝ|IR|reals?|an?\b|eine?\b|une?\b|una?\b)?[^=<>]{0,40}"
     r"|=\s*(?:const|konst|cte|cst|cost)[^\W\d_]*\.?)\s*", re.IGNORECASE,
 )  # fmt: skip
+#: A letter that is the Spanish or the Italian word for "and", between what may be two equations.
+_BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
 _CHAINED = re.compile(r"(?<![<>=!])=(?!=)")
 
 
@@ -144,6 +146,8 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     text = script.text
     if not text or (_ABOUT_CONSTANT.fullmatch(text) and not _of_coordinates(text, names)) or _is_remark(text, names):
         return None
+    if len(_CHAINED.findall(text)) > 1 and _BESIDE.search(text):
+        raise DoubtError("a letter may be a factor or the word for `and`", script.columns[0], "write `;`")
     script = script.replaced(_DECIMAL, ".")
     if script.text != text and len(_CHAINED.findall(text)) > 1:
         raise DoubtError("a comma may be a decimal sign or stand between equations", script.columns[0], None)
@@ -156,8 +160,9 @@ def _known(word: str, names: Names) -> bool:
 
 def _is_lead(text: str, names: Names) -> bool:
     """Do words stand here, none of which is a name? A name with a number, such as g1, titles an equation too."""
-    found = _WORDS.findall(text)
-    return not any(len(w) > 1 and _known(w, names) for w in found) and (len(found) > 1 or ":" in text)
+    found = re.findall(r"\w+", text)
+    least = 0 if ":" in text else 1
+    return not any(len(w) > least and _known(w, names) for w in found) and (len(found) > 1 or ":" in text)
 
 
 def _of_coordinates(text: str, names: Names) -> bool:

@@ -33,24 +33,24 @@ NUMBERS: dict[str, int] = {
 }  # fmt: skip
 #: What is counted.
 UNITS = words(
-    "dof dofs fhg ddl gdl gdls degree degrees deg of di do freedom freiheitsgrad freiheitsgrade freiheitsgraden "
-    "degre degres de d liberte liberta grado grados gradi libertad grau graus liberdade equation "
-    "equations constraint constraints gleichung gleichungen zwangsbedingung zwangsbedingungen bindung "
-    "bindungen contrainte contraintes liaison liaisons ecuacion ecuaciones restriccion restricciones "
-    "ligadura ligaduras vincolo vincoli equazione equazioni vinculo vinculos equacao equacoes coordinate "
-    "coordinates koordinate koordinaten coordonnee coordonnees coordenada coordenadas coordinata "
-    "coordinates coordinate independent unabhangig unabhangige independants independantes independante "
-    "independiente independientes indipendenti indipendente independentes generalized generalised "
-    "generalisierte verallgemeinerte velocity velocities geschwindigkeiten vitesses velocidades finite "
-    "holonomic holonome total insgesamt en tout"
+    "seul seule sola solo degree-of-freedom degrees-of-freedom dof dofs fhg ddl gdl gdls degree degrees deg of di "
+    "do freedom freiheitsgrad freiheitsgrade freiheitsgraden degre degres de d liberte liberta grado grados gradi "
+    "libertad grau graus liberdade equation equations constraint constraints gleichung gleichungen "
+    "zwangsbedingung zwangsbedingungen bindung bindungen contrainte contraintes liaison liaisons ecuacion "
+    "ecuaciones restriccion restricciones ligadura ligaduras vincolo vincoli equazione equazioni vinculo vinculos "
+    "equacao equacoes coordinate coordinates koordinate koordinaten coordonnee coordonnees coordenada coordenadas "
+    "coordinata independent unabhangig unabhangige independants independantes independante independiente "
+    "independientes indipendenti indipendente independentes generalized generalised generalisierte "
+    "verallgemeinerte velocity velocities geschwindigkeiten vitesses velocidades finite holonomic holonome total "
+    "insgesamt en tout"
 )
 #: What leads to a number.
 LEADING = words(
-    "it there the system answer has is are we have get number so thus hence therefore total das der die "
-    "system hat gibt es hier ist sind man wir haben anzahl antwort also le la les systeme il y a on "
-    "nombre est sont reponse el los sistema tiene hay numero son respuesta che ci sono ha risposta o os "
-    "tem ha sao resposta exactly genau exactement exactamente esattamente got only nur "
-    "seulement solo of freedom degrees mechanism body particle koerper"
+    "it it's there the system answer has is are we have get number so thus hence therefore total das der die hat "
+    "gibt es hier ist sind man wir haben anzahl antwort also le la les systeme il y a on nombre est sont reponse "
+    "el los sistema tiene hay numero son respuesta che ci sono ha risposta o os tem sao resposta exactly genau "
+    "exactement exactamente esattamente got only nur seulement solo of freedom degrees mechanism body particle "
+    "koerper"
 )
 #: After these comes a reason, which is read over.
 REASONS = re.compile(
@@ -87,13 +87,12 @@ NOTHING_SAID = frozenset(
 )
 #: Words between words of an answer that say nothing.
 FILLING = words(
-    "only just nur seulement solo solamente soltanto somente allein seul l'angle un'angolo a an the is it be also "
-    "really either both these are and or as for example e.g. der die das ein eine einen ist es auch und sind "
+    "of only just nur seulement solo solamente soltanto somente allein seul l'angle un'angolo a an the is it be "
+    "also really either both these are and as for example e.g. der die das ein eine einen ist es auch und sind "
     "winkel angle angles position positions coordinate coordinates le la les un une est c'est aussi et sont el "
-    "los las uno una son tambien y lo il gli i e anche sono o os um uma tambem constraint constraints with to by "
+    "los las uno una son tambien y lo il gli i e anche sono os um uma tambem constraint constraints with to by "
     "von vom mit bindung bindungen koordinate koordinaten coordonnees coordenadas redundant redundante "
-    "redundantes generalized generalised verallgemeinerte one choice possible set wir wahlen choose can dropped "
-    "of"
+    "redundantes generalized generalised verallgemeinerte one choice possible set wir wahlen choose can dropped"
 )
 
 

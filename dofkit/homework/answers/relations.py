@@ -42,7 +42,7 @@ _LONG = frozenset(
 _RATE = re.compile(r"(.+?)_?d?dot(_\w+)?")
 _RELATION = re.compile(r"[=<>≤≥]")
 _FUNCTION = re.compile(
-    r"\A\s*(?:[^\W\d_]\w{0,3}\s*(?:\([^()=]*\))|"
+    r"\A\s*(?:\\?[^\W\d_]\w{0,3}\s*(?:\([^()=]*\))|"
     r"(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{?\w{0,2}\}?)?)\s*=(?!=)\s*"
 )
 _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
@@ -52,7 +52,7 @@ _CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGN
 _SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓")
 
 
-class Reading(NamedTuple):
+class AnswerReading(NamedTuple):
     """One way to read an answer.
 
     ``bare``: which relations were written without a sign, as `x y`; ``own``: names that nobody declared;
@@ -74,7 +74,7 @@ class Reading(NamedTuple):
         return "; ".join(as_text(c) for c in self.relations)
 
     @property
-    def claim(self) -> Reading:
+    def claim(self) -> AnswerReading:
         """The last relation alone, to which arrows lead."""
         return self._replace(relations=self.relations[-1:], bare=self.bare[-1:], derived=False)
 
@@ -92,7 +92,7 @@ class Reading(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Vocabulary:
+class AnswerNames:
     """The declared names, the answer's own, and spellings of declared ones.
 
     ``free``: may an answer bring names of its own? ``choice``: which reading was taken of each kind of doubt, the same
@@ -131,7 +131,7 @@ class Vocabulary:
         """Does a word mean something already?"""
         return (self.euler and word == "e") or word in self.own or self.names.lookup.meaning(word) is not None
 
-    def with_word(self, word: str) -> Vocabulary | None:
+    def with_word(self, word: str) -> AnswerNames | None:
         """The same with what an unknown word stands for; None where it can stand for nothing."""
         if word == "e" and not self.euler:
             return replace(self, euler=True)
@@ -166,7 +166,7 @@ class Vocabulary:
         fits = bool(_OWN.fullmatch(word)) or spelled(stem) in _LONG
         return fits and not (declared and index and not index.isdigit())
 
-    def _letter(self, word: str) -> Vocabulary | None:
+    def _letter(self, word: str) -> AnswerNames | None:
         """With the one letter of a word that is no name, where all the others are: `Cx` is C x, `Ce^x` C e^x."""
         if len(word) < 2 or spelled(word) in _LONG or "_" in word or _WHOLE.match(word):
             return None
@@ -185,8 +185,8 @@ class Vocabulary:
 
 
 def readings_of(
-    answer: object, vocabulary: Vocabulary, lead: Callable[[Script], Script] | None = None
-) -> list[Reading]:
+    answer: object, vocabulary: AnswerNames, lead: Callable[[Script], Script] | None = None
+) -> list[AnswerReading]:
     """Every way to read an answer; ``lead`` takes away what stands before each of its parts.
 
     Raises TextError, its column counted within the text that was written.
@@ -197,11 +197,13 @@ def readings_of(
     return list(_readings(pieces, vocabulary))
 
 
-def _readings(pieces: Pieces, vocabulary: Vocabulary) -> Iterator[Reading]:
-    ways: list[tuple[tuple[Comparison, ...], tuple[bool, ...], Vocabulary]] = [((), (), vocabulary)]
-    for script in pieces.scripts:
+def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading]:
+    ways: list[tuple[tuple[Comparison, ...], tuple[bool, ...], AnswerNames]] = [((), (), vocabulary)]
+    for n, script in enumerate(pieces.scripts):
         more = []
         script = _plainer(script, vocabulary)
+        if pieces.derived and n + 1 < len(pieces.scripts) and not _readable(script, vocabulary):
+            continue
         for relations, bare, own in ways:
             for found, grown in _ways(script, own):
                 alone = len(found) == 1 and not _RELATION.search(script.text)
@@ -210,10 +212,17 @@ def _readings(pieces: Pieces, vocabulary: Vocabulary) -> Iterator[Reading]:
         if len(ways) > MOST_READINGS:
             raise DoubtError("it can be read in many ways", script.columns[0], "write parentheses")
     for relations, bare, own in ways:
-        yield Reading(relations, bare, own.own, own.moving, own.meant, pieces.derived, own.places)
+        yield AnswerReading(relations, bare, own.own, own.moving, own.meant, pieces.derived, own.places)
 
 
-def _ways(script: Script, vocabulary: Vocabulary) -> Iterator[tuple[tuple[Comparison, ...], Vocabulary]]:
+def _readable(script: Script, vocabulary: AnswerNames) -> bool:
+    try:
+        return bool(list(_ways(script, vocabulary)))
+    except TextError:
+        return False
+
+
+def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
     """The relations of one piece, in every way, and the names known then."""
     if vocabulary.signs_apart and _SIGNS.search(script.text):
         for up, down in ("+-", "-+"):
@@ -233,11 +242,8 @@ def _ways(script: Script, vocabulary: Vocabulary) -> Iterator[tuple[tuple[Compar
                 if vocabulary.choice.get(kind, n) != n:
                     continue
                 way = f" {way} "
-                text = script.text[: start - 1] + way + script.text[end - 1 :]
-                place = script.columns[start - 1]
-                columns = (*script.columns[: start - 1], *[place] * len(way), *script.columns[end - 1 :])
                 chosen = replace(vocabulary, choice={**vocabulary.choice, kind: n})
-                yield from _ways(Script(text, columns), chosen)
+                yield from _ways(script.spliced(start - 1, end - 1, way), chosen)
             return
         except UnknownNameError as error:
             grown = vocabulary.with_word(error.name)
@@ -251,7 +257,7 @@ def _ways(script: Script, vocabulary: Vocabulary) -> Iterator[tuple[tuple[Compar
             raise script.moved(error) from None
 
 
-def _plainer(script: Script, vocabulary: Vocabulary) -> Script:
+def _plainer(script: Script, vocabulary: AnswerNames) -> Script:
     """Without a leading name; `r(phi) =` is r, `Ce^x` is C e^x."""
     script = _without_lead(script, vocabulary)
     match = _CALLED.match(script.text)
@@ -264,7 +270,7 @@ def _plainer(script: Script, vocabulary: Vocabulary) -> Script:
     )
 
 
-def _without_lead(script: Script, vocabulary: Vocabulary) -> Script:
+def _without_lead(script: Script, vocabulary: AnswerNames) -> Script:
     """Without `f(x, y) =` before an expression or an equation; `const.` is the name of a constant."""
     script = script.replaced(_CONSTANTS, "const")
     lead = _FUNCTION.match(script.text)
@@ -273,6 +279,9 @@ def _without_lead(script: Script, vocabulary: Vocabulary) -> Script:
     if "(" not in lead[0] and not re.match(r"\s*[fgh]", lead[0]) and "=" not in script.text[lead.end() :]:
         return script
     name = re.sub(r"[\\{}]", "", lead[0].split("=")[0].split("(")[0]).strip()
+    listed = "," in lead[0]
+    if listed and name in vocabulary.names.parameters:
+        return script.cut(lead.end())
     if vocabulary.names.lookup.meaning(name) is not None or re.search(
         rf"\b{re.escape(name)}\b", script.text[lead.end() :]
     ):

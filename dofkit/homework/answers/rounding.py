@@ -12,13 +12,13 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import replace_nodes
 from dofkit.expressions.text import Comparison
 from dofkit.expressions.tree import Expr
-from dofkit.homework.answers.relations import Reading
+from dofkit.homework.answers.relations import AnswerReading
 
 #: Numbers of more digits than whole ones and of at most so many are taken for rounded.
 _ROOTS, _BELOW, _MOST_NUMBERS, _MOST_WAYS = (1, 2, 3, 5, 6, 7, 10), 12, 3, 12
 
 
-def exact_ways(way: Reading) -> Iterator[Reading]:
+def exact_ways(way: AnswerReading) -> Iterator[AnswerReading]:
     """The reading with its decimals replaced by exact numbers that round to them."""
     decimals = sorted(
         {n for c in way.relations for e in (c.left, c.right) for n in ex.nodes(e) if _is_decimal(n)}, key=repr

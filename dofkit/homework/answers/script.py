@@ -33,6 +33,11 @@ class Script:
         start = len(self.text) - len(self.text.lstrip())
         return self.cut(start, max(start, len(self.text.rstrip())))
 
+    def spliced(self, start: int, end: int, new: str) -> Script:
+        """With other characters between two places; they keep the column where those began."""
+        columns = (*self.columns[:start], *[self.columns[start]] * len(new), *self.columns[end:])
+        return Script(self.text[:start] + new + self.text[end:], columns)
+
     def replaced(self, pattern: re.Pattern[str], by: By) -> Script:
         """With every match replaced; what stands for it keeps the column where the match began."""
         if pattern.search(self.text) is None:

@@ -13,16 +13,19 @@ from dofkit.base.errors import TextError
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import spelled
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import FILLING, plain, says_none
+from dofkit.homework.answers.prose import FILLING, REASONS, plain, says_none
 from dofkit.homework.answers.script import Script
+from dofkit.homework.judgement import Given
 from dofkit.scene.fields import as_written, exact
 
 #: No answer is read beyond this.
 MOST_CHARACTERS = 2000
 _SEPARATORS = re.compile(r"[,;\s]+(?:and|und|et|&)[,;\s]+|[,;\s]+|\s*&\s*")
 _REMARK = re.compile(r"(?<=\w)\s*\([^()]*[^\W\d_]{3}[^()]*\)")
+_OF_TIME = re.compile(r"(?<=\w)\s?\(t\)")
 _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=")
 _COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
+_OR = re.compile(r",?\s+(?:or|oder|ou|oppure)\s+", re.IGNORECASE)
 _BRACES = re.compile(r"_\{(\w+)\}")
 
 
@@ -82,19 +85,30 @@ def is_none(answer: object) -> bool:
     return isinstance(answer, str) and says_none(answer)
 
 
+def alternatives(answer: Given) -> list[Given]:
+    """The answers of `x or y`; the answer itself where it is one."""
+    if not isinstance(answer, str):
+        return [answer]
+    parts = _OR.split(answer.removeprefix("either "))
+    return [*parts] if all(part.strip() for part in parts) else [answer]
+
+
 def names_of(answer: object, known: Sequence[str], what: str) -> list[str]:
     """The known names that an answer lists; remarks in parentheses and words around them are read over."""
     if isinstance(answer, str):
+        reason = REASONS.search(answer)
+        answer = answer if reason is None else answer[: reason.start()]
+        answer = _OF_TIME.sub("", answer)
         answer = _TITLE.sub(lambda m: " " * len(m[0]), answer) if "q" not in known else answer
         answer = _REMARK.sub(lambda m: " " * len(m[0]), answer)
     words = split_words(answer)
-    table = NameTable(known)
+    table = ChoiceOfNames(known)
     if any(table.meant(word.text) for word in words):
         words = [w for w in words if table.meant(w.text) or plain(w.text.strip(".:'\"")) not in FILLING]
     return chosen(words, known, what)
 
 
-class NameTable:
+class ChoiceOfNames:
     """Known names; Greek letters and their spelled names are the same, and case and `_` where they tell nothing."""
 
     def __init__(self, known: Sequence[str]) -> None:
@@ -116,7 +130,7 @@ def chosen(words: Iterable[Word], known: Sequence[str], what: str) -> list[str]:
 
     Raises TextError for a word that is none, with its column and the nearest name.
     """
-    table = NameTable(known)
+    table = ChoiceOfNames(known)
     found: dict[str, None] = {}
     for word in words:
         meant = table.meant(word.text)

@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeVar
 from dofkit.base.errors import SceneError, TextError
 from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
 from dofkit.expressions.text import UnknownNameError
-from dofkit.homework.answers.relations import Reading
+from dofkit.homework.answers.relations import AnswerReading
 from dofkit.homework.answers.rounding import exact_ways
 from dofkit.homework.judgement import HALF, NOTHING, Given, Judgement, needs_review, partly, right, wrong
 from dofkit.homework.key.key import Key
@@ -67,7 +67,7 @@ class EquationComparison:
     key: Key
     names: tuple[str, ...]
 
-    def judgement(self, way: Reading, answer: Given) -> Judgement:
+    def judgement(self, way: AnswerReading, answer: Given) -> Judgement:
         """What one reading of an answer is worth. Raises TextError for names that nobody declared."""
         found = self._found(way)
         if found.status == "wrong" and found.share == NOTHING:
@@ -82,7 +82,7 @@ class EquationComparison:
             return needs_review(way.shown, "whether the last of the equations alone is meant.")
         return found
 
-    def _found(self, way: Reading) -> Judgement:
+    def _found(self, way: AnswerReading) -> Judgement:
         if not way.own:
             return self._declared(way)
         if not way.on_coordinates:
@@ -100,12 +100,14 @@ class EquationComparison:
                 return right(other.shown, say("Read {names}: so the problem calls it.", names=told))
         raise undeclared(way, self.key)
 
-    def _declared(self, way: Reading, shown: str = "") -> Judgement:
+    def _declared(self, way: AnswerReading, shown: str = "") -> Judgement:
+        if not way.on_coordinates and any(e.symbols for c in way.relations for e in (c.left, c.right)):
+            raise TextError("it says nothing of the coordinates", 1, "write an equation between the coordinates")
         if any(s.args[0] == "acceleration" for c in way.relations for e in (c.left, c.right) for s in e.symbols):
             return self._accelerated(way)
         return self._told(way.read(), shown or way.shown)
 
-    def _accelerated(self, way: Reading) -> Judgement:
+    def _accelerated(self, way: AnswerReading) -> Judgement:
         """Equations of accelerations: a constraint that was differentiated twice is partly right."""
         held = held_accelerations(way, self.key, self.names)
         if held:
@@ -141,7 +143,7 @@ class EquationComparison:
         return partly(share, shown, told, code).saying(count)
 
 
-def undeclared(way: Reading, key: Key) -> UnknownNameError:
+def undeclared(way: AnswerReading, key: Key) -> UnknownNameError:
     """That an answer brings a name that stands for nothing."""
     name = way.own[0]
     known: Sequence[str] = [*sorted(key.names.coordinates), *key.names.parameters]

@@ -6,13 +6,16 @@ family has a curve through every point. So the constant is a coordinate of its o
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from dofkit.classification.dependence.equivalence import Leaves, is_integral, leaves
 from dofkit.expressions.text import Comparison
 from dofkit.expressions.tree import parameter
-from dofkit.homework.answers.relations import Reading
+from dofkit.homework.answers.relations import AnswerReading
 from dofkit.homework.judgement import Judgement, needs_review, right, wrong
 from dofkit.homework.key.compared_equations import ANSWER, with_answer
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_names import without_own
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.lowering import lower
@@ -23,9 +26,29 @@ _FRESH = ("C", "c", "K", "C_1", "const")
 _LEFT_OUT = "The constant of integration was left out: `... = C`."
 
 
-def integral_judgement(way: Reading, key: Key, name: str) -> Judgement:
+def integral_judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
     """What one reading of an answer is worth as the integral of the constraint of this name."""
     way = way.claim if way.derived else way
+    if len(way.relations) > 1 and way.own:
+        return _in_parameters(way, key, name)
+    return _judgement(way, key, name)
+
+
+def _in_parameters(way: AnswerReading, key: Key, name: str) -> Judgement:
+    """`x = r cos(a), y = r sin(a)`: one of its names is the parameter of a curve, the others are constants."""
+    for parameter_name in way.own:
+        gone = without_own(way._replace(own=(parameter_name,)), key.scene)
+        if gone is None:
+            continue
+        own = tuple(n for n in way.own if n != parameter_name)
+        found = _judgement(gone._replace(own=own), key, name)
+        if found.status == "right":
+            return replace(found, read_as=way.shown)
+    return needs_review(way.shown, "whether it is an integral was not decided in the time there is.")
+
+
+def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
+    """The same of one reading, all names of its own constants."""
     read = _with_constants(way, key)
     if read.moving:
         told = "This still holds velocities: the finite relation that it integrates to is asked for."
@@ -42,7 +65,7 @@ def integral_judgement(way: Reading, key: Key, name: str) -> Judgement:
     return wrong(read.shown, "Its differential is not the constraint.", "WRONG_INTEGRAL")
 
 
-def _with_constants(way: Reading, key: Key) -> Read:
+def _with_constants(way: AnswerReading, key: Key) -> Read:
     """A bare expression is constant: `x y` is x y = C."""
     own = set(way.own)
     relations = []

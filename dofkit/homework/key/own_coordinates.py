@@ -10,13 +10,14 @@ from dofkit.base.errors import Fault, TextError
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.expressions.text import parse_expression, to_text, valid_name
-from dofkit.homework.answers.relations import Vocabulary, readings_of
+from dofkit.homework.answers.relations import AnswerNames, readings_of
 from dofkit.homework.answers.words import is_none, names_of
 from dofkit.homework.judgement import Given
 from dofkit.homework.key.key import Key
 from dofkit.scene.added_equations import Read, as_text, with_equations
 from dofkit.scene.lowering import lower
 
+_TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=(?=\s*\\?\w+\s*\$?(?:[,;.]|\Z))")
 _BEGINS = re.compile(r"[,;:(]|\b(?:with|where|mit|wobei|avec|où|con|donde|dove|such that|sodass|so that)\b")
 
 
@@ -53,11 +54,14 @@ def _offered_names(answer: Given, key: Key) -> ChosenCoordinates | None:
 
 def _defined(answer: str, key: Key) -> ChosenCoordinates | None:
     """`theta, where x = l sin(theta), y = -l cos(theta)`."""
+    answer = _TITLE.sub(lambda m: " " * len(m[0]), answer)
+    if "=" not in answer:
+        return _offered_names(answer, key)
     cut = _BEGINS.search(answer)
     if cut is None or "=" in answer[: cut.start()]:
         return None
     rest = answer[cut.end() :].rstrip().removesuffix(")") if cut[0] == "(" else answer[cut.end() :]
-    way = readings_of(rest, Vocabulary(key.names))[0]
+    way = readings_of(rest, AnswerNames(key.names))[0]
     if way.moving or not way.own or any(bare for bare in way.bare):
         return None
     names = names_of(answer[: cut.start()], [*key.coordinates, *way.own], "coordinate")

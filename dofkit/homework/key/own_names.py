@@ -13,7 +13,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.text import Comparison
 from dofkit.expressions.tree import ONE, ZERO, Expr
-from dofkit.homework.answers.relations import Reading
+from dofkit.homework.answers.relations import AnswerReading
 from dofkit.scene.scene import Scene
 
 #: So many names of a student's own may stand for declared constants.
@@ -21,7 +21,7 @@ MOST_RENAMED = 2
 _SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
 
 
-def without_own(reading: Reading, scene: Scene) -> Reading | None:
+def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
     """The reading with the names of its own eliminated, exactly; None where that is not possible."""
     if any(c.relation != "=" for c in reading.relations):
         return None
@@ -38,7 +38,7 @@ def without_own(reading: Reading, scene: Scene) -> Reading | None:
     if not sums or any(s.args[1] in own for e in sums for s in e.symbols if len(s.args) > 1):
         return None
     relations = tuple(Comparison(e, "=", ZERO, 1) for e in sums)
-    return Reading(relations, (False,) * len(relations), meant=reading.meant)
+    return AnswerReading(relations, (False,) * len(relations), meant=reading.meant)
 
 
 def _mentions(e: Expr, name: str) -> bool:
@@ -129,7 +129,9 @@ def never_zero(e: Expr, scene: Scene) -> bool:
     )
 
 
-def renamed(reading: Reading, scene: Scene, constants: Sequence[str]) -> Iterator[tuple[Reading, dict[str, str]]]:
+def renamed(
+    reading: AnswerReading, scene: Scene, constants: Sequence[str]
+) -> Iterator[tuple[AnswerReading, dict[str, str]]]:
     """The reading with names of its own taken for declared ``constants`` that it does not mention, in every way."""
     if not reading.own or reading.moving or len(reading.own) > MOST_RENAMED:
         return

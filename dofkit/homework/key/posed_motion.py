@@ -15,9 +15,9 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Comparison, spelled, to_text
 from dofkit.expressions.tree import Expr
-from dofkit.homework.answers.relations import Reading, Vocabulary, readings_of
+from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
 from dofkit.homework.answers.script import Script
-from dofkit.homework.judgement import Given
+from dofkit.homework.judgement import DoubtError, Given
 from dofkit.homework.key.compared_equations import undeclared
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import offered
@@ -56,8 +56,9 @@ class PosedMotion:
 
 def posed_motions(answer: Given, key: Key, value: bool) -> list[PosedMotion]:
     """Every way to read an answer, as a value or as equations. Raises TextError."""
-    vocabulary = Vocabulary(key.names, accelerations=True)
-    return [_posed(way, key, value) for way in readings_of(answer, vocabulary, _without_lead if value else None)]
+    vocabulary = AnswerNames(key.names, accelerations=True)
+    ways = readings_of(answer, vocabulary, _without_lead if value else None)
+    return [_posed(way.claim if way.derived else way, key, value) for way in ways]
 
 
 def _without_lead(script: Script) -> Script:
@@ -67,11 +68,12 @@ def _without_lead(script: Script) -> Script:
     return script
 
 
-def _posed(way: Reading, key: Key, value: bool) -> PosedMotion:
+def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
     multipliers = [n for n in way.own if not value and n not in way.moving and _MULTIPLIER.fullmatch(spelled(n))]
     other = tuple(name for name in way.own if name not in multipliers)
     defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
     rest = [(c, bare) for c, bare in zip(way.relations, way.bare, strict=True) if c not in defining]
+    freedom = key.report.dof
     defined = {n for c in defining for n in other if n in _names(c)}
     known = tuple(ex.parameter(n) for n in multipliers)
     if value and (len(rest) != 1 or not rest[0][1]):
@@ -81,6 +83,8 @@ def _posed(way: Reading, key: Key, value: bool) -> PosedMotion:
         defined = set(other)
     elif defined and defined == set(other):
         key = key.with_own(other, tuple(as_text(c) for c in defining))
+    if other and defined == set(other) and key.report.dof != freedom:
+        raise DoubtError("its own coordinates change the freedom of the system", 1, None)
     if defined == set(other):
         table = {ex.parameter(n): ex.coordinate(n) for n in other}
         relations = tuple(_substituted(c, table) for c, _ in rest)

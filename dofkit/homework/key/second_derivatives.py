@@ -5,14 +5,14 @@ from __future__ import annotations
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.homework.answers.relations import Reading
+from dofkit.homework.answers.relations import AnswerReading
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.right_motion import is_zero
 from dofkit.motion.lagrange.rates import by_time
 from dofkit.scene.lowering import lower
 
 
-def held_accelerations(way: Reading, key: Key, names: tuple[str, ...]) -> bool | None:
+def held_accelerations(way: AnswerReading, key: Key, names: tuple[str, ...]) -> bool | None:
     """Is every equation a constant multiple of the second derivative of one of the constraints, and none left out?"""
     system = lower(key.scene)
     wanted = [r.expr for i in system.numbers_of(*names) for r in system.constraints[i].relations if r.sense == "="]

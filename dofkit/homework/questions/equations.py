@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import Fault
-from dofkit.homework.answers.relations import Reading, Vocabulary, readings_of
+from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
 from dofkit.homework.answers.words import is_none
 from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
 from dofkit.homework.key.compared_equations import EquationComparison
@@ -37,8 +37,8 @@ class EquationQuestion(QuestionBase):
     def read(self, answer: Given, key: Key) -> str:
         return " or ".join(dict.fromkeys(way.shown for way in self._ways(answer, key)))
 
-    def _ways(self, answer: Given, key: Key) -> list[Reading]:
-        return readings_of(answer, Vocabulary(key.names, free=True, accelerations=True))
+    def _ways(self, answer: Given, key: Key) -> list[AnswerReading]:
+        return readings_of(answer, AnswerNames(key.names, free=True, accelerations=True))
 
     def solution(self, key: Key) -> Sentence:
         return say("For example: {text}.", text="; ".join(key.constraints[name].text for name in self.constraint))
@@ -67,8 +67,8 @@ class IntegralQuestion(QuestionBase):
             return "none"
         return " or ".join(dict.fromkeys(way.shown for way in self._ways(answer, key)))
 
-    def _ways(self, answer: Given, key: Key) -> list[Reading]:
-        return readings_of(answer, Vocabulary(key.names, signs_apart=True))
+    def _ways(self, answer: Given, key: Key) -> list[AnswerReading]:
+        return readings_of(answer, AnswerNames(key.names, signs_apart=True))
 
     def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]

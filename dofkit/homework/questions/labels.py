@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from dofkit.base.errors import Fault
-from dofkit.homework.answers.label_words import TERMS, label_text, read_labels, word_of
+from dofkit.homework.answers.label_words import TERMS, label_text, mentions, read_labels, word_of
 from dofkit.homework.judgement import Given, Judgement, Sentence, needs_review, partly
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain_label
@@ -53,6 +53,9 @@ class LabelQuestion(QuestionBase):
             return needs_review(shown, "dofkit does not know the label for certain.")
         good = [p for p in self.parts if given.get(p) == frozenset({truth[p]})]
         missing = [p for p in self.parts if p not in given]
+        hinted = [p for p in missing if mentions(p, answer)]
+        if hinted:
+            return needs_review(shown, "it says something of a part without its label.")
         twice = [p for p in self.parts if len(given.get(p, ())) > 1]
         codes: list[str] = []
         told: list[Sentence] = []

@@ -6,8 +6,8 @@ from typing import Literal
 
 from pydantic import Field
 
-from dofkit.homework.answers.words import is_none, names_of
-from dofkit.homework.judgement import Given, Judgement, Sentence, needs_review, right, wrong
+from dofkit.homework.answers.words import alternatives, is_none, names_of
+from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import chosen_coordinates
 from dofkit.homework.key.selection import can_be_dropped, determine
@@ -21,7 +21,8 @@ class Coordinates(QuestionBase):
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
     def read(self, answer: Given, key: Key) -> str:
-        return ", ".join(chosen_coordinates(answer, key).names) or "none"
+        chosen = [", ".join(chosen_coordinates(one, key).names) or "none" for one in alternatives(answer)]
+        return " or ".join(chosen)
 
     def solution(self, key: Key) -> Sentence:
         names = key.report.generalized_coordinates
@@ -29,9 +30,13 @@ class Coordinates(QuestionBase):
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
+        return agreed([self._judged(one, key) for one in alternatives(answer)])
+
+    def _judged(self, answer: Given, key: Key) -> Judgement:
+        dof = key.report.dof
         names, key = chosen_coordinates(answer, key)
-        report = key.report
-        dof = report.dof
+        if key.report.dof != dof:
+            return needs_review(", ".join(names), "its own coordinates change the freedom of the system.")
         shown = ", ".join(names) or "none"
         if dof is None:
             return needs_review(shown, "dofkit does not know the degrees of freedom for certain.")
@@ -51,7 +56,7 @@ class Redundant(QuestionBase):
     ask: Literal["redundant"] = Field(description="constraints that can be dropped together, as many as possible")
 
     def read(self, answer: Given, key: Key) -> str:
-        return ", ".join(self._names(answer, key)) or "none"
+        return " or ".join(", ".join(self._names(one, key)) or "none" for one in alternatives(answer))
 
     def _names(self, answer: Given, key: Key) -> list[str]:
         return [] if is_none(answer) else names_of(answer, list(key.constraints), "constraint")
@@ -62,6 +67,9 @@ class Redundant(QuestionBase):
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
+        return agreed([self._judged(one, key) for one in alternatives(answer)])
+
+    def _judged(self, answer: Given, key: Key) -> Judgement:
         names, report = self._names(answer, key), key.report
         shown = ", ".join(names) or "none"
         if report.dof is None or report.redundant is None:
