@@ -16,9 +16,15 @@ from dofkit.homework.key.misconceptions import ERRORS
 from dofkit.homework.sentences.said import catalogue
 
 ROOM = Path(dofkit.homework.__file__).parent
-TOLD = [*(ROOM / "questions").glob("*.py"), *(ROOM / "key").glob("*.py"), ROOM / "grading.py", ROOM / "judgement.py"]
+TOLD = [
+    *(ROOM / "questions").glob("*.py"),
+    *(ROOM / "key").glob("*.py"),
+    *(ROOM / "answers").glob("*.py"),
+    ROOM / "grading.py",
+    ROOM / "judgement.py",
+]
 #: Calls whose texts are for lecturers, or are no sentences.
-OTHERS = {"Field", "Fault", "TextError", "DoubtError", "compile", "UnknownNameError", "words", "suggestion"}
+OTHERS = {"Field", "Fault", "TextError", "compile", "UnknownNameError", "words", "suggestion"}
 SENTENCE = re.compile(r".*\s.*[.:?}]", re.DOTALL)
 
 

@@ -16,7 +16,7 @@ from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.dependence.inequalities import same_side
 from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
-from dofkit.classification.dependence.periods import parts_of
+from dofkit.classification.dependence.periods import fails_on_part
 from dofkit.classification.dependence.regularity import Regularity
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
@@ -184,19 +184,11 @@ class Equivalence:
 
     def _follow(self, what: Sequence[Normal], given: Sequence[Normal]) -> bool | None:
         """Do the relations all follow from the others and what is given?"""
-        if any(self._fails_elsewhere(n, given) for n in what):
+        turning = not any(r.constraint.facts.half_turns for r in self._wanted)
+        if turning and any(fails_on_part(n, self._others, given, self.setting) for n in what):
             return False
         told = [follows(n, [*self._others, *given], self.setting) for n in what]
         return False if False in told else None if None in told else True
-
-    def _fails_elsewhere(self, what: Normal, given: Sequence[Normal]) -> bool:
-        """Does it not follow from a part of one of the relations given, such as u = 2 pi of cos(u) = 1?"""
-        for i, normal in enumerate(given):
-            for part_of_it in parts_of(normal):
-                narrowed = [*self._others, *given[:i], part_of_it, *given[i + 1 :]]
-                if follows(what, narrowed, self.setting) is False:
-                    return True
-        return False
 
     def _open(self, sound: Sequence[bool | None], met: Sequence[bool | None]) -> Compared:
         """Something was not decided; what was may be enough to say that the answer is none."""

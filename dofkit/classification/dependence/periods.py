@@ -5,13 +5,15 @@ What does not follow from one of these does not follow from the relation, which 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
+from dofkit.classification.dependence.implication import follows
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import replace_nodes
 from dofkit.expressions.tree import PI, Expr
 from dofkit.relations.normal.normal_form import Finite, Normal
+from dofkit.relations.setting import Setting
 
 #: (function, its value) -> the first angle with this value, and the period, in units of pi.
 _ANGLES: dict[tuple[str, int], tuple[Fraction, int]] = {
@@ -22,6 +24,15 @@ _ANGLES: dict[tuple[str, int], tuple[Fraction, int]] = {
 #: The periods that are looked at.
 _TURNS = (1, -1)
 _VALUE = ex.parameter("value of a turning function")
+
+
+def fails_on_part(what: Normal, others: Sequence[Normal], given: Sequence[Normal], setting: Setting) -> bool:
+    """Does it not follow from a part of one of the relations given, such as u = 2 pi of cos(u) = 1?"""
+    for i, normal in enumerate(given):
+        for one in parts_of(normal):
+            if follows(what, [*others, *given[:i], one, *given[i + 1 :]], setting) is False:
+                return True
+    return False
 
 
 def parts_of(normal: Normal) -> Iterator[Normal]:

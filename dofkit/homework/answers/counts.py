@@ -58,7 +58,7 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
     if not told:
         raise first or TextError("there is no number in this answer", 1, _HINT)
     if len(told) > 1:
-        raise DoubtError("it says more than one number", 1, _HINT)
+        raise DoubtError("it says more than one number.", 1, _HINT)
     return told.pop()
 
 
@@ -107,11 +107,11 @@ def _segment(script: Script) -> Fraction | None:
         elif cut[0] >= len(text):
             failure = failure or TextError("there is no number here", 1, _HINT)
     if len(set(found)) > 1:
-        raise DoubtError("its numbers contradict each other", script.columns[0], _HINT)
+        raise DoubtError("its numbers contradict each other.", script.columns[0], _HINT)
     if failure is not None and not found:
         raise failure
     if found and found[-1] < 0 and _BETWEEN.fullmatch(script.text):
-        raise DoubtError("it says more than one number", script.columns[0], _HINT)
+        raise DoubtError("it says more than one number.", script.columns[0], _HINT)
     return found[-1] if found else None
 
 
@@ -125,9 +125,9 @@ def _value(script: Script) -> Fraction | None:
     ):
         return Fraction(0)
     if any(w in NEGATIONS for w in words):
-        raise DoubtError("it says what the number is not", script.columns[0], _HINT)
+        raise DoubtError("it says what the number is not.", script.columns[0], _HINT)
     if script.text.rstrip().endswith("?"):
-        raise DoubtError("a question mark leaves it open", script.columns[0], _HINT)
+        raise DoubtError("a question mark leaves it open.", script.columns[0], _HINT)
     figures = _FIGURE.search(script.text)
     start = len(script.text) if figures is None else figures.start()
     counted = script.replaced(_WORD, lambda m: _counted(m, m.start() < start))

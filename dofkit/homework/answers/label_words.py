@@ -113,7 +113,7 @@ def read_labels(answer: Given) -> dict[str, frozenset[bool]]:
         label = None if text in _OTHERS else _label(text.rstrip("?"))
         if label is not None:
             if text.endswith("?"):
-                raise DoubtError("a question mark leaves it open", word.column, _HINT)
+                raise DoubtError("a question mark leaves it open.", word.column, _HINT)
             part, holds = label
             found[part] = found.get(part, frozenset()) | {holds != negated}
         elif unread is None and "nom" in text and text not in _ORDINARY:

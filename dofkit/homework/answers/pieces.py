@@ -147,10 +147,10 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     if not text or (_ABOUT_CONSTANT.fullmatch(text) and not _of_coordinates(text, names)) or _is_remark(text, names):
         return None
     if len(_CHAINED.findall(text)) > 1 and _BESIDE.search(text):
-        raise DoubtError("a letter may be a factor or the word for `and`", script.columns[0], "write `;`")
+        raise DoubtError("a letter may be a factor or the word for `and`.", script.columns[0], "write `;`")
     script = script.replaced(_DECIMAL, ".")
     if script.text != text and len(_CHAINED.findall(text)) > 1:
-        raise DoubtError("a comma may be a decimal sign or stand between equations", script.columns[0], None)
+        raise DoubtError("a comma may be a decimal sign or stand between equations.", script.columns[0], None)
     return script
 
 

@@ -20,6 +20,7 @@ from dofkit.scene.added_equations import Read, as_text
 #: Names of its own in an answer, and ways to read it.
 MOST_OWN, MOST_READINGS = 8, 8
 _OWN = re.compile(r"(?!d\b|dt\b)[^\W\d_](?:_?\w{1,5})?|const\w*|konst\w*|cte|cst|cost|kst", re.UNICODE)
+_CARTESIAN = frozenset("xyzXYZ")
 _LONG = frozenset(
     [
         "alpha",
@@ -160,7 +161,9 @@ class AnswerNames:
         return found.pop() if len(found) == 1 else None
 
     def _may_be_own(self, word: str) -> bool:
-        """Is it a short name? ``x_A`` is none where x is declared: it is meant for a coordinate."""
+        """Is it a short name? ``x_A`` is none where x is declared, as z is none: they are meant for coordinates."""
+        if word in _CARTESIAN:
+            return False
         stem, _, index = word.partition("_")
         declared = stem in self.names.coordinates or stem in self.names.parameters
         fits = bool(_OWN.fullmatch(word)) or spelled(stem) in _LONG
@@ -210,7 +213,7 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
                 more.append(((*relations, *found), (*bare, *[alone] * len(found)), grown))
         ways = more
         if len(ways) > MOST_READINGS:
-            raise DoubtError("it can be read in many ways", script.columns[0], "write parentheses")
+            raise DoubtError("it can be read in many ways.", script.columns[0], "write parentheses")
     for relations, bare, own in ways:
         yield AnswerReading(relations, bare, own.own, own.moving, own.meant, pieces.derived, own.places)
 

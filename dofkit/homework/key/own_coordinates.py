@@ -9,11 +9,12 @@ from typing import NamedTuple
 from dofkit.base.errors import Fault, TextError
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.expressions.text import parse_expression, to_text, valid_name
+from dofkit.expressions.text import Comparison, parse_expression, to_text, valid_name
 from dofkit.homework.answers.relations import AnswerNames, readings_of
 from dofkit.homework.answers.words import is_none, names_of
-from dofkit.homework.judgement import Given
+from dofkit.homework.judgement import DoubtError, Given
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_names import restrictions
 from dofkit.scene.added_equations import Read, as_text, with_equations
 from dofkit.scene.lowering import lower
 
@@ -65,7 +66,15 @@ def _defined(answer: str, key: Key) -> ChosenCoordinates | None:
     if way.moving or not way.own or any(bare for bare in way.bare):
         return None
     names = names_of(answer[: cut.start()], [*key.coordinates, *way.own], "coordinate")
-    return ChosenCoordinates(names, key.with_own(way.own, tuple(as_text(c) for c in way.relations)))
+    return ChosenCoordinates(names, extended(key, way.own, way.relations))
+
+
+def extended(key: Key, own: Sequence[str], relations: Sequence[Comparison]) -> Key:
+    """The key with coordinates that an answer defines. Raises DoubtError where they may leave configurations out."""
+    left = restrictions(relations, own, key.scene)
+    if left is None or not all(_implied(key, f"{to_text(e)} = 0") for e in left):
+        raise DoubtError("its own coordinates may leave configurations out.", 1, None)
+    return key.with_own(tuple(own), tuple(as_text(c) for c in relations))
 
 
 def offered(key: Key, names: Sequence[str]) -> Key:

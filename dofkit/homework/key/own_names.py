@@ -6,6 +6,7 @@ theta. A relation that is linear in a name of the student's own is solved for it
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from itertools import permutations
 
@@ -18,7 +19,21 @@ from dofkit.scene.scene import Scene
 
 #: So many names of a student's own may stand for declared constants.
 MOST_RENAMED = 2
+#: What constants of integration are called: these are no declared ones under another name.
+_OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|const\w*|konst\w*")
 _SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
+
+
+def restrictions(relations: Sequence[Comparison], own: Sequence[str], scene: Scene) -> list[Expr] | None:
+    """What relations that define names of an answer's own say of the coordinates; None where that is not known."""
+    sums: list[Expr] = [c.left - c.right for c in relations]
+    for name in own:
+        found = _eliminated([substitute(e, {ex.coordinate(name): ex.parameter(name)}) for e in sums],
+                            ex.parameter(name), scene)  # fmt: skip
+        if found is None:
+            return None
+        sums = found
+    return sums
 
 
 def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
@@ -133,6 +148,8 @@ def renamed(
     reading: AnswerReading, scene: Scene, constants: Sequence[str]
 ) -> Iterator[tuple[AnswerReading, dict[str, str]]]:
     """The reading with names of its own taken for declared ``constants`` that it does not mention, in every way."""
+    if any(_OF_INTEGRATION.fullmatch(name) for name in reading.own):
+        return
     if not reading.own or reading.moving or len(reading.own) > MOST_RENAMED:
         return
     used = {str(s.args[1]) for c in reading.relations for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}

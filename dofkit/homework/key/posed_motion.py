@@ -17,10 +17,10 @@ from dofkit.expressions.text import Comparison, spelled, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
 from dofkit.homework.answers.script import Script
-from dofkit.homework.judgement import DoubtError, Given
+from dofkit.homework.judgement import Given
 from dofkit.homework.key.compared_equations import undeclared
 from dofkit.homework.key.key import Key
-from dofkit.homework.key.own_coordinates import offered
+from dofkit.homework.key.own_coordinates import extended, offered
 from dofkit.homework.key.own_names import renamed
 from dofkit.scene.added_equations import as_text
 
@@ -73,7 +73,6 @@ def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
     other = tuple(name for name in way.own if name not in multipliers)
     defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
     rest = [(c, bare) for c, bare in zip(way.relations, way.bare, strict=True) if c not in defining]
-    freedom = key.report.dof
     defined = {n for c in defining for n in other if n in _names(c)}
     known = tuple(ex.parameter(n) for n in multipliers)
     if value and (len(rest) != 1 or not rest[0][1]):
@@ -82,9 +81,7 @@ def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
         key = offered(key, other)
         defined = set(other)
     elif defined and defined == set(other):
-        key = key.with_own(other, tuple(as_text(c) for c in defining))
-    if other and defined == set(other) and key.report.dof != freedom:
-        raise DoubtError("its own coordinates change the freedom of the system", 1, None)
+        key = extended(key, other, defining)
     if defined == set(other):
         table = {ex.parameter(n): ex.coordinate(n) for n in other}
         relations = tuple(_substituted(c, table) for c, _ in rest)

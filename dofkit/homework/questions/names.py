@@ -35,8 +35,6 @@ class Coordinates(QuestionBase):
     def _judged(self, answer: Given, key: Key) -> Judgement:
         dof = key.report.dof
         names, key = chosen_coordinates(answer, key)
-        if key.report.dof != dof:
-            return needs_review(", ".join(names), "its own coordinates change the freedom of the system.")
         shown = ", ".join(names) or "none"
         if dof is None:
             return needs_review(shown, "dofkit does not know the degrees of freedom for certain.")
