@@ -82,12 +82,12 @@ class IntegralQuestion(QuestionBase):
         if is_none(answer):
             if entry.holonomic is None:
                 return needs_review("none", "dofkit does not know whether the constraint integrates.")
-            told = "The constraint does integrate to a finite relation."
+            told = "Test once more whether the form is closed, by itself or times a factor."
             return wrong("none", told, "INTEGRABLE") if entry.holonomic else right("none")
         ways = self._ways(answer, key)
         if entry.holonomic is False:
             shown = ways[0].shown
-            return wrong(shown, "The constraint does not integrate to a finite relation.", "NOT_INTEGRABLE")
+            return wrong(shown, "Its differential is not the constraint.", "NOT_INTEGRABLE")
         return agreed([integral_judgement(way, key, self.constraint) for way in ways])
 
 
