@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dofkit.base.errors import TextError
@@ -186,8 +186,3 @@ def _is_remark(text: str, names: Names, least: int = 5) -> bool:
     if any(w in _REMARKED for w in unknown) or len(unknown) > 2 or (len(unknown) > 1 and bool(long)):
         return True
     return len(unknown) == 1 and len(unknown[0]) >= least and unknown[0] not in GREEK.values()
-
-
-def several(scripts: Sequence[Script]) -> str:
-    """Equations as they were written."""
-    return "; ".join(one.text for one in scripts)

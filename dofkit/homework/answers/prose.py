@@ -6,7 +6,6 @@ import re
 import unicodedata
 from functools import lru_cache
 
-_LETTERS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
 _MARKS = re.compile("[\u0300-\u036f]")
 
 
@@ -116,8 +115,3 @@ def says_none(text: str) -> bool:
     """Does a text say that there is none?"""
     told = plain(text)
     return told in NONE or plain(re.split(r"[,;:(]| - | – | — ", told)[0]) in NONE
-
-
-def words_of(text: str) -> list[str]:
-    """The words of a text, plain."""
-    return [plain(word) for word in _LETTERS.findall(text)]
