@@ -32,7 +32,7 @@ def grader(name: str) -> Grader:
 
 
 def rows(name: str) -> Iterator[tuple[str, str, Any]]:
-    for part in ("answers", "later", "nearly"):
+    for part in ("answers", "later", "nearly", "last"):
         for place, by_verdict in document(name)[part].items():
             for verdict, answers in by_verdict.items():
                 yield from ((place, verdict, answer) for answer in answers)

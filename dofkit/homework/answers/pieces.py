@@ -17,6 +17,8 @@ from dofkit.homework.judgement import DoubtError
 
 #: Equations in one answer.
 MOST_PIECES = 40
+#: The number of an equation behind it.
+_NUMBER_AFTER = re.compile(r"(?<=\S)\s+\((?:\d{1,2}|[IVX]{1,4}|\*)\)\s*\Z")
 _RELATION = re.compile(r"[=<>≤≥]")
 _ENUMERATED = re.compile(
     r"(?:(?<=\s)|\A)"
@@ -32,8 +34,8 @@ _DECIMAL = re.compile(r"(?<=\d),(?=\d)")
 _WORDS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
 _GROUP = re.compile(r"[(\[]([^()\[\]=<>+*/^\d]+)[)\]]\s*\Z|[(\[]([^()\[\]=<>+*/^\d]+)[)\]](?=\s*[;,\n])")
 _INTRODUCED = re.compile(
-    r"\A\s*(?:[^\W\d_]+['’]?\s+){0,5}?"
-    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt)"
+    r"\A\s*(?:[^\W\d_]+['’]?\s+){0,5}"
+    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have)"
     r"(?:\s+that)?\s*:?\s+(?=\S)", re.IGNORECASE,
 )  # fmt: skip
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
@@ -138,7 +140,9 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     script = script.stripped()
     while (group := _GROUP.search(script.text)) is not None and _is_remark(group[1] or group[2] or "", names, 3):
         script = script.replaced(re.compile(re.escape(group[0])), " ").stripped()
-    script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|(?<=[^\d\s])\.\s*\Z|(?<=\d)\.\s*\Z|!\s*\Z"), "").stripped()
+    script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|\s*\.\s*\Z|!\s*\Z"), "").stripped()
+    if _RELATION.search(script.text):
+        script = script.replaced(_NUMBER_AFTER, "").stripped()
     for lead in (_TITLED, _INTRODUCED):
         match = lead.match(script.text)
         if match is not None and _is_lead(match[0], names):

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations, spelled
+from dofkit.expressions.text.characters import GREEK
 from dofkit.expressions.text.names import unmarked
 from dofkit.expressions.text.words import read_word
 from dofkit.expressions.tree import E, Expr, coordinate, parameter
@@ -19,35 +20,21 @@ from dofkit.scene.added_equations import Read, as_text
 
 #: Names of its own in an answer, and ways to read it.
 MOST_OWN, MOST_READINGS = 8, 8
-_OWN = re.compile(r"(?!d\b|dt\b)[^\W\d_](?:_?\w{1,5})?|const\w*|konst\w*|cte|cst|cost|kst", re.UNICODE)
-_CARTESIAN = frozenset("xyzXYZ")
-_LONG = frozenset(
-    [
-        "alpha",
-        "beta",
-        "gamma",
-        "delta",
-        "epsilon",
-        "theta",
-        "lambda",
-        "sigma",
-        "omega",
-        "varphi",
-        "Omega",
-        "Lambda",
-        "Theta",
-        "Sigma",
-        "kappa",
-    ]
+_OWN = re.compile(
+    r"(?!d\b|dt\b)[A-Za-zα-ωΑ-Ω](?:[A-Za-z]?\d{0,2}|_\w{1,5})|const\w*|konst\w*|cte|cst|cost|kst|lam\w{0,3}|mult\w{0,8}"
 )
+_CARTESIAN = frozenset("xyzXYZ")
+_LONG = frozenset({*GREEK.values(), "varphi", "vartheta"})
 _RATE = re.compile(r"(.+?)_?d?dot(_\w+)?")
 _RELATION = re.compile(r"[=<>≤≥]")
+_NAME = r"\\?[A-Za-zα-ωΑ-Ω][A-Za-z0-9α-ωΑ-Ω_{}]{0,7}"
 _FUNCTION = re.compile(
-    r"\A\s*(?:\\?[^\W\d_]\w{0,3}\s*(?:\([^()=]*\))|"
-    r"(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{?\w{0,2}\}?)?)\s*=(?!=)\s*"
+    rf"\A\s*(?:\\?[A-Za-zα-ωΑ-Ω]\w{{0,3}}\s*\(\s*{_NAME}(?:\s*,\s*{_NAME})+\s*\)"
+    rf"|(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{{?\w{{0,2}}\}}?)?(?:\s*\(\s*{_NAME}\s*\))?)\s*=(?!=)\s*"
 )
+#: Words that are one name, never a product.
 _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
-_CALLED = re.compile(r"\A\s*\\?([^\W\d_]\w*)\s*\(\s*\\?(?:var)?([^\W\d_]\w*)\s*\)\s*=(?!=)")
+_CALLED = re.compile(r"\A\s*\\?([A-Za-zα-ωΑ-Ω]\w*)\s*\(\s*\\?(?:var)?([A-Za-zα-ωΑ-Ω]\w*)\s*\)\s*=(?!=)")
 _POWER_OF_E = re.compile(r"(?<![\w\\])([A-Za-zα-ωΑ-Ω])e(?=\s*(?:\^|\*\*))")
 _CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGNORECASE)
 _SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓")
@@ -166,7 +153,7 @@ class AnswerNames:
             return False
         stem, _, index = word.partition("_")
         declared = stem in self.names.coordinates or stem in self.names.parameters
-        fits = bool(_OWN.fullmatch(word)) or spelled(stem) in _LONG
+        fits = bool(_OWN.fullmatch(word)) or spelled(stem).rstrip("0123456789") in _LONG
         return fits and not (declared and index and not index.isdigit())
 
     def _letter(self, word: str) -> AnswerNames | None:

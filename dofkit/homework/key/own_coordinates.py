@@ -19,7 +19,8 @@ from dofkit.scene.added_equations import Read, as_text, with_equations
 from dofkit.scene.lowering import lower
 
 _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=(?=\s*\\?\w+\s*\$?(?:[,;.]|\Z))")
-_BEGINS = re.compile(r"[,;:(]|\b(?:with|where|mit|wobei|avec|où|con|donde|dove|such that|sodass|so that)\b")
+_WITH = r"(?:with|where|mit|wobei|avec|où|con|donde|dove|such that|sodass|so that)\b"
+_BEGINS = re.compile(rf"[,;:]\s*{_WITH}|[,;:(]|\b{_WITH}")
 
 
 class ChosenCoordinates(NamedTuple):
