@@ -26,6 +26,19 @@ def substitute(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
     return go(e)
 
 
+def replace_nodes(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
+    """``e`` with nodes of any kind, such as sin(x) or 3/2, replaced by expressions, the outermost first."""
+    memo: dict[Expr, Expr] = dict(mapping)
+
+    def go(node: Expr) -> Expr:
+        found = memo.get(node)
+        if found is None:
+            found = memo[node] = rebuild(node, tuple(go(child) for child in children(node)))
+        return found
+
+    return go(e)
+
+
 _DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
     "sin": lambda u: fn("cos", u),
     "cos": lambda u: -fn("sin", u),

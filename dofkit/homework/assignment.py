@@ -14,7 +14,9 @@ from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
+from dofkit.homework.key.own_coordinates import faults_of_own
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
+from dofkit.homework.sentences.said import Language
 from dofkit.scene.fields import WrittenModel, faults_of
 from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
@@ -55,6 +57,9 @@ class Problem(WrittenModel):
     id: Identifier = Field(description="its name, unique within the assignment")
     title: str | None = Field(None, description="one line about it")
     scene: str | dict[str, Any] = Field(description="a catalog name, a path beside the assignment, or a scene in place")
+    also: dict[str, str] = Field(
+        default_factory=dict, description="further coordinates that answers may use, by name: `theta: atan2(x, -y)`"
+    )
     questions: Annotated[
         tuple[Annotated[AnyQuestion, WrapValidator(_QUESTION.validated)], ...], Field(min_length=1)
     ] = Field(description="what is asked")
@@ -66,6 +71,7 @@ class Assignment(WrittenModel):
     title: str = Field(description="its title")
     convention: Convention = Field("configuration", description='which freedom a bare "degrees of freedom" means')
     feedback: FeedbackLevel = Field("hint", description="`hint` says what went wrong, `full` also what is right")
+    language: Language = Field("en", description="the language of the feedback: `en`, `de`, `fr` or `es`")
     problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
 
 
@@ -133,7 +139,7 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
     keys: dict[str, Key] = {}
     for i, problem in enumerate(assignment.problems):
         try:
-            key = Key(_scene(problem, base), assignment.convention)
+            key = Key(_scene(problem, base), assignment.convention, problem.also)
         except SceneError as error:
             faults += [_within(fault, i, problem) for fault in error.faults]
             continue
@@ -171,6 +177,8 @@ def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
         message = f"the scene of problem '{problem.id}' is inconsistent: {', '.join(key.report.conflicting)}"
         yield Fault(message, ("problems", i, "scene"), hint="no motion satisfies its constraints; mend the scene")
         return
+    for fault in faults_of_own(key):
+        yield replace(fault, where=("problems", i, "also", *fault.where))
     for j, question in enumerate(problem.questions):
         for fault in question.faults(key):
             yield replace(fault, where=("problems", i, "questions", j, *fault.where))

@@ -95,7 +95,7 @@ def undecided(prepared: Prepared, student: str, reason: str) -> Result:
     found = needs_review("", reason)
     items = [
         Item(problem=problem.id, question=question.id, score=None, max_score=float(question.points),
-             status=found.status, codes=[], read_as="", feedback=found.feedback)
+             status=found.status, codes=[], read_as="", feedback=found.feedback(prepared.assignment.language))
         for problem, question in prepared.questions()
     ]  # fmt: skip
     most = sum(item.max_score for item in items)

@@ -6,6 +6,7 @@ from typing import Literal
 
 from dofkit.base.deadline import by_processor
 from dofkit.base.errors import TextError
+from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.grading import ANSWER_SECONDS, unasked
@@ -51,7 +52,7 @@ def echo(prepared: Prepared, submission: Submission) -> Echo:
 
 
 def _reading(problem: str, question: QuestionBase, key: Key, answer: Given | None) -> Reading:
-    if answer is None or (isinstance(answer, str) and not answer.strip()):
+    if answer is None or says_nothing(answer):
         return Reading(problem=problem, question=question.id, status="missing", read_as="")
     try:
         with by_processor(ANSWER_SECONDS):

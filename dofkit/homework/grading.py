@@ -13,12 +13,14 @@ from dofkit.base.deadline import OutOfTimeError, by_processor
 from dofkit.base.errors import TextError
 from dofkit.base.spelling import nearest
 from dofkit.exact.points.balls import PRECISION
+from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared, Problem, load_assignment
-from dofkit.homework.judgement import NOTHING, Given, Judgement, needs_review
+from dofkit.homework.judgement import NOTHING, DoubtError, Given, Judgement, needs_review, unreadable
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result
+from dofkit.homework.sentences.said import Said, say
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
@@ -81,7 +83,7 @@ class Grader:
         items: list[Item] = []
         for question in problem.questions:
             answer = given.get(question.id)
-            if answer is None or (isinstance(answer, str) and not answer.strip()):
+            if answer is None or says_nothing(answer):
                 items.append(self._item(problem, question, _MISSING))
                 continue
             spot = _spot(problem, question, answer, earlier)
@@ -113,15 +115,16 @@ class Grader:
         try:
             with by_processor(self.seconds), ctx.workprec(PRECISION):
                 found = question.judge(answer, key, earlier)
+        except DoubtError as error:
+            return needs_review("", error.message)
         except TextError as error:
-            hint = f" ({error.hint})" if error.hint else ""
-            return Judgement("unreadable", NOTHING, "", (), f"{error.message}{hint}", error.column or 1)
+            return unreadable(error)
         except OutOfTimeError:
             return needs_review("", "the time for it was not enough.")
         except MemoryError:
             raise
         except Exception as error:
-            return needs_review("", f"dofkit failed here ({type(error).__name__}).")
+            return needs_review("", say("dofkit failed here ({error}).", error=type(error).__name__))
         if self.prepared.assignment.feedback == "full" and found.status in ("wrong", "partly"):
             return found.saying(question.solution(key))
         return found
@@ -135,12 +138,12 @@ class Grader:
             status=found.status,
             codes=list(found.codes),
             read_as=found.read_as,
-            feedback=found.feedback,
+            feedback=found.feedback(self.prepared.assignment.language),
             column=found.column,
         )
 
 
-_MISSING = Judgement("missing", NOTHING, feedback="There is no answer.")
+_MISSING = Judgement("missing", NOTHING, said=(Said("There is no answer."),))
 
 
 def _spot(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]) -> Spot:

@@ -16,6 +16,7 @@ from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.dependence.inequalities import same_side
 from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
+from dofkit.classification.dependence.periods import fails_on_part
 from dofkit.classification.dependence.regularity import Regularity
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
@@ -49,6 +50,15 @@ class Sameness(Enum):
     UNDECIDED = "UNDECIDED"
 
 
+class Leaves(Enum):
+    """What finite relations are beside forms: a family of leaves through every point, one leaf, or neither."""
+
+    ALL = "ALL"
+    ONE = "ONE"
+    NONE = "NONE"
+    OPEN = "OPEN"
+
+
 @dataclass(frozen=True)
 class Compared:
     """What was found; ``met``: for every constraint asked for, does it follow from what is right in the answer?"""
@@ -79,6 +89,15 @@ def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> 
     """
     with precise_for(system.numbers):
         return _comparison(system, asked, answer, frozenset()).integrates()
+
+
+def leaves(system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str]) -> Leaves:
+    """Do the forms numbered ``asked`` vanish on what the answer describes, and is it as large as they allow?
+
+    ``constants``: coordinates of ``system`` that other constraints keep still; the leaves are numbered by them.
+    """
+    with precise_for(system.numbers):
+        return _comparison(system, asked, answer, frozenset()).leaves(constants)
 
 
 def _comparison(
@@ -165,6 +184,9 @@ class Equivalence:
 
     def _follow(self, what: Sequence[Normal], given: Sequence[Normal]) -> bool | None:
         """Do the relations all follow from the others and what is given?"""
+        turning = not any(r.constraint.facts.half_turns for r in self._wanted)
+        if turning and any(fails_on_part(n, self._others, given, self.setting) for n in what):
+            return False
         told = [follows(n, [*self._others, *given], self.setting) for n in what]
         return False if False in told else None if None in told else True
 
@@ -232,6 +254,28 @@ class Equivalence:
         told = self._follow(rates, self._all_wanted)
         told = self._follow(standing, self._answer) if told else told
         return self._follow(moving, [*standing, *rates]) if told else told
+
+    def leaves(self, constants: frozenset[str]) -> Leaves:
+        """Leaves of the forms: they vanish there, and as many velocities are free as the forms leave."""
+        finite = _finite(self._answer)
+        if not finite or len(finite) != len(self._answer):
+            whole = all(isinstance(p, Finite) for n in self._answer for p in n.pieces)
+            return Leaves.OPEN if whole and self._answer else Leaves.NONE
+        if not self._possible:
+            return Leaves.NONE
+        named = {str(s.args[1]) for g in finite for s in g.symbols if s.args[0] == "coordinate"}
+        moving = {q for n in self._all_wanted for p in n.pieces if isinstance(p, Pfaffian) for q in p.coefficients}
+        told = self._follow(self._all_wanted, self._answer)
+        if not told:
+            return Leaves.NONE if told is False else Leaves.OPEN
+        mine, asked = self._solved([*self._rest, *self._given]), self._solved([*self._rest, *self._wanted])
+        if mine.velocity_dof is None or asked.velocity_dof is None:
+            return Leaves.OPEN
+        if mine.velocity_dof != asked.velocity_dof:
+            return Leaves.NONE
+        if len(moving) > 1 and len(named - constants) < 2:
+            return Leaves.OPEN
+        return Leaves.ALL if named & constants else Leaves.ONE
 
     def _regularity(self) -> Sameness:
         """The same set: is the answer's gradient as good there, on every branch?"""

@@ -9,13 +9,14 @@ a grammar (`parser`, `applications`) whose arithmetic is bounded (`arithmetic`).
 from __future__ import annotations
 
 from dofkit.expressions.text.characters import spelled
-from dofkit.expressions.text.names import Names, UnknownNameError, valid_name
+from dofkit.expressions.text.names import AmbiguousError, Names, UnknownNameError, valid_name
 from dofkit.expressions.text.parser import Comparison, Parser
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.text.tokens import tokenize
 from dofkit.expressions.tree import Expr
 
 __all__ = [
+    "AmbiguousError",
     "Comparison",
     "Names",
     "UnknownNameError",

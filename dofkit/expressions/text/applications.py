@@ -9,6 +9,7 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.text.arithmetic import UndefinedError, applied, inverse, product
 from dofkit.expressions.text.derivatives import by_time, over_dt, raise_order, size, total_differential
 from dofkit.expressions.text.limits import MAX_DIFFERENTIATED, MAX_ORDER
+from dofkit.expressions.text.names import AmbiguousError
 from dofkit.expressions.text.reader import TextReader
 from dofkit.expressions.text.tokens import Token
 from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, mul
@@ -92,6 +93,8 @@ def bare(parser: TextReader, token: Token) -> Expr:
         parser.fail(f"`{name}` needs its argument", first, f"write `{name}(...)`")
     if first.kind == "number":
         parts = [parser.primary()]
+        if first.name == "degrees":
+            return parts[0]
         if parser.next.kind == "value":
             parts.append(parser.power())
         elif parser.next.kind in ("^", "superscript", "motion", "function", "call", "(", "root", "frac"):
@@ -119,8 +122,14 @@ def ask_extent(parser: TextReader, token: Token, first: Token) -> NoReturn:
     more = parser.source(end, beyond.end) + ("...)" if beyond.kind == "(" else "")
     sign = "" if after.kind in ("*", "/", "^", "superscript") else "*"
     name = token.name
-    hint = f"write `{name}({argument}{sign}{more})` or `{name}({argument}){sign}{more}`"
-    parser.fail(f"it is not clear what `{name}` is taken of", after, hint)
+    ways = (f"{name}({argument}{sign}{more})", f"{name}({argument}){sign}{more}")
+    hint = f"write `{ways[0]}` or `{ways[1]}`"
+    follows = parser.text[beyond.end : beyond.end + 1]
+    plain = parser.tokens[parser.at - 1].kind != ")" and beyond.kind in ("value", "number")
+    closed = plain and (not follows or follows in " +-,=<>)]}")
+    span = (parser.columns[token.start], parser.columns[beyond.end - 1] + 1)
+    told = f"it is not clear what `{name}` is taken of"
+    raise AmbiguousError(told, parser.columns[after.start], hint, ways if closed else (), span)
 
 
 def root(parser: TextReader, token: Token) -> Expr:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.expressions.text.characters import DOT, TWO_DOTS, check_name_characters, spelled
@@ -74,6 +74,23 @@ class UnknownNameError(TextError):
 
     def __reduce__(self) -> tuple[type[UnknownNameError], tuple[str, int | None, str | None]]:
         return (UnknownNameError, (self.message, self.column, self.hint))
+
+
+class AmbiguousError(TextError):
+    """A text of which a part can be read in several ways.
+
+    ``readings``: what may be written for that part, which stands in the columns ``span``, the last not included.
+    """
+
+    def __init__(
+        self, message: str, column: int, hint: str, readings: tuple[str, ...] = (), span: tuple[int, int] = (1, 1)
+    ) -> None:
+        super().__init__(message, column, hint)
+        self.readings = readings
+        self.span = span
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (AmbiguousError, (self.message, self.column, self.hint, self.readings, self.span))
 
 
 _NUMBERED = re.compile(r"(.*[A-Za-z])(_?)(\d+)", re.ASCII)

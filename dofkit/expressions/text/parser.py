@@ -20,6 +20,7 @@ from typing import Literal, NoReturn, cast
 from dofkit.expressions.text.arithmetic import UndefinedError, check_numbers, inverse, product, raised
 from dofkit.expressions.text.derivatives import is_differential, over_dt
 from dofkit.expressions.text.limits import MAX_DEPTH
+from dofkit.expressions.text.names import AmbiguousError
 from dofkit.expressions.text.primaries import PrimaryReader
 from dofkit.expressions.text.tokens import Token
 from dofkit.expressions.tree import DT, MINUS_ONE, ZERO, Expr, add, mul, num
@@ -134,14 +135,17 @@ class Parser(PrimaryReader):
 
     def ask_quotient(self, first: Token, slash: Token) -> NoReturn:
         """`1/2x`: which of the two?"""
-        token = self.next
         above = self.source(first.start, slash.start)
         below = self.source(slash.end, self.last.end)
+        token = self.next
         self.power()
         beside = self.source(token.start, self.last.end)
         whole = self.source(first.start, self.last.end)
-        hint = f"write `({above}/{below})*{beside}` or `{above}/({below}*{beside})`"
-        self.fail(f"`{whole}` can be read in two ways", token, hint)
+        readings = (f"({above}/{below})*{beside}", f"{above}/({below}*{beside})")
+        hint = f"write `{readings[0]}` or `{readings[1]}`"
+        start, end = self.columns[first.start], self.columns[self.last.end - 1] + 1
+        column = self.columns[token.start]
+        raise AmbiguousError(f"`{whole}` can be read in two ways", column, hint, readings, (start, end))
 
     def ask_number(self, token: Token) -> NoReturn:
         """A number right after a factor: a product, a power or an index?"""

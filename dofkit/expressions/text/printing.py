@@ -53,6 +53,9 @@ def _number(e: Expr) -> Printed:
 
 def _symbol(e: Expr) -> Printed:
     kind, name = e.args
+    if kind == "velocity" and name.endswith("d"):  # `x_ddot` would be an acceleration
+        stem, _, index = name.rpartition("_")
+        return (f"{stem}dot_{index}" if stem else f"diff({name}, t)"), _ATOM
     return _SYMBOLS.get(kind, "{}").format(name), _ATOM
 
 

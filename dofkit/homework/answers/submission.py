@@ -15,6 +15,8 @@ from typing import Any
 
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import Fault
+from dofkit.homework.answers.notation import backslashes_kept
+from dofkit.homework.answers.values import plain_value
 from dofkit.homework.judgement import Given
 from dofkit.scene.fields import LARGEST_EXPONENT
 
@@ -71,7 +73,7 @@ def of_text(data: bytes | str, name: str, place: FilePlace) -> list[Submission]:
     """The submissions of a JSON or YAML text: one, or a list of them; ``name`` is the student's where it gives none."""
     if len(data) > MOST_BYTES:
         return [refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")]
-    document = read_document(data, name)
+    document = _with_backslashes(data, name)
     value, faults = _mended(document)
     if faults:
         found = _STUDENT.search(document.text[:100_000])
@@ -85,6 +87,15 @@ def of_text(data: bytes | str, name: str, place: FilePlace) -> list[Submission]:
     return [
         of_value(one, name, FilePlace(place.file, document.place((i,))[0]), document, i) for i, one in enumerate(value)
     ]
+
+
+def _with_backslashes(data: bytes | str, name: str) -> Document:
+    """A document; where a backslash in quotes means nothing, commands of LaTeX are read as they were meant."""
+    document = read_document(data, name)
+    if not any("means nothing in a double-quoted text" in fault.message for fault in document.faults):
+        return document
+    repaired = read_document(backslashes_kept(document.text), name)
+    return document if repaired.faults else repaired
 
 
 def of_value(
@@ -139,6 +150,7 @@ def clean(text: str) -> str:
 
 def _plain_answer(answer: Any, depth: int = 0) -> Given:
     """An answer as plain texts and exact numbers."""
+    answer = plain_value(answer)
     if isinstance(answer, str):
         return clean(answer)
     if isinstance(answer, bool | float):

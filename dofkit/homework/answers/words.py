@@ -1,4 +1,4 @@
-"""Answers in words: numbers, names and labels, as people write them."""
+"""Answers in words: names, as people write them."""
 
 from __future__ import annotations
 
@@ -11,20 +11,22 @@ from pydantic_core import PydanticCustomError
 
 from dofkit.base.errors import TextError
 from dofkit.base.spelling import nearest
-from dofkit.expressions.text import Names, parse_relations, spelled
+from dofkit.expressions.text import spelled
+from dofkit.homework.answers.notation import script_of
+from dofkit.homework.answers.prose import FILLING, REASONS, plain, says_none
+from dofkit.homework.answers.script import Script
+from dofkit.homework.judgement import Given
 from dofkit.scene.fields import as_written, exact
 
 #: No answer is read beyond this.
 MOST_CHARACTERS = 2000
-_SEPARATORS = re.compile(r"[,;\s]+(?:and|und|&)[,;\s]+|[,;\s]+|\s*&\s*")
-_COUNTED = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
-_NUMBERS = {word: n for n, word in enumerate(_COUNTED)}
-_LEADING = re.compile(r"\s*(?:(?:it|there|the\s+system|the\s+answer)\s+(?:has|is|are)\s+)?", re.IGNORECASE)
-_TRAILING = re.compile(
-    r"\s*(?:d\.?o\.?f\.?s?|degrees?(?:\s+of\s+freedom)?|equations?|constraints?)?\s*[.!]?\s*", re.IGNORECASE
-)
-_CHAIN = re.compile(r"==|=|≈|:")
-NONE = frozenset({"none", "no", "nothing", "keine", "keiner", "-", "--", "—", "{}", "[]", "∅", "empty"})
+_SEPARATORS = re.compile(r"[,;\s]+(?:and|und|et|&)[,;\s]+|[,;\s]+|\s*&\s*")
+_REMARK = re.compile(r"(?<=\w)\s*\([^()]*[^\W\d_]{3}[^()]*\)")
+_OF_TIME = re.compile(r"(?<=\w)\s?\(t\)")
+_TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=")
+_COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
+_OR = re.compile(r",?\s+(?:or|oder|ou|oppure)\s+", re.IGNORECASE)
+_BRACES = re.compile(r"_\{(\w+)\}")
 
 
 def one_text(answer: object) -> str:
@@ -44,41 +46,6 @@ def _number_text(answer: float | Fraction) -> str:
         raise TextError(f"'{str(answer)[:40]}' is no number", 1, "write a number such as 3") from None
 
 
-def number(answer: object) -> Fraction:
-    """The number of an answer: ``4``, ``4.0``, ``f = 4``, ``f = 6 - 2 = 4``, ``four degrees of freedom``.
-
-    Raises TextError, with its column.
-    """
-    text = one_text(answer)
-    start = _LEADING.match(text)
-    before = start.end() if start else 0
-    body = text[before:]
-    end = len(body)
-    for match in _TRAILING.finditer(body):
-        if match.end() == len(body):
-            end = match.start()
-            break
-    cut = [m.end() for m in _CHAIN.finditer(body[:end])]
-    first = cut[-1] if cut else 0
-    piece = body[first:end]
-    word = piece.strip().lower()
-    if word in _NUMBERS:
-        return Fraction(_NUMBERS[word])
-    return _arithmetic(piece, before + first)
-
-
-def _arithmetic(text: str, before: int) -> Fraction:
-    try:
-        found = parse_relations(text, Names(allow_time=False, allow_velocities=False))
-    except TextError as error:
-        column = None if error.column is None else error.column + before
-        raise TextError(error.message, column, "write a number such as 3") from None
-    value = found[0].left
-    if len(found) > 1 or value.op != "num" or not isinstance(value.args[0], Fraction):
-        raise TextError("this is no number", before + 1, "write a number such as 3")
-    return value.args[0]
-
-
 @dataclass(frozen=True)
 class Word:
     """One of several words, and its column from 1."""
@@ -91,45 +58,82 @@ def split_words(answer: object) -> list[Word]:
     """The words of an answer: a list, or a text with commas, semicolons, spaces or "and" between them."""
     if isinstance(answer, Sequence) and not isinstance(answer, str):
         return [Word(one_text(part).strip(), 1) for part in answer]
-    return list(_words(one_text(answer)))
+    script = script_of(one_text(answer))
+    return list(_words(script.replaced(_COMMAND, "").replaced(_BRACES, r"_\1")))
 
 
-def _words(text: str) -> Iterator[Word]:
-    stripped = text.strip()
+def _words(script: Script) -> Iterator[Word]:
+    stripped = script.text.strip()
     for opening, closing in ("{}", "[]", "()"):
         if stripped.startswith(opening) and stripped.endswith(closing):
             stripped = stripped[1:-1].strip()
-    start = text.index(stripped) if stripped else 0
-    body = text[start : start + len(stripped)]
+    start = script.text.index(stripped) if stripped else 0
+    body = stripped
     place = 0
     for cut in _SEPARATORS.finditer(body):
         if cut.start() > place:
-            yield Word(body[place : cut.start()], start + place + 1)
+            yield Word(body[place : cut.start()], script.columns[start + place])
         place = cut.end()
     if place < len(body):
-        yield Word(body[place:].rstrip("."), start + place + 1)
+        yield Word(body[place:].rstrip("."), script.columns[start + place])
 
 
-def is_none(words: Sequence[Word]) -> bool:
-    """Is the answer that there are none?"""
-    return not words or (len(words) == 1 and words[0].text.lower().rstrip(".") in NONE)
+def is_none(answer: object) -> bool:
+    """Is the answer that there is none?"""
+    if isinstance(answer, Sequence) and not isinstance(answer, str):
+        return not answer or (len(answer) == 1 and is_none(answer[0]))
+    return isinstance(answer, str) and says_none(answer)
+
+
+def alternatives(answer: Given) -> list[Given]:
+    """The answers of `x or y`; the answer itself where it is one."""
+    if not isinstance(answer, str):
+        return [answer]
+    parts = _OR.split(answer.removeprefix("either "))
+    return [*parts] if all(part.strip() for part in parts) else [answer]
+
+
+def names_of(answer: object, known: Sequence[str], what: str) -> list[str]:
+    """The known names that an answer lists; remarks in parentheses and words around them are read over."""
+    if isinstance(answer, str):
+        reason = REASONS.search(answer)
+        answer = answer if reason is None else answer[: reason.start()]
+        answer = _OF_TIME.sub("", answer)
+        answer = _TITLE.sub(lambda m: " " * len(m[0]), answer) if "q" not in known else answer
+        answer = _REMARK.sub(lambda m: " " * len(m[0]), answer)
+    words = split_words(answer)
+    table = ChoiceOfNames(known)
+    if any(table.meant(word.text) for word in words):
+        words = [w for w in words if table.meant(w.text) or plain(w.text.strip(".:'\"")) not in FILLING]
+    return chosen(words, known, what)
+
+
+class ChoiceOfNames:
+    """Known names; Greek letters and their spelled names are the same, and case and `_` where they tell nothing."""
+
+    def __init__(self, known: Sequence[str]) -> None:
+        self._exact = {spelled(one): one for one in known}
+        self._loose: dict[str, str | None] = {}
+        for one, name in self._exact.items():
+            for form in {one.lower(), one.lower().replace("_", "").replace(" ", "").replace("-", "")}:
+                self._loose[form] = None if self._loose.get(form, name) != name else name
+
+    def meant(self, text: str) -> str | None:
+        """The one name that a text means."""
+        text = spelled(text.strip("`'\".:"))
+        loose = self._loose.get(text.lower(), self._loose.get(text.lower().replace("_", "").replace("-", "")))
+        return self._exact.get(text, loose)
 
 
 def chosen(words: Iterable[Word], known: Sequence[str], what: str) -> list[str]:
-    """The known names that the words are, each once; Greek letters and their spelled names are the same.
-
-    Letters' case matters only where it tells names apart.
+    """The known names that the words are, each once.
 
     Raises TextError for a word that is none, with its column and the nearest name.
     """
-    exact_names = {spelled(one): one for one in known}
-    lower: dict[str, str | None] = {}
-    for one, name in exact_names.items():
-        lower[one.lower()] = None if one.lower() in lower else name
+    table = ChoiceOfNames(known)
     found: dict[str, None] = {}
     for word in words:
-        text = spelled(word.text)
-        meant = exact_names.get(text, lower.get(text.lower()))
+        meant = table.meant(word.text)
         if meant is None:
             near = nearest(word.text, known)
             hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(known[:12])}"

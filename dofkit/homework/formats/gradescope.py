@@ -55,7 +55,7 @@ def document(result: Result) -> dict[str, Any]:
     }
     tests = [_test(item, place) for item, place in zip(result.items, numbers(result.items), strict=True)]
     if result.error is not None:
-        tests = [{"name": "Reading the submission", "status": "failed", "output": plain(result.error),
+        tests = [{"name": "AnswerReading the submission", "status": "failed", "output": plain(result.error),
                   "output_format": "text", "visibility": "visible"}]  # fmt: skip
     return {**found, "tests": tests}
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
@@ -12,6 +12,7 @@ from dofkit.expressions.text import Names
 from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
 from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
+from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.names import coordinate_table, vocabulary_of
 from dofkit.scene.scene import Scene
 
@@ -19,6 +20,8 @@ from dofkit.scene.scene import Scene
 Chosen = Callable[[Scene, Sequence[str], Report], bool | None]
 #: Sets of names whose answers are kept.
 MOST_KNOWN = 4096
+#: Scenes with coordinates of answers' own that are kept.
+MOST_EXTENDED = 256
 
 Convention = Literal["configuration", "velocity"]
 #: Seconds for what dofkit says of an assignment's scene.
@@ -27,10 +30,14 @@ SCENE_SECONDS = 60.0
 
 @dataclass(frozen=True)
 class Key:
-    """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means."""
+    """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means.
+
+    ``also``: further coordinates that an answer may use, and what they are.
+    """
 
     scene: Scene
     convention: Convention = "configuration"
+    also: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def report(self) -> Report:
@@ -60,6 +67,31 @@ class Key:
     def coordinates(self) -> list[str]:
         """The scene's configuration coordinates, in order."""
         return [c.name for c in coordinate_table(self.scene).coordinates]
+
+    @cached_property
+    def _extended(self) -> dict[tuple[tuple[str, ...], tuple[str, ...]], Key]:
+        return {}
+
+    def with_own(self, names: tuple[str, ...], texts: tuple[str, ...]) -> Key:
+        """The same of the scene with further coordinates, and equations that say what they are."""
+        if (names, texts) not in self._extended:
+            more = tuple(Equation(name=f"own {i + 1}", text=text) for i, text in enumerate(texts))
+            scene = self.scene.model_copy(
+                update={
+                    "coordinates": (*self.scene.coordinates, *names),
+                    "constraints": (*self.scene.constraints, *more),
+                    "expect": {},
+                }
+            )
+            if len(self._extended) == MOST_EXTENDED:
+                return Key(scene, self.convention)
+            self._extended[names, texts] = Key(scene, self.convention)
+        return self._extended[names, texts]
+
+    @cached_property
+    def constants(self) -> list[str]:
+        """The names of the scene's parameters without a value."""
+        return [n for n, e in self.names.parameters.items() if e.op == "sym"]
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:

@@ -10,7 +10,7 @@ from typing import Annotated, get_args
 from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import Fault
-from dofkit.homework.judgement import Given, Judgement
+from dofkit.homework.judgement import Given, Judgement, Sentence
 from dofkit.homework.key.key import Key
 from dofkit.scene.fields import Number, WrittenModel, exact, fault_error
 
@@ -66,7 +66,7 @@ class QuestionBase(WrittenModel):
         """What an answer is worth. Raises TextError where it cannot be read."""
         raise NotImplementedError
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         """What is right, in words; empty where dofkit does not know it."""
         raise NotImplementedError
 

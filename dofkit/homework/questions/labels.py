@@ -2,68 +2,23 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from dofkit.base.errors import Fault, TextError
-from dofkit.base.spelling import closest
-from dofkit.homework.answers.words import split_words
-from dofkit.homework.judgement import Given, Judgement, needs_review, partly
+from dofkit.base.errors import Fault
+from dofkit.homework.answers.label_words import TERMS, label_text, mentions, read_labels, word_of
+from dofkit.homework.judgement import Given, Judgement, Sentence, needs_review, partly
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
+from dofkit.homework.sentences.said import say
 from dofkit.report import ConstraintEntry
 from dofkit.scene.fields import Listed, suggestion
 
 Part = Literal["holonomic", "scleronomic", "bilateral"]
-
-
-class Terms(NamedTuple):
-    """What a part is called where it holds, and where it does not, each with what people write for it."""
-
-    holds: str
-    fails: str
-    positive: tuple[str, ...]
-    negative: tuple[str, ...]
-
-
-TERMS: dict[str, Terms] = {
-    "holonomic": Terms(
-        "holonomic", "non-holonomic", ("holonomic", "holonom"), ("nonholonomic", "anholonomic", "nichtholonom")
-    ),
-    "scleronomic": Terms(
-        "scleronomic",
-        "rheonomic",
-        ("scleronomic", "scleronomous", "skleronom", "skleronomic", "timeindependent"),
-        ("rheonomic", "rheonomous", "rheonom", "nonscleronomic", "timedependent"),
-    ),
-    "bilateral": Terms(
-        "bilateral",
-        "unilateral",
-        ("bilateral", "twosided", "equality"),
-        ("unilateral", "onesided", "inequality", "nonbilateral"),
-    ),
-}
-_WORDS: dict[str, tuple[str, bool]] = {
-    word: (part, holds)
-    for part, terms in TERMS.items()
-    for words, holds in ((terms.positive, True), (terms.negative, False))
-    for word in words
-}
-_NEGATIONS = frozenset(
-    {"not", "non", "no", "non-", "not-", "isn't", "isnt", "nicht", "kein", "never", "neither", "nor"}
-)
-#: Words over which a negation reaches.
-_FILLING = frozenset({"a", "an", "the", "is", "it", "be", "also", "really"})
-#: Words of other meanings that look like labels.
-_OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear", "nonzero"})
-#: How alike a misspelt word and the label that is meant are.
-ALIKE = 0.86
-_HYPHEN = re.compile("[-\u2010-\u2015_]")
 
 
 class LabelQuestion(QuestionBase):
@@ -82,83 +37,43 @@ class LabelQuestion(QuestionBase):
 
     def read(self, answer: Given, key: Key) -> str:
         del key
-        return _label_text(read_labels(answer))
+        return label_text(read_labels(answer))
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         truth = truths(key.constraints[self.constraint])
-        known = [_word(p, holds) for p in self.parts if (holds := truth[p]) is not None]
-        return f"It is {', '.join(known)}: {key.constraints[self.constraint].reason}" if known else ""
+        known = [word_of(p, holds) for p in self.parts if (holds := truth[p]) is not None]
+        reason = key.constraints[self.constraint].reason
+        return say("It is {labels}: {reason}", labels=", ".join(known), reason=reason) if known else ""
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         given, entry = read_labels(answer), key.constraints[self.constraint]
-        truth, shown = truths(entry), _label_text(given)
+        truth, shown = truths(entry), label_text(given)
         if any(truth[p] is None for p in self.parts):
             return needs_review(shown, "dofkit does not know the label for certain.")
         good = [p for p in self.parts if given.get(p) == frozenset({truth[p]})]
         missing = [p for p in self.parts if p not in given]
+        hinted = [p for p in missing if mentions(p, answer)]
+        if hinted:
+            return needs_review(shown, "it says something of a part without its label.")
         twice = [p for p in self.parts if len(given.get(p, ())) > 1]
         codes: list[str] = []
-        told: list[str] = []
+        told: list[Sentence] = []
         for p in self.parts:
             if p not in good and p not in missing and p not in twice:
                 code, why = explain_label(p, entry, key)
                 codes.append(code)
                 told.append(why)
-        told += [f"You did not say whether it is {TERMS[p].holds} or {TERMS[p].fails}." for p in missing]
-        told += [f"It cannot be both {TERMS[p].holds} and {TERMS[p].fails}." for p in twice]
-        return partly(Fraction(len(good), len(self.parts)), shown, " ".join(told), *codes)
+        told += [
+            say("You did not say whether it is {holds} or {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails)
+            for p in missing
+        ]
+        told += [
+            say("It cannot be both {holds} and {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails) for p in twice
+        ]
+        return partly(Fraction(len(good), len(self.parts)), shown, "", *codes).saying(*told)
 
 
 def truths(entry: ConstraintEntry) -> dict[str, bool | None]:
     """What holds of a constraint, by part."""
     return {"holonomic": entry.holonomic, "scleronomic": entry.scleronomic, "bilateral": entry.bilateral}
-
-
-def read_labels(answer: Given) -> dict[str, frozenset[bool]]:
-    """For every part that is mentioned whether it is said to hold; both where the answer contradicts itself.
-
-    A negation before a label, joined to it or not, turns it round; what else a sentence says is read over. Raises
-    TextError where there is no label, or a word that may be one and cannot be read.
-    """
-    found: dict[str, frozenset[bool]] = {}
-    negated, unread = False, None
-    for word in split_words(answer):
-        text = word.text.strip(".:!()\"'").lower()
-        label = None if text in _OTHERS else _label(text)
-        if label is not None:
-            part, holds = label
-            found[part] = found.get(part, frozenset()) | {holds != negated}
-        elif unread is None and "nom" in text:
-            unread = word
-        if text in _NEGATIONS:
-            negated = not negated
-        elif label is not None or text not in _FILLING:
-            negated = False
-    if unread is not None or not found:
-        hint = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral"
-        told = f"'{unread.text[:40]}' is no label" if unread is not None else "there is no label in this answer"
-        raise TextError(told, unread.column if unread is not None else 1, hint)
-    return found
-
-
-def _label(text: str) -> tuple[str, bool] | None:
-    """The part that a word names and whether it says that it holds; misspelt labels are read too."""
-    plain = _HYPHEN.sub("", text)
-    if plain in _WORDS:
-        return _WORDS[plain]
-    negated = next((n for n in ("non", "not", "nicht") if plain.startswith(n)), "")
-    rest = plain[len(negated) :]
-    near = closest(rest, [w for w in _WORDS if not w.startswith("n")], ALIKE)
-    if near is None:
-        return None
-    part, holds = _WORDS[near]
-    return part, holds != bool(negated)
-
-
-def _word(part: str, holds: bool) -> str:
-    return TERMS[part].holds if holds else TERMS[part].fails
-
-
-def _label_text(given: dict[str, frozenset[bool]]) -> str:
-    return ", ".join(_word(part, holds) for part in TERMS for holds in sorted(given.get(part, ()), reverse=True))

@@ -2,37 +2,28 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Literal
 
 from pydantic import Field
 
-from dofkit.base.errors import DofkitError, Fault, TextError
-from dofkit.expressions import tree as ex
-from dofkit.expressions.text import Comparison, Names, UnknownNameError, parse_expression, parse_relations, to_text
+from dofkit.base.errors import DofkitError, Fault
+from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.homework.answers.words import one_text
-from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.judgement import HALF, Given, Judgement, Sentence, agreed, needs_review, partly, right, wrong
 from dofkit.homework.key.compared_motion import AnsweredMotion, same_lagrangian
 from dofkit.homework.key.compared_motion import MotionSameness as Found
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.posed_motion import PosedMotion, posed_motions
 from dofkit.homework.key.right_motion import RightMotion, is_zero
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.scene.added_equations import as_text
+from dofkit.homework.sentences.said import say
 from dofkit.scene.fields import suggestion
-
-#: ``L =``, ``p_theta =`` and the like before the answer.
-_LEADING = re.compile(r"[^=<>]{0,80}(?<![<>!])==?(?!=)")
-#: Names of an answer's own for multipliers.
-_MULTIPLIER = re.compile(r"(lambda|lam|mu|Lambda)_?\w{0,3}|(multiplier|mult)_?\d{0,2}")
-MOST_MULTIPLIERS, MOST_EQUATIONS = 12, 40
-_SEPARATED = re.compile(r"[;\n]")
 
 
 class _MotionQuestion(QuestionBase):
-    """What all of them share."""
+    """What all of them share: an answer may define coordinates of its own, and is judged in those."""
 
     def faults(self, key: Key) -> Iterator[Fault]:
         coordinate = getattr(self, "coordinate", None)
@@ -40,42 +31,46 @@ class _MotionQuestion(QuestionBase):
             hint = suggestion(coordinate, key.coordinates, "coordinates")
             yield Fault(f"the scene has no coordinate '{coordinate}'", ("coordinate",), hint=hint)
 
+    def read(self, answer: Given, key: Key) -> str:
+        return " or ".join(dict.fromkeys(posed.shown for posed in self._posed(answer, key)))
+
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        shown = self.read(answer, key)
-        if isinstance(key.motion, DofkitError):
-            return needs_review(shown, f"dofkit has no equations of motion here ({key.motion}).")
-        return self._judgement(answer, key, key.motion, shown)
+        return agreed([self._judged(posed) for posed in self._posed(answer, key)])
 
-    def _judgement(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
+    def _posed(self, answer: Given, key: Key) -> list[PosedMotion]:
+        return posed_motions(answer, key, value=isinstance(self, _Value))
+
+    def _judged(self, posed: PosedMotion) -> Judgement:
+        for guess in posed.guesses:
+            found = self._judged(guess)
+            if found.status == "right":
+                return found.saying("Your names are not the problem's: they were read as its own.")
+        if posed.error is not None:
+            raise posed.error
+        motion = posed.key.motion
+        if isinstance(motion, DofkitError):
+            return needs_review(posed.shown, say("dofkit has no equations of motion here ({reason}).", reason=motion))
+        return self._judgement(posed, motion)
+
+    def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
         raise NotImplementedError
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         return "" if isinstance(key.motion, DofkitError) else self._solution(key.motion)
 
-    def _solution(self, known: RightMotion) -> str:
+    def _solution(self, known: RightMotion) -> Sentence:
         raise NotImplementedError
 
 
 class _Value(_MotionQuestion):
     """One expression; a leading name is read over."""
 
-    def read(self, answer: Given, key: Key) -> str:
-        return to_text(_value(answer, key))
-
-    def _judgement(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
-        return self._comparison(known.in_kept(_value(answer, key)), known, shown)
+    def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
+        return self._comparison(known.in_kept(posed.value), known, posed.shown)
 
     def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
         raise NotImplementedError
-
-
-def _value(answer: Given, key: Key) -> Expr:
-    text = one_text(answer)
-    before = 0
-    while (match := _LEADING.match(text, before)) is not None and match.end() < len(text):
-        before = match.end()
-    return parse_expression(" " * before + text[before:], key.names)
 
 
 class Lagrangian(_Value):
@@ -97,8 +92,8 @@ class Lagrangian(_Value):
             shown, "It is another Lagrangian: Euler's equation of the difference is not 0.", "WRONG_LAGRANGIAN"
         )
 
-    def _solution(self, known: RightMotion) -> str:
-        return f"For example: L = {to_text(known.lagrangian)}."
+    def _solution(self, known: RightMotion) -> Sentence:
+        return say("For example: {text}.", text=f"L = {to_text(known.lagrangian)}")
 
 
 class _OfCoordinate(_Value):
@@ -128,15 +123,15 @@ class _OfCoordinate(_Value):
             return wrong(shown, "The sign is wrong.", "SIGN")
         return wrong(shown, self._feedback(), self._code())
 
-    def _feedback(self) -> str:
+    def _feedback(self) -> Sentence:
         raise NotImplementedError
 
     def _code(self) -> str:
         raise NotImplementedError
 
-    def _solution(self, known: RightMotion) -> str:
+    def _solution(self, known: RightMotion) -> Sentence:
         wanted = self._right(known)
-        return f"For example: {to_text(self._unreduced(known) if wanted is None else wanted)}."
+        return say("For example: {text}.", text=to_text(self._unreduced(known) if wanted is None else wanted))
 
 
 class Momentum(_OfCoordinate):
@@ -150,8 +145,8 @@ class Momentum(_OfCoordinate):
     def _unreduced(self, known: RightMotion) -> Expr:
         return known.unreduced[self.coordinate][0]
 
-    def _feedback(self) -> str:
-        return f"The generalized momentum is the derivative of L by {self.coordinate}dot."
+    def _feedback(self) -> Sentence:
+        return say("The generalized momentum is the derivative of L by {velocity}.", velocity=f"{self.coordinate}dot")
 
     def _code(self) -> str:
         return "WRONG_MOMENTUM"
@@ -168,8 +163,11 @@ class GeneralizedForce(_OfCoordinate):
     def _unreduced(self, known: RightMotion) -> Expr:
         return known.unreduced[self.coordinate][1]
 
-    def _feedback(self) -> str:
-        return f"It is the derivative of L by {self.coordinate}, with the forces that have no potential."
+    def _feedback(self) -> Sentence:
+        return say(
+            "It is the derivative of L by {coordinate}, with the forces that have no potential.",
+            coordinate=self.coordinate,
+        )
 
     def _code(self) -> str:
         return "WRONG_FORCE"
@@ -181,11 +179,8 @@ class MotionQuestion(_MotionQuestion):
     ask: Literal["motion"] = Field(description="an equation of motion, or all")
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
 
-    def read(self, answer: Given, key: Key) -> str:
-        return "; ".join(as_text(c) for c in _equations(answer, key)[0])
-
-    def _judgement(self, answer: Given, key: Key, known: RightMotion, shown: str) -> Judgement:
-        relations, own = _equations(answer, key)
+    def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
+        relations, own, shown, key = posed.relations, posed.multipliers, posed.shown, posed.key
         if any(c.relation != "=" for c in relations):
             return wrong(shown, "An equation of motion is an equation, not an inequality.", "INEQUALITY")
         equations = tuple(c.left - c.right for c in relations)
@@ -209,7 +204,7 @@ class MotionQuestion(_MotionQuestion):
         rows = [r for r, t in zip(answered.rows or (), told, strict=True) if t is Found.FOLLOWS]
         place = known.names.index(self.coordinate or "")
         if not any(is_zero(row[place], known.positive) is False for row in rows):
-            told_why = f"It does not say what the acceleration of {self.coordinate} is."
+            told_why = say("It does not say what the acceleration of {coordinate} is.", coordinate=self.coordinate)
             return wrong(shown, told_why, Found.TRIVIAL.value)
         if len(rows) == 1 and len(known.names) > 1 and self._of_another(rows[0], answered, known, place):
             return wrong(shown, "This is the equation of another coordinate.", "OTHER_COORDINATE")
@@ -220,11 +215,11 @@ class MotionQuestion(_MotionQuestion):
         told = [_proportional(row[:-1], other[:-1], known.positive) for other in answered.right]
         return not told[place] and any(told)
 
-    def _solution(self, known: RightMotion) -> str:
+    def _solution(self, known: RightMotion) -> Sentence:
         given = known.equations
         own = None if self.coordinate is None else given.get(self.coordinate)
         chosen = list(given.values()) if own is None else [own]
-        return "For example: " + "; ".join(f"{to_text(e)} = 0" for e in chosen) + "."
+        return say("For example: {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
 
 
 def _all(found: tuple[list[Found], int], known: RightMotion, shown: str) -> Judgement:
@@ -236,50 +231,17 @@ def _all(found: tuple[list[Found], int], known: RightMotion, shown: str) -> Judg
         return right(shown)
     if good:
         share = Fraction(max(rank, 0), wanted)
-        return partly(
-            share, shown, f"These fix {max(rank, 0)} of {wanted} accelerations: something is missing.", "WEAKER"
+        told_why = say(
+            "These fix {number} of {all} accelerations: something is missing.", number=max(rank, 0), all=wanted
         )
+        return partly(share, shown, told_why, "WEAKER")
     share = Fraction(max(0, min(rank, wanted - 1)), wanted) if wanted > 1 else (HALF if rank else Fraction(0))
     number = sum(t is Found.NOT for t in told)
-    return partly(share, shown, f"{number} of {len(told)} equations do not hold for the motion.", Found.NOT.value)
+    told_why = say("{number} of {all} equations do not hold for the motion.", number=number, all=len(told))
+    return partly(share, shown, told_why, Found.NOT.value)
 
 
 def _proportional(a: Sequence[Expr], b: Sequence[Expr], positive: frozenset[Expr]) -> bool:
     """Are two rows multiples of each other?"""
     pairs = [(i, j) for i in range(len(a)) for j in range(i)]
     return all(is_zero(a[i] * b[j] - a[j] * b[i], positive) for i, j in pairs)
-
-
-def _equations(answer: Given, key: Key) -> tuple[list[Comparison], tuple[Expr, ...]]:
-    """The equations of an answer, and the names of its own that stand for multipliers."""
-    texts = [one_text(part) for part in answer] if isinstance(answer, (list, tuple)) else [one_text(answer)]
-    pieces = [piece for text in texts for piece in _pieces(text)]
-    if not pieces:
-        raise TextError("there is no equation", 1, "write an equation such as m xddot + k x = 0")
-    if len(pieces) > MOST_EQUATIONS:
-        raise TextError(f"there are {len(pieces)} equations", 1, "give fewer")
-    own: dict[str, Expr] = {}
-    relations = [c for piece in pieces for c in _relations(piece, key.names, own)]
-    return relations, tuple(own.values())
-
-
-def _pieces(text: str) -> Iterator[str]:
-    """Each equation, blanks before it in the place of what stood there, so that columns stay."""
-    start = 0
-    for cut in [*(m.span() for m in _SEPARATED.finditer(text)), (len(text), len(text))]:
-        if text[start : cut[0]].strip():
-            yield " " * start + text[start : cut[0]]
-        start = cut[1]
-
-
-def _relations(text: str, names: Names, own: dict[str, Expr]) -> tuple[Comparison, ...]:
-    while True:
-        known = Names(
-            names.coordinates, {**names.parameters, **own}, names.functions, names.arguments, allow_accelerations=True
-        )
-        try:
-            return parse_relations(text, known)
-        except UnknownNameError as error:
-            if len(own) == MOST_MULTIPLIERS or not _MULTIPLIER.fullmatch(error.name):
-                raise
-            own[error.name] = ex.parameter(error.name)

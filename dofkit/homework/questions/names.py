@@ -6,11 +6,13 @@ from typing import Literal
 
 from pydantic import Field
 
-from dofkit.homework.answers.words import chosen, is_none, split_words
-from dofkit.homework.judgement import Given, Judgement, needs_review, right, wrong
+from dofkit.homework.answers.words import alternatives, is_none, names_of
+from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_coordinates import chosen_coordinates
 from dofkit.homework.key.selection import can_be_dropped, determine
 from dofkit.homework.questions.base import Earlier, QuestionBase
+from dofkit.homework.sentences.said import say
 
 
 class Coordinates(QuestionBase):
@@ -19,20 +21,20 @@ class Coordinates(QuestionBase):
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
     def read(self, answer: Given, key: Key) -> str:
-        return ", ".join(self._names(answer, key)) or "none"
+        chosen = [", ".join(chosen_coordinates(one, key).names) or "none" for one in alternatives(answer)]
+        return " or ".join(chosen)
 
-    def _names(self, answer: Given, key: Key) -> list[str]:
-        words = split_words(answer)
-        return [] if is_none(words) else chosen(words, key.coordinates, "coordinate")
-
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         names = key.report.generalized_coordinates
-        return "" if names is None else f"For example: {', '.join(names) or 'none'}."
+        return "" if names is None else say("For example: {text}.", text=", ".join(names) or "none")
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        names, report = self._names(answer, key), key.report
-        dof = report.dof
+        return agreed([self._judged(one, key) for one in alternatives(answer)])
+
+    def _judged(self, answer: Given, key: Key) -> Judgement:
+        dof = key.report.dof
+        names, key = chosen_coordinates(answer, key)
         shown = ", ".join(names) or "none"
         if dof is None:
             return needs_review(shown, "dofkit does not know the degrees of freedom for certain.")
@@ -52,18 +54,20 @@ class Redundant(QuestionBase):
     ask: Literal["redundant"] = Field(description="constraints that can be dropped together, as many as possible")
 
     def read(self, answer: Given, key: Key) -> str:
-        return ", ".join(self._names(answer, key)) or "none"
+        return " or ".join(", ".join(self._names(one, key)) or "none" for one in alternatives(answer))
 
     def _names(self, answer: Given, key: Key) -> list[str]:
-        words = split_words(answer)
-        return [] if is_none(words) else chosen(words, list(key.constraints), "constraint")
+        return [] if is_none(answer) else names_of(answer, list(key.constraints), "constraint")
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         redundant = key.report.redundant
-        return "not decided" if redundant is None else f"For example: {', '.join(redundant) or 'none'}."
+        return "" if redundant is None else say("For example: {text}.", text=", ".join(redundant) or "none")
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
+        return agreed([self._judged(one, key) for one in alternatives(answer)])
+
+    def _judged(self, answer: Given, key: Key) -> Judgement:
         names, report = self._names(answer, key), key.report
         shown = ", ".join(names) or "none"
         if report.dof is None or report.redundant is None:

@@ -4,19 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from dofkit.homework.answers.words import number
-from dofkit.homework.judgement import HALF, Given, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.answers.counts import number
+from dofkit.homework.judgement import HALF, Given, Judgement, Sentence, needs_review, partly, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain
 from dofkit.homework.questions.base import Earlier, QuestionBase
+from dofkit.homework.sentences.said import say
 from dofkit.scene.fields import as_written
 
 #: A number that follows from an earlier wrong one; the number of the other convention.
 CARRIED, OTHER_CONVENTION = "CARRIED", "OTHER_CONVENTION"
+_CONFIGURATION = "Count the coordinates, less the finite equations of which none follows from the others."
+_VELOCITIES = (
+    "Count the coordinates, less all equations of which none follows from the others, those on velocities too."
+)
 _CONVENTIONS = {
     "configuration": (
         "This is the number of independent velocities. Here the degrees of freedom are the dimension of the "
@@ -30,7 +35,11 @@ _CONVENTIONS = {
 
 
 class NumberQuestion(QuestionBase):
-    """A number that the report tells."""
+    """A number that the report tells; ``letters``: what it is called."""
+
+    letters: ClassVar[frozenset[str]] = frozenset(
+        {"f", "dof", "ndof", "df", "fg", "fhg", "ddl", "gdl", "s", "freiheitsgrade", "degrees of freedom"}
+    )
 
     def truth(self, key: Key) -> int | None:
         """The right number; None where dofkit does not know it."""
@@ -45,24 +54,28 @@ class NumberQuestion(QuestionBase):
         """What to say of the other convention's number."""
         return _CONVENTIONS[key.convention]
 
+    def advice(self, key: Key) -> str:
+        """How the number is counted: what to say of one that no known error explains."""
+        raise NotImplementedError
+
     def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
         """Numbers that would be right if what was answered before were."""
         del key, earlier
         yield from ()
 
     def number(self, answer: Given) -> Fraction | None:
-        return number(answer)
+        return number(answer, self.letters)
 
     def read(self, answer: Given, key: Key) -> str:
         del key
-        return as_written(number(answer))
+        return as_written(number(answer, self.letters))
 
-    def solution(self, key: Key) -> str:
+    def solution(self, key: Key) -> Sentence:
         found = self.truth(key)
-        return "" if found is None else f"The answer is {found}."
+        return "" if found is None else say("The answer is {number}.", number=found)
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
-        given, truth = number(answer), self.truth(key)
+        given, truth = number(answer, self.letters), self.truth(key)
         shown = as_written(given)
         if truth is None:
             return needs_review(shown, "dofkit does not know this number for certain.")
@@ -74,13 +87,16 @@ class NumberQuestion(QuestionBase):
             return partly(HALF, shown, why, CARRIED, *codes)
         if given == self.other(key):
             return wrong(shown, self.clash(key), OTHER_CONVENTION, *codes)
-        return wrong(shown, told, *codes)
+        return wrong(shown, told or self.advice(key), *codes)
 
 
 class Dof(NumberQuestion):
     """f: the dimension of the configuration space, or of the velocities where the assignment's convention says so."""
 
     ask: Literal["dof"] = Field(description="the degrees of freedom")
+
+    def advice(self, key: Key) -> str:
+        return _VELOCITIES if key.convention == "velocity" else _CONFIGURATION
 
     def truth(self, key: Key) -> int | None:
         return key.report.velocity_dof if key.convention == "velocity" else key.report.dof
@@ -97,6 +113,9 @@ class VelocityDof(NumberQuestion):
     """The number of independent velocities."""
 
     ask: Literal["velocity_dof"] = Field(description="the number of independent velocities")
+
+    def advice(self, key: Key) -> str:
+        return _VELOCITIES
 
     def truth(self, key: Key) -> int | None:
         return key.report.velocity_dof
@@ -116,7 +135,13 @@ class VelocityDof(NumberQuestion):
 class CountQuestion(NumberQuestion):
     """k: the number of independent finite constraint equations, coordinates less the configuration's dimension."""
 
+    letters: ClassVar[frozenset[str]] = frozenset({"k", "r", "m", "nc", "constraints", "bindungen"})
     ask: Literal["k"] = Field(description="the number of independent finite constraint equations")
+
+    def advice(self, key: Key) -> str:
+        return (
+            "Count the finite equations of which none follows from the others: those on velocities are not among them."
+        )
 
     def truth(self, key: Key) -> int | None:
         return None if key.report.dof is None else len(key.coordinates) - key.report.dof

@@ -1,0 +1,173 @@
+"""Numbers as people write them: digits and words, with what is counted, a sum before them, a reason after them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+
+from dofkit.base.errors import TextError
+from dofkit.expressions.text import Names, parse_relations
+from dofkit.homework.answers.notation import script_of
+from dofkit.homework.answers.prose import LEADING, NEGATIONS, NUMBERS, REASONS, UNITS, plain, words
+from dofkit.homework.answers.script import Script
+from dofkit.homework.answers.words import one_text
+from dofkit.homework.judgement import DoubtError
+
+_HINT = "write a number such as 3"
+_COMMA = re.compile(r"(?<=\d),(?=\d)")
+_GROUP = re.compile(r"\s*\(([^()]*)\)")
+_SEGMENT = re.compile(
+    r"[;\n]|,(?!\d)|:(?!=)|(?<=[^\d\s])\.(?=\s)|\s[-–—]\s(?=[^\W\d_]{3})|"
+    r"(?<=\s)(?:so|therefore|hence|thus|also|donc|luego|quindi|portanto|daher|folglich)(?=\s)",
+    re.IGNORECASE,
+)
+_NAMED = re.compile(r"\s*([^\W\d_]+)\s*=")
+_SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
+_WORD = re.compile(r"d\.\s?o\.\s?f\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?", re.IGNORECASE)
+_OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
+              "times": "*", "mal": "*"}  # fmt: skip
+_FIGURE = re.compile(r"[\d½⅓⅔¼¾]")
+_BETWEEN = re.compile(r"\s*\d+\s*[-–]\s*\d+\s*")
+_ENDING = re.compile(r"[\s.!]+$")
+_NONE = words("none no kein keine keinen aucun ninguno ninguna nessuno nenhum")
+
+
+def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
+    """The number that an answer claims: ``4``, ``f = 6 - 2 = 4``, ``zwei``, ``two (2)``, ``2 ddl``, ``0,5``.
+
+    ``called``: what the number asked for is called; where others stand beside it, only this one counts. Raises
+    TextError, with its column; DoubtError where it says several.
+    """
+    script = script_of(one_text(answer)).replaced(_COMMA, ".")
+    reason = REASONS.search(script.text)
+    body = script if reason is None else script.cut(0, reason.start())
+    told, first = set[Fraction](), None
+    segments = list(_segments(body))
+    named = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in called]
+    for segment in named or segments:
+        try:
+            found = _segment(segment)
+        except DoubtError:
+            raise
+        except TextError as error:
+            first = first or segment.moved(error)
+            continue
+        if found is not None:
+            told.add(found)
+    if not told:
+        raise first or TextError("there is no number in this answer", 1, _HINT)
+    if len(told) > 1:
+        raise DoubtError("it says more than one number.", 1, _HINT)
+    return told.pop()
+
+
+def _segments(script: Script) -> Iterator[Script]:
+    """What stands between separators, and a number in parentheses that repeats one; other parentheses are remarks."""
+    for group in _GROUP.finditer(script.text):
+        before = script.text[: group.start()].rstrip()
+        if before and before[-1] not in "+-*/=(^":
+            inside = script.cut(*group.span(1))
+            if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
+                yield inside
+            script = script.replaced(re.compile(re.escape(group[0])), _blank)
+    place = 0
+    for cut in [*(m.span() for m in _SEGMENT.finditer(script.text)), (len(script.text), len(script.text))]:
+        part = script.cut(place, cut[0])
+        if part.text.strip():
+            yield part
+        place = cut[1]
+
+
+def _blank(match: re.Match[str]) -> str:
+    return " " * len(match[0])
+
+
+def _only_number(text: str) -> bool:
+    return plain(text) in NUMBERS or re.fullmatch(r"[\d\s.+*/-]*\d[\d\s.+*/-]*", text) is not None
+
+
+def _segment(script: Script) -> Fraction | None:
+    """The number of a part; None where it holds none. Raises DoubtError where its sums do not agree."""
+    place, found, failure = 0, list[Fraction](), None
+    text = script.text
+    for cut in [*(m.span() for m in _SIGNS.finditer(text)), (len(text), len(text))]:
+        piece = script.cut(place, cut[0])
+        place = cut[1]
+        try:
+            value = _value(piece)
+        except TextError as error:
+            failure = error
+            if place >= len(text):
+                raise
+            continue
+        if value is not None:
+            found.append(value)
+            failure = None
+        elif cut[0] >= len(text):
+            failure = failure or TextError("there is no number here", 1, _HINT)
+    if len(set(found)) > 1:
+        raise DoubtError("its numbers contradict each other.", script.columns[0], _HINT)
+    if failure is not None and not found:
+        raise failure
+    if found and found[-1] < 0 and _BETWEEN.fullmatch(script.text):
+        raise DoubtError("it says more than one number.", script.columns[0], _HINT)
+    return found[-1] if found else None
+
+
+def _value(script: Script) -> Fraction | None:
+    """The number of a piece without signs of equality; None where it has words only."""
+    words = [plain(m[0]) for m in _WORD.finditer(script.text)]
+    if (
+        any(w in _NONE for w in words)
+        and not re.search(r"\d", script.text)
+        and all(w in _NONE or w in UNITS or w in LEADING for w in words)
+    ):
+        return Fraction(0)
+    if any(w in NEGATIONS for w in words):
+        raise DoubtError("it says what the number is not.", script.columns[0], _HINT)
+    if script.text.rstrip().endswith("?"):
+        raise DoubtError("a question mark leaves it open.", script.columns[0], _HINT)
+    figures = _FIGURE.search(script.text)
+    start = len(script.text) if figures is None else figures.start()
+    counted = script.replaced(_WORD, lambda m: _counted(m, m.start() < start))
+    rest = counted.replaced(_ENDING, "")
+    if not rest.text.strip():
+        return None
+    if re.search(r"[^\W\d_]", rest.text) and not _FIGURE.search(rest.text):
+        return None if _is_remark(rest.text) else _refused(rest)
+    return _arithmetic(rest)
+
+
+def _is_remark(text: str) -> bool:
+    """Words without a number: a name before a sign of equality, or a remark after the number."""
+    return re.search(r"[^\W\d_]", text) is not None and not re.search(r"[<>≤≥]", text)
+
+
+def _refused(script: Script) -> Fraction | None:
+    raise TextError("this is no number", script.columns[0], _HINT)
+
+
+def _counted(match: re.Match[str], leads: bool) -> str:
+    """A word of a number: its digits, its sign, nothing for what is counted, itself for any other."""
+    word = plain(match[0]).replace(". ", "").replace(".", "")
+    if word in _OPERATORS:
+        return _OPERATORS[word]
+    if word in NUMBERS and not (word in ("un", "une", "una", "um", "uma", "a") and _before_number(match)):
+        return str(NUMBERS[word])
+    return "" if word in UNITS or (leads and word in LEADING) else match[0]
+
+
+def _before_number(match: re.Match[str]) -> bool:
+    return re.match(r"\s*\d", match.string[match.end() :]) is not None
+
+
+def _arithmetic(script: Script) -> Fraction:
+    try:
+        found = parse_relations(script.text, Names(allow_time=False, allow_velocities=False))
+    except TextError as error:
+        raise script.moved(TextError(error.message, error.column, _HINT)) from None
+    value = found[0].left
+    if len(found) > 1 or value.op != "num" or not isinstance(value.args[0], Fraction):
+        raise TextError("this is no number", script.columns[0], _HINT)
+    return value.args[0]

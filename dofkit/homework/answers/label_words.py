@@ -1,0 +1,180 @@
+"""Labels as people write them, in six languages, negated in theirs."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import NamedTuple
+
+from dofkit.base.errors import TextError
+from dofkit.base.spelling import closest
+from dofkit.homework.answers.notation import script_of
+from dofkit.homework.answers.prose import plain, words
+from dofkit.homework.answers.script import Script
+from dofkit.homework.answers.words import Word, one_text, split_words
+from dofkit.homework.judgement import DoubtError, Given
+
+
+class Terms(NamedTuple):
+    """What a part is called where it holds, and where it does not, each with what people write for it."""
+
+    holds: str
+    fails: str
+    positive: tuple[str, ...]
+    negative: tuple[str, ...]
+
+
+def _forms(*stems: str) -> tuple[str, ...]:
+    """A stem with the endings that it takes: `scleronom` -> scleronomic, scleronome, scleronoma, ..."""
+    endings = ("", "ic", "ical", "ous", "e", "er", "es", "en", "em", "a", "o", "as", "os", "i", "ica", "ico", "isch")
+    return tuple(stem + ending for stem in stems for ending in endings)
+
+
+TERMS: dict[str, Terms] = {
+    "holonomic": Terms(
+        "holonomic", "non-holonomic", _forms("holonom", "olonom"),
+        _forms("nonholonom", "anholonom", "nichtholonom", "unholonom", "anolonom", "inholonom"),
+    ),
+    "scleronomic": Terms(
+        "scleronomic", "rheonomic",
+        (*_forms("scleronom", "skleronom", "escleronom", "sclernom"), "timeindependent", "zeitunabhangig", "stationary",
+         "stationar"),
+        (*_forms("rheonom", "reonom", "nonscleronom"), "timedependent", "zeitabhangig", "instationar"),
+    ),
+    "bilateral": Terms(
+        "bilateral", "unilateral",
+        ("bilateral", "bilaterale", "bilateraux", "bilatero", "twosided", "doublesided", "zweiseitig", "beidseitig",
+         "equality", "bilateralis", "bilaterales"),
+        ("unilateral", "unilaterale", "unilatero", "onesided", "singlesided", "einseitig", "inequality", "nonbilateral",
+         "unilaterales"),
+    ),
+}  # fmt: skip
+_WORDS: dict[str, tuple[str, bool]] = {
+    word: (part, holds)
+    for part, terms in TERMS.items()
+    for words, holds in ((terms.positive, True), (terms.negative, False))
+    for word in words
+}
+#: What misspelt labels are compared with.
+_GUESSED = [w for w in _WORDS if w[:3] in ("hol", "scl", "skl", "rhe", "bil", "uni")]
+_LONGEST = 24
+_NEGATIONS = words("not non no non- not- isn't isnt nicht kein keine never neither nor weder noch pas ni nao ne' né")
+#: Words over which a negation reaches.
+_FILLING = words(
+    "a an the is it be also really either both ist es eine ein auch est un une aussi es una e' son "
+    "constraint zwangsbedingung liaison ligadura vincolo explicitly"
+)  # fmt: skip
+#: Words of other meanings that look like labels.
+_OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear", "nonzero", "integrabel"})
+#: How alike a misspelt word and the label that is meant are.
+ALIKE = 0.86
+_HYPHEN = re.compile("[-\u2010-\u2015_]")
+_SLASH = re.compile(r"[/|+()\[\]]|(?<=[a-z])\.(?=[a-z])")
+_TIMELESS, _TIMED = " timeindependent ", " timedependent "
+#: What is said in several words.
+_PHRASES = tuple(
+    (re.compile(pattern, re.IGNORECASE), by)
+    for pattern, by in (
+        (r"\b(?:does|do|is|are)\s*(?:not|n't)\s+(?:explicitly\s+)?depend(?:ent)?\s+(?:explicitly\s+)?(?:on|of)\s+"
+         r"(?:the\s+)?time\b", _TIMELESS),
+        (r"\b(?:doesn't|does\s+not|no)\s+(?:contain|involve|explicit)\s+(?:the\s+)?(?:time|t)\b(?:\s+dependence)?",
+         _TIMELESS),
+        (r"\bdepend(?:s|ent|ing)?\s+(?:explicitly\s+)?(?:on|of)\s+(?:the\s+)?time\b", _TIMED),
+        (r"\btime[\s-]+independent\b|\bindependent\s+of\s+(?:the\s+)?time\b|\bunabh[aä]ngig\s+von\s+der\s+zeit\b",
+         _TIMELESS),
+        (r"\btime[\s-]+dependent\b", _TIMED),
+        (r"\b(one|two|single|double)[\s-]+sided\b", r" \1sided "),
+        (r"\bh[aä]ngt\s+nicht\s+(?:explizit\s+)?von\s+der\s+zeit\s+ab\b", _TIMELESS),
+        (r"\bh[aä]ngt\s+(?:explizit\s+)?von\s+der\s+zeit\s+ab\b", _TIMED),
+        (r"\bne\s+d[ée]pend\s+pas\s+(?:explicitement\s+)?du\s+temps\b|\bind[ée]pendante?\s+du\s+temps\b", _TIMELESS),
+        (r"\bd[ée]pend(?:ante?)?\s+(?:explicitement\s+)?du\s+temps\b", _TIMED),
+        (r"\bno\s+depende\s+(?:expl[ií]citamente\s+)?del\s+tiempo\b|\bindependiente\s+del\s+tiempo\b", _TIMELESS),
+        (r"\bdepende\s+(?:expl[ií]citamente\s+)?del\s+tiempo\b|\bdependiente\s+del\s+tiempo\b", _TIMED),
+    )
+)  # fmt: skip
+_ABOUT = {
+    "holonomic": re.compile(r"integr"),
+    "scleronomic": re.compile(r"\btime|zeit|temps|tiempo|tempo\b"),
+    "bilateral": re.compile(r"\bside|seitig|\bcote|\blado|\blato"),
+}
+_HINT = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral"
+
+
+def read_labels(answer: Given) -> dict[str, frozenset[bool]]:
+    """For every part that is mentioned whether it is said to hold; both where the answer contradicts itself.
+
+    A negation before a label, joined to it or not, turns it round; what else a sentence says is read over. Raises
+    TextError where there is no label, or a word that may be one and cannot be read; DoubtError for questions.
+    """
+    found: dict[str, frozenset[bool]] = {}
+    negated, unread = False, None
+    for word in _split(answer):
+        text = plain(word.text.strip(".:!()\"'"))
+        label = None if text in _OTHERS else _label(text.rstrip("?"))
+        if label is not None:
+            if text.endswith("?"):
+                raise DoubtError("a question mark leaves it open.", word.column, _HINT)
+            part, holds = label
+            found[part] = found.get(part, frozenset()) | {holds != negated}
+        elif unread is None and "nom" in text and text not in _ORDINARY:
+            unread = word
+        if text in _NEGATIONS:
+            negated = not negated
+        elif label is not None or text not in _FILLING:
+            negated = False
+    if unread is not None or not found:
+        told = f"'{unread.text[:40]}' is no label" if unread is not None else "there is no label in this answer"
+        raise TextError(told, unread.column if unread is not None else 1, _HINT)
+    return found
+
+
+_ORDINARY = frozenset({"nombre", "name", "phenomenon", "denominator"})
+
+
+def _split(answer: Given) -> list[Word]:
+    if not isinstance(answer, str):
+        return split_words(answer)
+    script: Script = script_of(one_text(answer))
+    for pattern, by in _PHRASES:
+        script = script.replaced(pattern, by)
+    script = script.replaced(_SLASH, " ")
+    found = [Word(w.text, script.columns[w.column - 1]) for w in split_words(script.text)]
+    return [Word(part, w.column) for w in found for part in _parted(w.text)]
+
+
+def _parted(text: str) -> list[str]:
+    """`holonomic-scleronomic` is two labels."""
+    parts = _HYPHEN.split(text)
+    if len(parts) == 2 and all(_label(plain(part)) for part in parts):
+        return parts
+    return [text]
+
+
+@lru_cache(maxsize=4096)
+def _label(text: str) -> tuple[str, bool] | None:
+    """The part that a word names and whether it says that it holds; misspelt labels are read too."""
+    bare = _HYPHEN.sub("", text)
+    if bare in _WORDS:
+        return _WORDS[bare]
+    negated = next((n for n in ("non", "not", "nicht", "nao", "no") if bare.startswith(n)), "")
+    rest = bare[len(negated) :]
+    near = closest(rest, _GUESSED, ALIKE) if len(rest) <= _LONGEST else None
+    if near is None:
+        return None
+    part, holds = _WORDS[near]
+    return part, holds != bool(negated)
+
+
+def mentions(part: str, answer: Given) -> bool:
+    """Is something said of a part in other words, such as `integrable` or `time`?"""
+    return isinstance(answer, str) and _ABOUT[part].search(plain(answer)) is not None
+
+
+def word_of(part: str, holds: bool) -> str:
+    """What a part is called."""
+    return TERMS[part].holds if holds else TERMS[part].fails
+
+
+def label_text(given: dict[str, frozenset[bool]]) -> str:
+    """Labels as they were understood."""
+    return ", ".join(word_of(part, holds) for part in TERMS for holds in sorted(given.get(part, ()), reverse=True))

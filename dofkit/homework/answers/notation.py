@@ -1,0 +1,186 @@
+r"""What people paste, in plain signs: LaTeX with its frames, full-width digits, arrows, derivatives of whole sums.
+
+``$\tfrac12 m \ell^2$`` becomes ``\frac{1}{2} m l^2``, which the grammar reads.
+"""
+
+from __future__ import annotations
+
+import re
+
+from dofkit.expressions.text.names import ELEMENTARY
+from dofkit.homework.answers.prose import words
+from dofkit.homework.answers.script import By, Script
+
+#: Stands between equations of which one follows from another.
+ARROW = "⇒"
+_NAME = r"(?:\\[A-Za-z]+|[A-Za-zα-ωΑ-Ω])(?:_\{?\w+\}?)?"
+#: Signs that a document made of a backslash and a letter.
+_CONTROLS = {"\x07": "a", "\x08": "b", "\t": "t", "\n": "n", "\x0b": "v", "\x0c": "f", "\r": "r", "\x1b": "e"}
+_COMMANDS = words(
+    "alpha approx beta begin bar bigl bigr tau tan tanh text textrm theta tfrac times to nu nabla ne neq newline "
+    "nonumber varphi vartheta varepsilon vec frac forall rho right rm rightarrow rvert eta end ell equiv epsilon exp"
+)
+_ENDS = {
+    sign: "|".join(sorted((c[1:] for c in _COMMANDS if c[0] == letter), key=len, reverse=True))
+    for sign, letter in _CONTROLS.items()
+}
+_BROKEN = re.compile("|".join(f"{re.escape(sign)}(?:{ends})(?![a-z])" for sign, ends in _ENDS.items() if ends))
+_WIDE = re.compile("[\uff01-\uff5e]")
+
+
+def _narrow(match: re.Match[str]) -> str:
+    return chr(ord(match[0]) - 0xFEE0)
+
+
+def _mended(match: re.Match[str]) -> str:
+    return "\\" + _CONTROLS[match[0][0]] + match[0][1:]
+
+
+def _dotted(name: str, mark: str) -> str:
+    """`x_dot`, and `xdot_1` of a name with an index."""
+    stem, _, index = re.sub(r"\\var|[{}\\]", "", name).partition("_")
+    return f"{stem}{mark}_{index}" if index else f"{stem}_{mark}"
+
+
+_RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
+    (re.compile(pattern), by)
+    for pattern, by in (
+        (r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}(?:\{[lcr|]*\})?", " "),
+        (r"\\\\(?:\[[^\]]*\])?|\\newline\b|<br\s*/?>", "\n"),
+        (r"\\left\s*\\?\{|\\\{", "("),
+        (r"\\right\s*\\?\}|\\\}", ")"),
+        (r"\\left\s*\.|\\right\s*\.", ""),
+        (r"\$\$?|\\\(|\\\)|\\\[|\\\]", " "),
+        (r"&\s*(?=\\?[=<>])|(?<==)\s*&", " "),
+        (r"(?<!\\)&", ";"),
+        (r"\\&", " and "),
+        (r"```(?:math|latex)?|`", " "),
+        (r"\\ell(?![A-Za-z])|ℓ", " l "),
+        (r"\\equiv(?![A-Za-z])|\\coloneqq|\\triangleq|≡|:=|≔|≜|≝|＝", "="),
+        (r"\\(?:long)?(?:iff|implies|Rightarrow|Leftrightarrow|Longrightarrow|Longleftrightarrow|rightarrow|to)(?![A-Za-z])"
+         r"|[⇒⇔⟹⟺→⟶↔]|<=>|==?>(?!=)|->", ARROW),
+        (r"\\(?:wedge|land)(?![A-Za-z])|∧", ";"),
+        (r"\\(?:displaystyle|textstyle|nonumber|notag|hfill|limits|boxed|ensuremath|strut|mathstrut)(?![A-Za-z])", " "),
+        (r"\\(?:label|tag)\s*\{[^}]*\}", " "),
+        (r"\\(?:[dtc]?frac)\s*(\d)\s*(\d)", r"\\frac{\1}{\2}"),
+        (r"\\(?:[dtc]?frac)\s*(\d|[A-Za-z])\s*(?=\{)", r"\\frac{\1}"),
+        (r"\\(?:[dtc]?frac)\s*(\d)\s*([A-Za-z])", r"\\frac{\1}{\2}"),
+        (r"\\(?:[dtc]?frac)\s*(\{[^{}]*\})\s*(\d|[A-Za-z])(?![\w}])", r"\\frac\1{\2}"),
+        (r"\\[dtc]?frac\s+([A-Za-z\d])\s*([A-Za-z\d])(?!\w)", r"\\frac{\1}{\2}"),
+        (r"\\[dtc]frac(?![A-Za-z])", r"\\frac"),
+        (r"\\(?:mathrm|text|rm|operatorname)\s*\{\s*d\s*\}\s*|\\dd(?![A-Za-z])\s*|(?<![A-Za-z])ⅆ", "d"),
+        (rf"\\frac\s*\{{\s*d\s*\^\s*\{{?\s*2\s*\}}?\s*({_NAME})\s*\}}\s*\{{\s*d\s*t\s*\^\s*\{{?\s*2\s*\}}?\s*\}}",
+         lambda m: f" ddot({m[1]}) "),
+        (rf"\\frac\s*\{{\s*d\s*({_NAME})\s*\}}\s*\{{\s*d\s*t\s*\}}", lambda m: f" dot({m[1]}) "),
+        (rf"\\(dd?ot)\s*\{{\s*\{{?\s*({_NAME})\s*\}}?\s*\}}((?:_\{{?\w+\}}?)?)", lambda m: f" {m[1]}({m[2]}{m[3]}) "),
+        (rf"\\(dd?ot)\s*({_NAME})", lambda m: f" {m[1]}({m[2]}) "),
+        (r"Derivative\(\s*(\w+)(?:\(t\))?\s*,\s*t\s*\)", lambda m: f" {_dotted(m[1], 'dot')} "),
+        (r"Derivative\(\s*(\w+)(?:\(t\))?\s*,\s*(?:\(t\s*,\s*2\)|t\s*,\s*[t2])\s*\)",
+         lambda m: f" {_dotted(m[1], 'ddot')} "),
+        (rf"\b(dd?ot)\(\s*({_NAME})\s*\)", lambda m: f" {_dotted(m[2], m[1])} "),
+        (r"\bd\s*/\s*(?:dt|\(dt\))\s*(?=[(\[{])", "Ddt"),
+        (r"\\frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\}\s*(?:\\left)?\s*(?=[(\[{])", "Ddt"),
+        (r"\{,\}", "."),
+        (r"\\(?:text|mathrm|textrm|mbox|textit|textbf)\s*\{\s*([^{}]*)\}", r" \1 "),
+        (r"\\pm(?![A-Za-z])", "±"),
+        (r"\\mp(?![A-Za-z])", "∓"),
+        (r"\\(?:quad|qquad)(?![A-Za-z])|\\[,;:! ]", " "),
+        (r"\\circ(?![A-Za-z])", "°"),
+        (r"\\mathbb\s*\{?R\}?|ℝ", "R"),
+        (r"\\in(?![A-Za-z])", "∈"),
+        (r"[“”„\"«»]", " "),
+        (r"\bsen\b(?=\s*[(\\A-Za-zα-ω])", "sin"),
+        (r"\b(?:tg)\b(?=\s*[(\\A-Za-zα-ω])", "tan"),
+        (r"\b(?:Sin|SIN)\b", "sin"),
+        (r"\b(?:Cos|COS)\b", "cos"),
+        (r"\b(?:Tan|TAN)\b", "tan"),
+        (r"\b(?:Sqrt|SQRT)\b", "sqrt"),
+        (r"\b(?:Exp|EXP)\b", "exp"),
+        (r"\b(?:np|numpy|math|sp|sympy)\.(?=[a-z])", ""),
+    )
+)  # fmt: skip
+
+
+_JOINED = (
+    (re.compile(r"(?<![\w\\])d\s*\\(?:var)?(?=[A-Za-z])"), " d"),
+    (re.compile(rf"(?<![\w\\])d\s+(?!(?:{'|'.join(sorted(ELEMENTARY))})\b)(?=[A-Za-zα-ωΑ-Ω])"), "d"),
+)
+_WHOLE = re.compile(r"Ddt|(?<![\w\\])d(?=\()")
+_OTHER_FORM = re.compile(r"(?<![A-Za-z])d[A-Za-zα-ωΑ-Ω]")
+
+
+def with_differentials(script: Script) -> Script:
+    """``d theta`` joined to ``dtheta``, and ``d/dt (...)`` and ``d(...)`` as derivatives by time."""
+    for pattern, by in _JOINED:
+        script = script.replaced(pattern, by)
+    place = 0
+    while (match := _WHOLE.search(script.text, place)) is not None:
+        start = place = match.end()
+        while script.text[start : start + 1] == " ":
+            start += 1
+        end = _closed(script.text, start)
+        mixed = match[0] == "d" and _OTHER_FORM.search(script.text)
+        if end is None or mixed:
+            continue
+        inside = script.text[start + 1 : end]
+        script = script.spliced(match.start(), end + 1, f"diff({inside}, t)")
+    return script
+
+
+def _closed(text: str, start: int) -> int | None:
+    """Where the bracket that opens at a place is closed."""
+    depth = 0
+    for i in range(start, len(text)):
+        depth += (text[i] in "([{") - (text[i] in ")]}")
+        if depth <= 0:
+            return i if i > start else None
+    return None
+
+
+_COMMAND = re.compile(
+    rf"(?<!\\)\\(?=(?:{'|'.join(sorted(_COMMANDS, key=len, reverse=True))})(?![a-z])|[^\\\s\"/abefnrtuvxNLPU_0-9])"
+)
+
+
+def backslashes_kept(text: str) -> str:
+    """The text of a document with backslashes doubled that begin commands of LaTeX, or mean nothing in quotes."""
+    return _COMMAND.sub(r"\\\\", text)
+
+
+_ALIGNED = re.compile(r"(?<!\\)&")
+_EQUALITY = re.compile(r"\A\s*(?:sp\.|sympy\.)?(?:Eq|Equality)(?=\()")
+
+
+def _as_equation(script: Script) -> Script:
+    """`Eq(a, b)` is a = b."""
+    match = _EQUALITY.match(script.text)
+    end = None if match is None else _closed(script.text, match.end())
+    if match is None or end is None or script.text[end + 1 :].strip():
+        return script
+    depth = 0
+    for i in range(match.end() + 1, end):
+        depth += (script.text[i] in "([{") - (script.text[i] in ")]}")
+        if script.text[i] == "," and depth == 0:
+            left, right = script.cut(match.end() + 1, i), script.cut(i + 1, end)
+            return Script(f"{left.text} = {right.text}", (*left.columns[:-1], *left.columns[-1:] * 3, *right.columns))
+    return script
+
+
+def script_of(text: str) -> Script:
+    """A text in plain signs; what the grammar does not know stays as it is, and is refused there."""
+    script = Script.of(text).replaced(_BROKEN, _mended).replaced(_WIDE, _narrow)
+    if script.text.isascii() and not _ODD.search(script.text):
+        return script
+    script = _as_equation(script)
+    if "\\begin" in script.text:
+        script = script.replaced(_ALIGNED, " ")
+    for pattern, by in _RULES:
+        script = script.replaced(pattern, by)
+    return script
+
+
+#: A plain text without any of these needs no rule.
+_ODD = re.compile(
+    r"Derivative|Eq\(|Equality|[\\$&`\"{>]|:=|\bdd?ot\(|\bd/|np\.|math\.|sympy\.|sp\.|numpy\.|<br"
+    r"|\b(?:sen|tg|Sin|Cos|Tan|Sqrt|Exp|SIN|COS|TAN|SQRT|EXP)\b"
+)

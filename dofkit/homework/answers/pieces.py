@@ -1,0 +1,192 @@
+"""Several equations in one field: where one ends and the next begins, and what beside them is no equation."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dofkit.base.errors import TextError
+from dofkit.expressions.text import Names, parse_relations
+from dofkit.expressions.text.characters import GREEK
+from dofkit.homework.answers.notation import ARROW, script_of, with_differentials
+from dofkit.homework.answers.prose import plain, words
+from dofkit.homework.answers.script import Script
+from dofkit.homework.answers.words import one_text
+from dofkit.homework.judgement import DoubtError
+
+#: Equations in one answer.
+MOST_PIECES = 40
+#: The number of an equation behind it.
+_NUMBER_AFTER = re.compile(r"(?<=\S)\s+\((?:\d{1,2}|[IVX]{1,4}|\*)\)\s*\Z")
+_RELATION = re.compile(r"[=<>≤≥]")
+_ENUMERATED = re.compile(
+    r"(?:(?<=\s)|\A)"
+    r"(?:\((?:\d{1,2}|i{1,3}|iv|v|[a-d])\)|(?:\d{1,2}|i{1,3}|iv|[a-d])\)|\d{1,2}\.(?=\s))"
+    r"\s*(?=[^\s)=+*/^,;])"
+)
+_AND = re.compile(
+    r"\s(?:and|und|et|sowie|also|with|mit|avec|con|where|wobei|wo|où|ou encore|donde|dove|onde|as well as|&)\s",
+    re.IGNORECASE,
+)
+_CONJUNCTION = re.compile(r"\s(?:y|e)\s")
+_DECIMAL = re.compile(r"(?<=\d),(?=\d)")
+_WORDS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
+_GROUP = re.compile(r"[(\[]([^()\[\]=<>+*/^\d]+)[)\]]\s*\Z|[(\[]([^()\[\]=<>+*/^\d]+)[)\]](?=\s*[;,\n])")
+_INTRODUCED = re.compile(
+    r"\A\s*(?:[^\W\d_]+['’]?\s+){0,5}"
+    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have)"
+    r"(?:\s+that)?\s*:?\s+(?=\S)", re.IGNORECASE,
+)  # fmt: skip
+_TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
+_REMARKED = words(
+    "constant constante const konstante konst costante cte arbitrary beliebig arbitraire real reell reel reale any "
+    "some positive angle radius length hence therefore so thus daher also donc luego quindi qed given fixed fest fester"
+)
+_ABOUT_CONSTANT = re.compile(
+    r"\s*(?:with|mit|where|wobei|avec|con|où|donde|dove)?\s*[^\W\d_][\w]{0,8}\s*"
+    r"(?:(?:∈|\bin\b|is|ist|est|es|è|:)\s*(?:R|ℝ|IR|reals?|an?\b|eine?\b|une?\b|una?\b)?[^=<>]{0,40}"
+    r"|=\s*(?:const|konst|cte|cst|cost)[^\W\d_]*\.?)\s*", re.IGNORECASE,
+)  # fmt: skip
+#: A letter that is the Spanish or the Italian word for "and", between what may be two equations.
+_BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
+_CHAINED = re.compile(r"(?<![<>=!])=(?!=)")
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """``scripts``: the equations; ``derived``: of these the first ones only lead to the last, by arrows."""
+
+    scripts: tuple[Script, ...]
+    derived: bool = False
+
+
+def pieces_of(answer: object, names: Names) -> Pieces:
+    """The equations of an answer, a text or a list. Raises TextError where there is none."""
+    texts = [one_text(part) for part in answer] if isinstance(answer, (list, tuple)) else [one_text(answer)]
+    found: list[Script] = []
+    derived = False
+    for text in texts:
+        script = script_of(text)
+        if "d" not in names.coordinates and "d" not in names.parameters:
+            script = with_differentials(script)
+        derived = derived or ARROW in script.text
+        found += [p for part in _split(script, names) if (p := _cleaned(part, names)) is not None]
+    if not found:
+        raise TextError("there is no equation", 1, "write an equation such as x^2 + y^2 = l^2")
+    if len(found) > MOST_PIECES:
+        raise TextError(f"there are {len(found)} equations", found[MOST_PIECES].columns[0], "give fewer")
+    return Pieces(tuple(found), derived and len(found) > 1)
+
+
+def _split(script: Script, names: Names) -> Iterator[Script]:
+    """The parts between separators outside of brackets."""
+    lines = _joined(script)
+    for line in lines:
+        cuts = sorted({*_at_signs(line.text), *_at_words(line.text, names)})
+        place = 0
+        for start, end in [*cuts, (len(line.text), len(line.text))]:
+            if start >= place:
+                yield line.cut(place, start)
+                place = end
+
+
+def _joined(script: Script) -> list[Script]:
+    """Lines, a line that begins with an operator or follows one joined to the one before."""
+    text, cuts = script.text, []
+    for match in re.finditer(r"[\r\n]+", text):
+        before, after = text[: match.start()].rstrip(), text[match.end() :].lstrip()
+        line = after.splitlines()[0] if after else ""
+        bulleted = after[:1] in ("-", "+", "*", "•") and _RELATION.search(line) and _RELATION.search(_last_line(before))
+        goes_on = (after[:1] in tuple("+-*/=<>)^") and not bulleted) or before[-1:] in tuple("+-*/=(<>^,")
+        if not goes_on or before[-1:] == ",":
+            cuts.append(match.span())
+    found, place = [], 0
+    for start, end in [*cuts, (len(text), len(text))]:
+        found.append(script.cut(place, start).replaced(re.compile(r"[\r\n]"), " "))
+        place = end
+    bullet = re.compile(r"\A\s*[-*•]\s+")
+    if len(found) > 1 and all(bullet.match(one.text) for one in found if one.text.strip()):
+        found = [one.replaced(bullet, "") for one in found]
+    return found
+
+
+def _last_line(text: str) -> str:
+    return text.splitlines()[-1] if text else ""
+
+
+def _at_signs(text: str) -> Iterator[tuple[int, int]]:
+    """Semicolons, arrows, numbers of a list, and commas outside of brackets that are no decimal signs."""
+    depth = 0
+    for i, char in enumerate(text):
+        depth += (char in "([{") - (char in ")]}")
+        if char in ";" + ARROW or (char == "," and depth <= 0 and not _DECIMAL.match(text, i)):
+            yield i, i + 1
+    yield from (m.span() for m in _ENUMERATED.finditer(text))
+
+
+def _at_words(text: str, names: Names) -> Iterator[tuple[int, int]]:
+    """Words between two equations."""
+    for match in _AND.finditer(text):
+        yield match.span()
+    for match in _CONJUNCTION.finditer(text):
+        word = match[0].strip()
+        if word not in names.coordinates and word not in names.parameters and word != "e":
+            yield match.span()
+
+
+def _cleaned(script: Script, names: Names) -> Script | None:
+    """An equation without what stands around it; None where there is only a remark."""
+    script = script.stripped()
+    while (group := _GROUP.search(script.text)) is not None and _is_remark(group[1] or group[2] or "", names, 3):
+        script = script.replaced(re.compile(re.escape(group[0])), " ").stripped()
+    script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|\s*\.\s*\Z|!\s*\Z"), "").stripped()
+    if _RELATION.search(script.text):
+        script = script.replaced(_NUMBER_AFTER, "").stripped()
+    for lead in (_TITLED, _INTRODUCED):
+        match = lead.match(script.text)
+        if match is not None and _is_lead(match[0], names):
+            script = script.cut(match.end()).stripped()
+    text = script.text
+    if not text or (_ABOUT_CONSTANT.fullmatch(text) and not _of_coordinates(text, names)) or _is_remark(text, names):
+        return None
+    if len(_CHAINED.findall(text)) > 1 and _BESIDE.search(text):
+        raise DoubtError("a letter may be a factor or the word for `and`.", script.columns[0], "write `;`")
+    script = script.replaced(_DECIMAL, ".")
+    if script.text != text and len(_CHAINED.findall(text)) > 1:
+        raise DoubtError("a comma may be a decimal sign or stand between equations.", script.columns[0], None)
+    return script
+
+
+def _known(word: str, names: Names) -> bool:
+    return names.lookup.meaning(word) is not None
+
+
+def _is_lead(text: str, names: Names) -> bool:
+    """Do words stand here, none of which is a name? A name with a number, such as g1, titles an equation too."""
+    found = re.findall(r"\w+", text)
+    least = 0 if ":" in text else 1
+    return not any(len(w) > least and _known(w, names) for w in found) and (len(found) > 1 or ":" in text)
+
+
+def _of_coordinates(text: str, names: Names) -> bool:
+    """Does the left side hold coordinates, as `x y = const`?"""
+    try:
+        found = parse_relations(re.split(r"[=∈:]", text)[0], names)
+    except TextError:
+        return any(w in names.coordinates for w in re.findall(r"\w+", text))
+    return any(s.args[0] != "parameter" for c in found for s in c.left.symbols)
+
+
+def _is_remark(text: str, names: Names, least: int = 5) -> bool:
+    """Words of which none is a name, more than one or one that is known to say nothing."""
+    if re.search(r"[=<>≤≥+*/^\\\d±|·⋅×−√½⅓¼¾²³¹⁰-₉]", text):
+        return False
+    found = [plain(w) for w in _WORDS.findall(text)]
+    unknown = [w for w in found if not _known(w, names)]
+    if not unknown or any(len(w) > 1 and _known(w, names) for w in found):
+        return False
+    long = [w for w in unknown if len(w) > 3]
+    if any(w in _REMARKED for w in unknown) or len(unknown) > 2 or (len(unknown) > 1 and bool(long)):
+        return True
+    return len(unknown) == 1 and len(unknown[0]) >= least and unknown[0] not in GREEK.values()

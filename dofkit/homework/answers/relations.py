@@ -1,0 +1,294 @@
+"""The relations of an answer, in every way in which it can be read, with the names that it brings with it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+from dofkit.base.errors import TextError
+from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations, spelled
+from dofkit.expressions.text.characters import GREEK
+from dofkit.expressions.text.names import unmarked
+from dofkit.expressions.text.words import read_word
+from dofkit.expressions.tree import E, Expr, coordinate, parameter
+from dofkit.homework.answers.pieces import Pieces, pieces_of
+from dofkit.homework.answers.script import Script
+from dofkit.homework.judgement import DoubtError
+from dofkit.scene.added_equations import Read, as_text
+
+#: Names of its own in an answer, and ways to read it.
+MOST_OWN, MOST_READINGS = 8, 8
+_OWN = re.compile(
+    r"(?!d\b|dt\b)[A-Za-zα-ωΑ-Ω](?:[A-Za-z]?\d{0,2}|_\w{1,5})|const\w*|konst\w*|cte|cst|cost|kst|lam\w{0,3}|mult\w{0,8}"
+)
+_CARTESIAN = frozenset("xyzXYZ")
+_LONG = frozenset({*GREEK.values(), "varphi", "vartheta"})
+_RATE = re.compile(r"(.+?)_?d?dot(_\w+)?")
+_RELATION = re.compile(r"[=<>≤≥]")
+_NAME = r"\\?[A-Za-zα-ωΑ-Ω][A-Za-z0-9α-ωΑ-Ω_{}]{0,7}"
+_FUNCTION = re.compile(
+    rf"\A\s*(?:\\?[A-Za-zα-ωΑ-Ω]\w{{0,3}}\s*\(\s*{_NAME}(?:\s*,\s*{_NAME})+\s*\)"
+    rf"|(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{{?\w{{0,2}}\}}?)?(?:\s*\(\s*{_NAME}\s*\))?)\s*=(?!=)\s*"
+)
+#: Words that are one name, never a product.
+_WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
+_CALLED = re.compile(r"\A\s*\\?([A-Za-zα-ωΑ-Ω]\w*)\s*\(\s*\\?(?:var)?([A-Za-zα-ωΑ-Ω]\w*)\s*\)\s*=(?!=)")
+_POWER_OF_E = re.compile(r"(?<![\w\\])([A-Za-zα-ωΑ-Ω])e(?=\s*(?:\^|\*\*))")
+_CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGNORECASE)
+_SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓")
+
+
+class AnswerReading(NamedTuple):
+    """One way to read an answer.
+
+    ``bare``: which relations were written without a sign, as `x y`; ``own``: names that nobody declared;
+    ``moving``: those of them whose derivatives occur; ``meant``: spelling -> the declared name it was read as;
+    ``derived``: arrows stand between the equations; ``places``: the columns of the names of its own.
+    """
+
+    relations: tuple[Comparison, ...]
+    bare: tuple[bool, ...]
+    own: tuple[str, ...] = ()
+    moving: frozenset[str] = frozenset()
+    meant: Mapping[str, str] = {}
+    derived: bool = False
+    places: Mapping[str, int] = {}
+
+    @property
+    def shown(self) -> str:
+        """In the grammar of scenes."""
+        return "; ".join(as_text(c) for c in self.relations)
+
+    @property
+    def claim(self) -> AnswerReading:
+        """The last relation alone, to which arrows lead."""
+        return self._replace(relations=self.relations[-1:], bare=self.bare[-1:], derived=False)
+
+    @property
+    def on_coordinates(self) -> bool:
+        """Does it say something of the scene's coordinates?"""
+        symbols = {s for c in self.relations for e in (c.left, c.right) for s in e.symbols}
+        return any(s.args[0] != "parameter" and s.args[-1] not in self.own for s in symbols)
+
+    def read(self, constants: frozenset[str] = frozenset()) -> Read:
+        """As equations for a scene."""
+        symbols = {s for c in self.relations for side in (c.left, c.right) for s in side.symbols}
+        moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in symbols)
+        return Read(tuple(as_text(c) for c in self.relations), constants, self.shown, moving)
+
+
+@dataclass(frozen=True)
+class AnswerNames:
+    """The declared names, the answer's own, and spellings of declared ones.
+
+    ``free``: may an answer bring names of its own? ``choice``: which reading was taken of each kind of doubt, the same
+    in the whole answer; ``signs_apart``: `±` makes two readings, not one product.
+    """
+
+    names: Names
+    own: tuple[str, ...] = ()
+    moving: frozenset[str] = frozenset()
+    meant: Mapping[str, str] = field(default_factory=dict)
+    places: Mapping[str, int] = field(default_factory=dict)
+    choice: Mapping[str, int] = field(default_factory=dict)
+    free: bool = True
+    accelerations: bool = False
+    signs_apart: bool = False
+    euler: bool = False
+
+    def known(self) -> Names:
+        """All of them as names of a text; `e` is Euler's number unless it is declared."""
+        base = self.names
+        more: dict[str, Expr] = {"e": E} if self.euler else {}
+        for word, name in self.meant.items():
+            more[word] = coordinate(name) if name in base.coordinates else base.parameters[name]
+        more.update({name: parameter(name) for name in self.own if name not in self.moving})
+        return Names(
+            base.coordinates | self.moving,
+            {**base.parameters, **more},
+            base.functions,
+            base.arguments,
+            base.allow_time,
+            base.allow_velocities,
+            self.accelerations,
+        )
+
+    def declares(self, word: str) -> bool:
+        """Does a word mean something already?"""
+        return (self.euler and word == "e") or word in self.own or self.names.lookup.meaning(word) is not None
+
+    def with_word(self, word: str) -> AnswerNames | None:
+        """The same with what an unknown word stands for; None where it can stand for nothing."""
+        if word == "e" and not self.euler:
+            return replace(self, euler=True)
+        rate = _RATE.fullmatch(word)
+        stem = rate[1] + (rate[2] or "") if rate else word[1:] if word[0] == "d" and len(word) > 1 else ""
+        if stem and stem in self.own and stem not in self.moving:
+            return replace(self, moving=self.moving | {stem})
+        twin = self._twin(word) or (stem and self._twin(stem))
+        if twin and word not in self.meant:
+            return replace(self, meant={**self.meant, (word if self._twin(word) else stem): twin})
+        if not self.free or len(self.own) == MOST_OWN:
+            return None
+        letter = self._letter(word)
+        if letter is not None:
+            return letter
+        if stem and rate is not None and self._may_be_own(stem):
+            return replace(self, own=(*self.own, stem), moving=self.moving | {stem})
+        if stem and self._may_be_own(stem) and spelled(stem) in _LONG:
+            return replace(self, own=(*self.own, stem), moving=self.moving | {stem})
+        return replace(self, own=(*self.own, word)) if self._may_be_own(word) else None
+
+    def _twin(self, word: str) -> str | None:
+        """The one declared name that differs by capitals and `_` only."""
+        declared = (*self.names.coordinates, *self.names.parameters)
+        found = {name for name in declared if unmarked(name) == unmarked(word)}
+        return found.pop() if len(found) == 1 else None
+
+    def _may_be_own(self, word: str) -> bool:
+        """Is it a short name? ``x_A`` is none where x is declared, as z is none: they are meant for coordinates."""
+        if word in _CARTESIAN:
+            return False
+        stem, _, index = word.partition("_")
+        declared = stem in self.names.coordinates or stem in self.names.parameters
+        fits = bool(_OWN.fullmatch(word)) or spelled(stem).rstrip("0123456789") in _LONG
+        return fits and not (declared and index and not index.isdigit())
+
+    def _letter(self, word: str) -> AnswerNames | None:
+        """With the one letter of a word that is no name, where all the others are: `Cx` is C x, `Ce^x` C e^x."""
+        if len(word) < 2 or spelled(word) in _LONG or "_" in word or _WHOLE.match(word):
+            return None
+        found = []
+        for base in (self, replace(self, euler="e" in word or self.euler)):
+            for letter in dict.fromkeys(["", *(c for c in word if c.isalpha() and not base.declares(c))]):
+                grown = replace(base, own=(*base.own, letter)) if letter else base
+                try:
+                    read_word(word, grown.known().lookup, 1, False)
+                except TextError:
+                    continue
+                found.append(grown)
+            if found:
+                break
+        return found[0] if len(found) == 1 else None
+
+
+def readings_of(
+    answer: object, vocabulary: AnswerNames, lead: Callable[[Script], Script] | None = None
+) -> list[AnswerReading]:
+    """Every way to read an answer; ``lead`` takes away what stands before each of its parts.
+
+    Raises TextError, its column counted within the text that was written.
+    """
+    pieces = pieces_of(answer, vocabulary.names)
+    if lead is not None:
+        pieces = replace(pieces, scripts=tuple(lead(one) for one in pieces.scripts))
+    return list(_readings(pieces, vocabulary))
+
+
+def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading]:
+    ways: list[tuple[tuple[Comparison, ...], tuple[bool, ...], AnswerNames]] = [((), (), vocabulary)]
+    for n, script in enumerate(pieces.scripts):
+        more = []
+        script = _plainer(script, vocabulary)
+        if pieces.derived and n + 1 < len(pieces.scripts) and not _readable(script, vocabulary):
+            continue
+        for relations, bare, own in ways:
+            for found, grown in _ways(script, own):
+                alone = len(found) == 1 and not _RELATION.search(script.text)
+                more.append(((*relations, *found), (*bare, *[alone] * len(found)), grown))
+        ways = more
+        if len(ways) > MOST_READINGS:
+            raise DoubtError("it can be read in many ways.", script.columns[0], "write parentheses")
+    for relations, bare, own in ways:
+        yield AnswerReading(relations, bare, own.own, own.moving, own.meant, pieces.derived, own.places)
+
+
+def _readable(script: Script, vocabulary: AnswerNames) -> bool:
+    try:
+        return bool(list(_ways(script, vocabulary)))
+    except TextError:
+        return False
+
+
+def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
+    """The relations of one piece, in every way, and the names known then."""
+    if vocabulary.signs_apart and _SIGNS.search(script.text):
+        for up, down in ("+-", "-+"):
+            yield from _ways(script.replaced(_PLUS, up).replaced(_MINUS, down), vocabulary)
+        return
+    script = _with_both_signs(script)
+    while True:
+        try:
+            yield parse_relations(script.text, vocabulary.known()), vocabulary
+            return
+        except AmbiguousError as error:
+            if not error.readings:
+                raise script.moved(error) from None
+            start, end = error.span
+            kind = error.message.rsplit("`", 1)[-1]
+            for n, way in enumerate(error.readings):
+                if vocabulary.choice.get(kind, n) != n:
+                    continue
+                way = f" {way} "
+                chosen = replace(vocabulary, choice={**vocabulary.choice, kind: n})
+                yield from _ways(script.spliced(start - 1, end - 1, way), chosen)
+            return
+        except UnknownNameError as error:
+            grown = vocabulary.with_word(error.name)
+            if grown is None or grown == vocabulary:
+                moved = script.moved(error)
+                raise UnknownNameError(moved.message, moved.column, moved.hint) from None
+            column = script.moved(error).column or 1
+            places = {**dict.fromkeys(set(grown.own) - set(vocabulary.own), column), **vocabulary.places}
+            vocabulary = replace(grown, places=places)
+        except TextError as error:
+            raise script.moved(error) from None
+
+
+def _plainer(script: Script, vocabulary: AnswerNames) -> Script:
+    """Without a leading name; `r(phi) =` is r, `Ce^x` is C e^x."""
+    script = _without_lead(script, vocabulary)
+    match = _CALLED.match(script.text)
+    if match is not None and {spelled(match[1]), spelled(match[2])} <= vocabulary.names.coordinates:
+        script = script.replaced(_CALLED, lambda m: f"{m[1]} =")
+    if vocabulary.names.lookup.meaning("e") is not None:
+        return script
+    return script.replaced(
+        _POWER_OF_E, lambda m: m[0] if vocabulary.names.lookup.meaning(m[0]) is not None else f"{m[1]} e"
+    )
+
+
+def _without_lead(script: Script, vocabulary: AnswerNames) -> Script:
+    """Without `f(x, y) =` before an expression or an equation; `const.` is the name of a constant."""
+    script = script.replaced(_CONSTANTS, "const")
+    lead = _FUNCTION.match(script.text)
+    if lead is None or lead.end() == len(script.text):
+        return script
+    if "(" not in lead[0] and not re.match(r"\s*[fgh]", lead[0]) and "=" not in script.text[lead.end() :]:
+        return script
+    name = re.sub(r"[\\{}]", "", lead[0].split("=")[0].split("(")[0]).strip()
+    listed = "," in lead[0]
+    if listed and name in vocabulary.names.parameters:
+        return script.cut(lead.end())
+    if vocabulary.names.lookup.meaning(name) is not None or re.search(
+        rf"\b{re.escape(name)}\b", script.text[lead.end() :]
+    ):
+        return script
+    return script.cut(lead.end())
+
+
+def _with_both_signs(script: Script) -> Script:
+    """`y = ± sqrt(a)` is (y - sqrt(a)) (y + sqrt(a)) = 0."""
+    if not _SIGNS.search(script.text):
+        return script
+    sides = script.text.split("=")
+    if len(sides) != 2:
+        return script
+    product = "*".join(f"(({one}) - ({other}))" for one, other in (_signed(sides, "+-"), _signed(sides, "-+")))
+    return Script(f"{product} = 0", (script.columns[0],) * (len(product) + 5))
+
+
+def _signed(sides: list[str], signs: str) -> list[str]:
+    return [side.replace("±", signs[0]).replace("∓", signs[1]) for side in sides]

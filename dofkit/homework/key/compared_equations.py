@@ -1,0 +1,151 @@
+"""An answer's equations beside the constraints of the scene: the same, one branch, too weak, another, ..."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import NamedTuple, TypeVar
+
+from dofkit.base.errors import SceneError, TextError
+from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
+from dofkit.expressions.text import UnknownNameError
+from dofkit.homework.answers.relations import AnswerReading
+from dofkit.homework.answers.rounding import exact_ways
+from dofkit.homework.judgement import HALF, NOTHING, Given, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_names import renamed, without_own
+from dofkit.homework.key.second_derivatives import held_accelerations
+from dofkit.homework.sentences.said import say
+from dofkit.scene.added_equations import Read, with_equations
+from dofkit.scene.lowering import lower
+from dofkit.system import System
+
+_FEEDBACK = {
+    Sameness.SAME: "",
+    Sameness.IRREGULAR: "It has the right solutions, but its gradient vanishes on them, as that of a square does.",
+    Sameness.BRANCH: "It holds on one branch only: taking a root has lost the others.",
+    Sameness.DIFFERENTIATED: "This is the differentiated constraint: it leaves the constant open, so it says less.",
+    Sameness.INTEGRATED: "It is the constraint in integrated form.",
+    Sameness.WITHOUT_CONSTANT: "It is the integrated form without its constant, which the initial state sets.",
+    Sameness.WEAKER: "It allows more than the constraint does: something is missing.",
+    Sameness.STRONGER: "It allows less than the constraint does: it says more than was asked for.",
+    Sameness.DIFFERENT: "It is another constraint.",
+    Sameness.EMPTY: "Nothing satisfies it together with the other constraints.",
+}
+#: What an answer that is not quite the constraint is worth.
+_HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATED, Sameness.WITHOUT_CONSTANT})
+_RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
+#: What the equations of an answer are called in the scene that holds them.
+ANSWER = "the answer"
+#: The code of an answer whose numbers are rounded.
+ROUNDED = "ROUNDED"
+Found = TypeVar("Found")
+
+
+class PosedAnswer(NamedTuple):
+    """A scene's mathematics with an answer in it, and the numbers of the answer's constraints."""
+
+    system: System
+    own: range
+
+
+def with_answer(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
+    """What is found of the scene with the answer. Raises TextError where the scene cannot hold it."""
+    try:
+        system = lower(with_equations(key.scene, read, ANSWER))
+        return question(PosedAnswer(system, range(len(key.scene.constraints), len(system.constraints))))
+    except SceneError as error:
+        fault = error.faults[0]
+        raise TextError(fault.message, fault.column or 1, fault.hint) from None
+
+
+@dataclass(frozen=True)
+class EquationComparison:
+    """The constraints of these ``names`` in a scene, and what an answer is worth beside them."""
+
+    key: Key
+    names: tuple[str, ...]
+
+    def judgement(self, way: AnswerReading, answer: Given) -> Judgement:
+        """What one reading of an answer is worth. Raises TextError for names that nobody declared."""
+        found = self._found(way)
+        if found.status == "wrong" and found.share == NOTHING:
+            for exact in exact_ways(way):
+                if self._found(exact).status == "right":
+                    told = "Its numbers are rounded: write them exactly, as roots and fractions."
+                    return partly(HALF, way.shown, told, ROUNDED)
+        if way.derived and found.status != "right":
+            last = self._found(way.claim)
+            if last.status == "right":
+                return last
+            return needs_review(way.shown, "whether the last of the equations alone is meant.")
+        return found
+
+    def _found(self, way: AnswerReading) -> Judgement:
+        if not way.own:
+            return self._declared(way)
+        if not way.on_coordinates:
+            raise undeclared(way, self.key)
+        forms = any(self.key.constraints[name].form == "pfaffian" for name in self.names)
+        if forms and not way.moving and not way.read().moving:
+            return self._told(way.read(frozenset(way.own)), way.shown)
+        gone = without_own(way, self.key.scene)
+        if gone is not None:
+            return self._declared(gone, way.shown)
+        for other, names in renamed(way, self.key.scene, self.key.constants):
+            found = self._declared(other)
+            if found.status == "right":
+                told = ", ".join(f"{own} = {name}" for own, name in names.items())
+                return right(other.shown, say("Read {names}: so the problem calls it.", names=told))
+        raise undeclared(way, self.key)
+
+    def _declared(self, way: AnswerReading, shown: str = "") -> Judgement:
+        if not way.on_coordinates and any(e.symbols for c in way.relations for e in (c.left, c.right)):
+            raise TextError("it says nothing of the coordinates", 1, "write an equation between the coordinates")
+        if any(s.args[0] == "acceleration" for c in way.relations for e in (c.left, c.right) for s in e.symbols):
+            return self._accelerated(way)
+        return self._told(way.read(), shown or way.shown)
+
+    def _accelerated(self, way: AnswerReading) -> Judgement:
+        """Equations of accelerations: a constraint that was differentiated twice is partly right."""
+        held = held_accelerations(way, self.key, self.names)
+        if held:
+            told = "This is the constraint, differentiated twice: it leaves two constants open, so it says less."
+            return partly(HALF, way.shown, told, Sameness.DIFFERENTIATED.value)
+        if held is None:
+            return needs_review(way.shown, "it holds accelerations.")
+        return wrong(way.shown, "It holds accelerations, which no constraint of this kind does.", "DIFFERENT")
+
+    def _told(self, read: Read, shown: str) -> Judgement:
+        found = with_answer(
+            self.key,
+            read,
+            lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.own, read.constants),
+        )
+        if found.sameness is Sameness.UNDECIDED:
+            return needs_review(shown, "whether it is the same constraint was not decided in the time there is.")
+        told, code = _FEEDBACK[found.sameness], found.sameness.value
+        if found.sameness in _RIGHT:
+            return right(shown, told)
+        if found.sameness in _HALVES:
+            return partly(HALF, shown, told, code)
+        return self._in_part(found, shown, told, code)
+
+    def _in_part(self, found: Compared, shown: str, told: str, code: str) -> Judgement:
+        """Of several constraints, points in proportion to those that follow."""
+        share = Fraction(sum(found.met), len(found.met)) if len(self.names) > 1 and found.met else NOTHING
+        if not 0 < share < 1:
+            return wrong(shown, told, code)
+        missing = [n for n, met in zip(self.names, found.met, strict=True) if not met]
+        met = len(self.names) - len(missing)
+        count = say("{number} of {all} constraints follow from it.", number=met, all=len(self.names))
+        return partly(share, shown, told, code).saying(count)
+
+
+def undeclared(way: AnswerReading, key: Key) -> UnknownNameError:
+    """That an answer brings a name that stands for nothing."""
+    name = way.own[0]
+    known: Sequence[str] = [*sorted(key.names.coordinates), *key.names.parameters]
+    told = f"`{name}` is not declared"
+    return UnknownNameError(told, way.places.get(name, 1), f"declared are: {', '.join(known[:12])}")

@@ -1,0 +1,95 @@
+"""An answer beside the finite relation that a differential constraint integrates to, its constant anywhere or left out.
+
+`y = C x` is an integral of y dx - x dy = 0 because on every curve of this family the form vanishes, and because the
+family has a curve through every point. So the constant is a coordinate of its own that does not change.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from dofkit.classification.dependence.equivalence import Leaves, is_integral, leaves
+from dofkit.expressions.text import Comparison
+from dofkit.expressions.tree import parameter
+from dofkit.homework.answers.relations import AnswerReading
+from dofkit.homework.judgement import Judgement, needs_review, right, wrong
+from dofkit.homework.key.compared_equations import ANSWER, with_answer
+from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_names import without_own
+from dofkit.scene.added_equations import Read, with_equations
+from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.lowering import lower
+from dofkit.scene.scene import Scene
+
+#: What the constant of a bare expression is called, as in `x y` for x y = C.
+_FRESH = ("C", "c", "K", "C_1", "const")
+_LEFT_OUT = "The constant of integration was left out: `... = C`."
+
+
+def integral_judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
+    """What one reading of an answer is worth as the integral of the constraint of this name."""
+    way = way.claim if way.derived else way
+    if len(way.relations) > 1 and way.own:
+        return _in_parameters(way, key, name)
+    return _judgement(way, key, name)
+
+
+def _in_parameters(way: AnswerReading, key: Key, name: str) -> Judgement:
+    """`x = r cos(a), y = r sin(a)`: one of its names is the parameter of a curve, the others are constants."""
+    for parameter_name in way.own:
+        gone = without_own(way._replace(own=(parameter_name,)), key.scene)
+        if gone is None:
+            continue
+        own = tuple(n for n in way.own if n != parameter_name)
+        found = _judgement(gone._replace(own=own), key, name)
+        if found.status == "right":
+            return replace(found, read_as=way.shown)
+    return needs_review(way.shown, "whether it is an integral was not decided in the time there is.")
+
+
+def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
+    """The same of one reading, all names of its own constants."""
+    read = _with_constants(way, key)
+    if read.moving:
+        told = "This still holds velocities: the finite relation that it integrates to is asked for."
+        return wrong(read.shown, told, "NOT_INTEGRATED")
+    remark = "" if read.constants else _LEFT_OUT
+    found = with_answer(key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(name), posed.own))
+    if found:
+        return right(read.shown, remark)
+    family = _leaves(key, read, name)
+    if family is Leaves.ALL or (family is Leaves.ONE and not read.constants):
+        return right(read.shown, remark)
+    if family is Leaves.OPEN:
+        return needs_review(read.shown, "whether it is an integral was not decided in the time there is.")
+    return wrong(read.shown, "Its differential is not the constraint.", "WRONG_INTEGRAL")
+
+
+def _with_constants(way: AnswerReading, key: Key) -> Read:
+    """A bare expression is constant: `x y` is x y = C."""
+    own = set(way.own)
+    relations = []
+    for c, bare in zip(way.relations, way.bare, strict=True):
+        if bare and not own:
+            fresh = next(n for n in _FRESH if key.names.lookup.meaning(n) is None)
+            own.add(fresh)
+            c = Comparison(c.left, "=", parameter(fresh), c.column)
+        relations.append(c)
+    return way._replace(relations=tuple(relations)).read(frozenset(own))
+
+
+def _leaves(key: Key, read: Read, name: str) -> Leaves:
+    """Is the answer a family of curves or surfaces on which the constraint holds?"""
+    scene = key.scene
+    system = lower(_with_still(scene, read))
+    own = range(len(scene.constraints), len(scene.constraints) + len(read.texts))
+    return leaves(system, system.numbers_of(name), own, read.constants)
+
+
+def _with_still(scene: Scene, read: Read) -> Scene:
+    """The scene with the answer, its constants as coordinates that do not change."""
+    plain = Read(read.texts, frozenset(), read.shown, read.moving)
+    posed = with_equations(scene, plain, ANSWER)
+    still = tuple(Equation(name=f"{ANSWER} keeps {c}", text=f"d{c} = 0") for c in sorted(read.constants))
+    more = {"coordinates": (*posed.coordinates, *sorted(read.constants))}
+    return posed.model_copy(update={"constraints": (*posed.constraints, *still), **more})

@@ -1,0 +1,121 @@
+"""Coordinates that a problem's scene does not have: those that an assignment offers, or an answer defines."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from dofkit.base.errors import Fault, TextError
+from dofkit.classification.dependence.implication import follows
+from dofkit.classification.freedom.preparation import prepared
+from dofkit.expressions.text import Comparison, parse_expression, to_text, valid_name
+from dofkit.homework.answers.relations import AnswerNames, readings_of
+from dofkit.homework.answers.words import is_none, names_of
+from dofkit.homework.judgement import DoubtError, Given
+from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_names import restrictions
+from dofkit.scene.added_equations import Read, as_text, with_equations
+from dofkit.scene.lowering import lower
+
+_TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=(?=\s*\\?\w+\s*\$?(?:[,;.]|\Z))")
+_WITH = r"(?:with|where|mit|wobei|avec|où|con|donde|dove|such that|sodass|so that)\b"
+_BEGINS = re.compile(rf"[,;:]\s*{_WITH}|[,;:(]|\b{_WITH}")
+
+
+class ChosenCoordinates(NamedTuple):
+    """The names that an answer chooses, and the key of the scene that has them all."""
+
+    names: list[str]
+    key: Key
+
+
+def chosen_coordinates(answer: Given, key: Key) -> ChosenCoordinates:
+    """The coordinates that an answer names; those that it defines, or that are offered, are known too.
+
+    Raises TextError for others.
+    """
+    if is_none(answer):
+        return ChosenCoordinates([], key)
+    try:
+        return ChosenCoordinates(names_of(answer, key.coordinates, "coordinate"), key)
+    except TextError as error:
+        defines = isinstance(answer, str) and "=" in answer
+        found = _defined(str(answer), key) if defines else _offered_names(answer, key)
+        if found is None:
+            raise error from None
+        return found
+
+
+def _offered_names(answer: Given, key: Key) -> ChosenCoordinates | None:
+    if not key.also:
+        return None
+    names = names_of(answer, [*key.coordinates, *key.also], "coordinate")
+    return ChosenCoordinates(names, offered(key, [n for n in names if n in key.also]))
+
+
+def _defined(answer: str, key: Key) -> ChosenCoordinates | None:
+    """`theta, where x = l sin(theta), y = -l cos(theta)`."""
+    answer = _TITLE.sub(lambda m: " " * len(m[0]), answer)
+    if "=" not in answer:
+        return _offered_names(answer, key)
+    cut = _BEGINS.search(answer)
+    if cut is None or "=" in answer[: cut.start()]:
+        return None
+    rest = answer[cut.end() :].rstrip().removesuffix(")") if cut[0] == "(" else answer[cut.end() :]
+    way = readings_of(rest, AnswerNames(key.names))[0]
+    if way.moving or not way.own or any(bare for bare in way.bare):
+        return None
+    names = names_of(answer[: cut.start()], [*key.coordinates, *way.own], "coordinate")
+    return ChosenCoordinates(names, extended(key, way.own, way.relations))
+
+
+def extended(key: Key, own: Sequence[str], relations: Sequence[Comparison]) -> Key:
+    """The key with coordinates that an answer defines. Raises DoubtError where they may leave configurations out."""
+    left = restrictions(relations, own, key.scene)
+    if left is None or not all(_implied(key, f"{to_text(e)} = 0") for e in left):
+        raise DoubtError("its own coordinates may leave configurations out.", 1, None)
+    return key.with_own(tuple(own), tuple(as_text(c) for c in relations))
+
+
+def offered(key: Key, names: Sequence[str]) -> Key:
+    """The key with coordinates that the assignment offers.
+
+    An angle atan2(a, b) is said by a = r sin(angle), b = r cos(angle) where the scene keeps a^2 + b^2 = r^2.
+    """
+    texts = [text for name in names for text in _equations(key, name)]
+    return key.with_own(tuple(names), tuple(texts))
+
+
+def _equations(key: Key, name: str) -> list[str]:
+    e = parse_expression(key.also[name], key.names)
+    if e.op == "fn" and e.args[0] == "atan2":
+        a, b = (to_text(part) for part in e.args[1:])
+        for radius in key.constants:
+            if key.scene.parameters.get(radius) == "positive" and _implied(key, f"({a})^2 + ({b})^2 = {radius}^2"):
+                return [f"{a} = {radius}*sin({name})", f"{b} = {radius}*cos({name})"]
+    return [f"{name} = {to_text(e)}"]
+
+
+def _implied(key: Key, text: str) -> bool:
+    """Does a relation follow from the scene's constraints?"""
+    posed = with_equations(key.scene, Read((text,), frozenset(), text, False), "offered")
+    reduced, setting = prepared(lower(posed))
+    *others, own = reduced
+    given = [n for r in others for n in r.normals]
+    return all(follows(n, given, setting) is True for n in own.normals)
+
+
+def faults_of_own(key: Key) -> Iterator[Fault]:
+    """What is wrong with the coordinates that an assignment offers."""
+    for name, text in key.also.items():
+        odd = valid_name(name)
+        if odd is not None:
+            yield Fault(odd, (name,), hint="choose another name")
+        elif key.names.lookup.meaning(name) is not None:
+            yield Fault(f"`{name}` is a name of the scene already", (name,), hint="choose another name")
+        else:
+            try:
+                parse_expression(text, key.names)
+            except TextError as error:
+                yield Fault(error.message, (name,), column=error.column, hint=error.hint)

@@ -1,0 +1,164 @@
+"""Names that a student brings: angles and parameters of a curve eliminated, constants that only have another name.
+
+`x = l sin(theta), y = -l cos(theta)` says x^2 + y^2 = l^2 of x and y, and no more: every point of the circle has a
+theta. A relation that is linear in a name of the student's own is solved for it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import permutations
+
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, replace_nodes, substitute
+from dofkit.expressions.text import Comparison
+from dofkit.expressions.tree import ONE, ZERO, Expr
+from dofkit.homework.answers.relations import AnswerReading
+from dofkit.scene.scene import Scene
+
+#: So many names of a student's own may stand for declared constants.
+MOST_RENAMED = 2
+#: What constants of integration are called: these are no declared ones under another name.
+_OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|const\w*|konst\w*")
+_SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
+
+
+def restrictions(relations: Sequence[Comparison], own: Sequence[str], scene: Scene) -> list[Expr] | None:
+    """What relations that define names of an answer's own say of the coordinates; None where that is not known."""
+    sums: list[Expr] = [c.left - c.right for c in relations]
+    for name in own:
+        found = _eliminated([substitute(e, {ex.coordinate(name): ex.parameter(name)}) for e in sums],
+                            ex.parameter(name), scene)  # fmt: skip
+        if found is None:
+            return None
+        sums = found
+    return sums
+
+
+def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
+    """The reading with the names of its own eliminated, exactly; None where that is not possible."""
+    if any(c.relation != "=" for c in reading.relations):
+        return None
+    sums = [c.left - c.right for c in reading.relations]
+    if any(sum(_mentions(e, name) for e in sums) < 2 for name in reading.own):
+        return None
+    for name in reading.own:
+        symbol = ex.coordinate(name) if name in reading.moving else ex.parameter(name)
+        found = _eliminated(sums, symbol, scene)
+        if found is None:
+            return None
+        sums = found
+    own = set(reading.own)
+    if not sums or any(s.args[1] in own for e in sums for s in e.symbols if len(s.args) > 1):
+        return None
+    relations = tuple(Comparison(e, "=", ZERO, 1) for e in sums)
+    return AnswerReading(relations, (False,) * len(relations), meant=reading.meant)
+
+
+def _mentions(e: Expr, name: str) -> bool:
+    return any(len(s.args) > 1 and s.args[1] == name for s in e.symbols)
+
+
+def _eliminated(sums: Sequence[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
+    holding = [e for e in sums if symbol in e.symbols]
+    rest = [e for e in sums if symbol not in e.symbols]
+    for e in holding:
+        slope = diff(e, symbol)
+        if symbol not in slope.symbols and never_zero(slope, scene):
+            value = -substitute(e, {symbol: ZERO}) / slope
+            return rest + [substitute(other, {symbol: value}) for other in holding if other is not e]
+    along = _without_length(holding, symbol, scene)
+    if along is not None:
+        return [*rest, along]
+    return _without_angle(holding, rest, symbol, scene)
+
+
+def _without_length(holding: Sequence[Expr], symbol: Expr, scene: Scene) -> Expr | None:
+    """Two relations a = r cos(A), b = r sin(A): there is such an r where a sin(A) = b cos(A), and only there."""
+    if len(holding) != 2:
+        return None
+    slopes = [diff(e, symbol) for e in holding]
+    rest = [substitute(e, {symbol: ZERO}) for e in holding]
+    turns = [_turn(slope, scene) for slope in slopes]
+    if None in turns or {t[0] for t in turns if t} != {"sin", "cos"} or len({t[1] for t in turns if t}) != 1:
+        return None
+    if any(symbol in e.symbols for e in slopes):
+        return None
+    return rest[0] * slopes[1] - rest[1] * slopes[0]
+
+
+def _turn(e: Expr, scene: Scene) -> tuple[str, Expr] | None:
+    """A sine or cosine times what is never 0: which, and of what."""
+    factors = e.args if e.op == "mul" else (e,)
+    turning = [f for f in factors if f.op == "fn" and f.args[0] in ("sin", "cos")]
+    others = [f for f in factors if f not in turning]
+    if len(turning) != 1 or not all(never_zero(f, scene) for f in others):
+        return None
+    return turning[0].args[0], turning[0].args[1]
+
+
+def _without_angle(holding: Sequence[Expr], rest: list[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
+    """Two relations linear in the sine and cosine of an angle, solved for them: their squares add up to 1."""
+    angles = {n.args[1] for e in holding for n in ex.nodes(e) if n.op == "fn" and symbol in n.symbols}
+    if len(angles) != 1 or len(holding) < 2:
+        return None
+    (angle,) = angles
+    slope = diff(angle, symbol)
+    if slope.op != "num" or slope.is_zero:
+        return None
+    named = {ex.fn("sin", angle): _SINE, ex.fn("cos", angle): _COSINE}
+    sums = [replace_nodes(e, named) for e in holding]
+    if any(symbol in e.symbols for e in sums):
+        return None
+    for first, second in permutations(sums, 2):
+        solved = _solved(first, second, scene)
+        if solved is not None:
+            others = [substitute(e, solved) for e in sums if e is not first and e is not second]
+            return [*rest, *others, solved[_SINE] ** 2 + solved[_COSINE] ** 2 - ONE]
+    return None
+
+
+def _solved(first: Expr, second: Expr, scene: Scene) -> dict[Expr, Expr] | None:
+    """The sine and cosine from two relations that are linear in them, by Cramer's rule."""
+    rows = [[diff(e, _SINE), diff(e, _COSINE), substitute(e, {_SINE: ZERO, _COSINE: ZERO})] for e in (first, second)]
+    if any({_SINE, _COSINE} & c.symbols for row in rows for c in row):
+        return None
+    (a, b, e), (c, d, f) = rows
+    whole = a * d - b * c
+    if not never_zero(whole, scene):
+        return None
+    return {_SINE: (b * f - d * e) / whole, _COSINE: (c * e - a * f) / whole}
+
+
+def never_zero(e: Expr, scene: Scene) -> bool:
+    """Is it a number other than 0, or a product of such with parameters that are positive or not 0?"""
+    if e.op == "num":
+        return not e.is_zero
+    if e.op == "mul":
+        return all(never_zero(factor, scene) for factor in e.args)
+    if e.op == "pow":
+        return never_zero(e.args[0], scene)
+    return (
+        e.op == "sym" and e.args[0] == "parameter" and scene.parameters.get(str(e.args[1])) in ("positive", "nonzero")
+    )
+
+
+def renamed(
+    reading: AnswerReading, scene: Scene, constants: Sequence[str]
+) -> Iterator[tuple[AnswerReading, dict[str, str]]]:
+    """The reading with names of its own taken for declared ``constants`` that it does not mention, in every way."""
+    if any(_OF_INTEGRATION.fullmatch(name) for name in reading.own):
+        return
+    if not reading.own or reading.moving or len(reading.own) > MOST_RENAMED:
+        return
+    used = {str(s.args[1]) for c in reading.relations for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}
+    free = [name for name in constants if name not in used]
+    for chosen in permutations(free, len(reading.own)):
+        names = dict(zip(reading.own, chosen, strict=True))
+        table = {ex.parameter(own): ex.parameter(name) for own, name in names.items()}
+        relations = tuple(
+            Comparison(substitute(c.left, table), c.relation, substitute(c.right, table), c.column)
+            for c in reading.relations
+        )
+        yield reading._replace(relations=relations, own=()), names

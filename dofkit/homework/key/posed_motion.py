@@ -1,0 +1,115 @@
+"""An answer about equations of motion, read: a value or equations, in the scene's coordinates or the student's own.
+
+`x = l sin(theta), y = -l cos(theta)` in an answer defines theta: then the right motion is that of the scene with theta
+as one more coordinate and these relations as constraints, from which x and y are eliminated.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from dofkit.base.errors import TextError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.text import Comparison, spelled, to_text
+from dofkit.expressions.tree import Expr
+from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
+from dofkit.homework.answers.script import Script
+from dofkit.homework.judgement import Given
+from dofkit.homework.key.compared_equations import undeclared
+from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_coordinates import extended, offered
+from dofkit.homework.key.own_names import renamed
+from dofkit.scene.added_equations import as_text
+
+#: Names of an answer's own for multipliers.
+_MULTIPLIER = re.compile(r"(lambda|lam|mu|Lambda)_?\w{0,3}|(multiplier|mult)_?\d{0,2}")
+#: What a value is called: `L =`, `p_theta =`, `L = T - V =`.
+_LEADING = re.compile(
+    r"\s*(?:(?:L|T|V|U|E|H|ℒ|\\mathcal\s*\{?L\}?|\\mathscr\s*\{?L\}?|Lagrangian|Lagrangefunktion|p|P|Q|F)(?:_?\{?\\?\w{0,12}\}?)?"
+    r"(?:\s*\([^()=]*\))?(?:\s*[-+]\s*[TVUE](?:_\w+)?)*"
+    r"|(?:d|∂)\s*L\s*/\s*(?:d|∂)\s*[^\s=]{1,20}|\\frac\s*\{\\?[a-z]*\s*L\s*\}\s*\{[^=]{1,40}\})\s*=(?!=)\s*"
+)
+
+
+@dataclass(frozen=True)
+class PosedMotion:
+    """``key``: of the scene, with the coordinates that the answer defines; ``multipliers``: its names for them.
+
+    ``guesses``: where names are not declared, what they may mean; ``error``: what is wrong where none is right.
+    """
+
+    key: Key
+    relations: tuple[Comparison, ...]
+    shown: str
+    multipliers: tuple[Expr, ...] = ()
+    guesses: tuple[PosedMotion, ...] = ()
+    error: TextError | None = None
+
+    @property
+    def value(self) -> Expr:
+        """The expression, where one is asked for."""
+        return self.relations[0].left
+
+
+def posed_motions(answer: Given, key: Key, value: bool) -> list[PosedMotion]:
+    """Every way to read an answer, as a value or as equations. Raises TextError."""
+    vocabulary = AnswerNames(key.names, accelerations=True)
+    ways = readings_of(answer, vocabulary, _without_lead if value else None)
+    return [_posed(way.claim if way.derived else way, key, value) for way in ways]
+
+
+def _without_lead(script: Script) -> Script:
+    """A value without its name; each of several names, as in `L = T - V = ...`."""
+    while (match := _LEADING.match(script.text)) is not None and match.end() < len(script.text):
+        script = script.cut(match.end())
+    return script
+
+
+def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
+    multipliers = [n for n in way.own if not value and n not in way.moving and _MULTIPLIER.fullmatch(spelled(n))]
+    other = tuple(name for name in way.own if name not in multipliers)
+    defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
+    rest = [(c, bare) for c, bare in zip(way.relations, way.bare, strict=True) if c not in defining]
+    defined = {n for c in defining for n in other if n in _names(c)}
+    known = tuple(ex.parameter(n) for n in multipliers)
+    if value and (len(rest) != 1 or not rest[0][1]):
+        raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
+    if defined != set(other) and not defined and set(other) <= set(key.also):
+        key = offered(key, other)
+        defined = set(other)
+    elif defined and defined == set(other):
+        key = extended(key, other, defining)
+    if defined == set(other):
+        table = {ex.parameter(n): ex.coordinate(n) for n in other}
+        relations = tuple(_substituted(c, table) for c, _ in rest)
+        return PosedMotion(key, relations, _shown(relations, value), known)
+    guesses = tuple(
+        PosedMotion(key, guess.relations, _shown(guess.relations, value), known)
+        for guess, _ in renamed(way._replace(own=other), key.scene, key.constants)
+    )
+    return PosedMotion(key, way.relations, way.shown, known, guesses, undeclared(way._replace(own=other), key))
+
+
+def _names(c: Comparison) -> set[str]:
+    return {str(s.args[1]) for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}
+
+
+def _defines(c: Comparison, own: Sequence[str]) -> bool:
+    """Is it a relation between names of the answer's own and coordinates, without velocities?"""
+    symbols = c.left.symbols | c.right.symbols
+    return (
+        bool(_names(c) & set(own))
+        and all(s.args[0] in ("coordinate", "parameter", "time") for s in symbols)
+        and any(s.args[0] == "coordinate" and s.args[1] not in own for s in symbols)
+    )
+
+
+def _substituted(c: Comparison, table: Mapping[Expr, Expr]) -> Comparison:
+    return Comparison(substitute(c.left, table), c.relation, substitute(c.right, table), c.column)
+
+
+def _shown(relations: Sequence[Comparison], value: bool) -> str:
+    return to_text(relations[0].left) if value and relations else "; ".join(as_text(c) for c in relations)

@@ -1,0 +1,1 @@
+"""What students are told, in English, German, French and Spanish."""
