@@ -18,6 +18,8 @@ from dofkit.homework.questions import KINDS
 
 FOLDER = Path(__file__).parent / "natural"
 FILES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
+#: Many equations are compared there.
+HEAVY = {"equations": pytest.mark.sweep, "motion": pytest.mark.sweep}
 OPEN = frozenset({"unreadable", "needs_review", "missing"})
 
 
@@ -54,19 +56,21 @@ def every() -> list[tuple[str, str, Any, str, str]]:
     return [row for name in FILES for row in outcomes(name)]
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=HEAVY.get(name, ())) for name in FILES])
 def test_no_right_answer_is_called_wrong_and_no_wrong_one_right(name: str) -> None:
     false = {("right", "wrong"), ("right", "partly"), ("wrong", "right"), ("wrong", "partly"), ("partly", "right"),
              ("partly", "wrong"), ("open", "right")}  # fmt: skip
     assert [row for row in outcomes(name) if (row[1], row[3]) in false] == []
 
 
+@pytest.mark.sweep
 def test_ninety_seven_in_a_hundred_right_answers_get_full_marks() -> None:
     told = Counter(found for _, verdict, _, found, _ in every() if verdict == "right")
     assert told["right"] >= 0.97 * told.total()
     assert set(told) <= {"right", "open"}
 
 
+@pytest.mark.sweep
 def test_what_is_not_right_is_told_why() -> None:
     assert [row for row in every() if row[3] != "right" and not row[4].strip()] == []
 

@@ -18,7 +18,7 @@ from dofkit.homework.sentences.said import catalogue
 ROOM = Path(dofkit.homework.__file__).parent
 TOLD = [
     *(ROOM / "questions").glob("*.py"),
-    *(ROOM / "key").glob("*.py"),
+    *(path for path in (ROOM / "key").glob("*.py") if path.name != "codes.py"),
     *(ROOM / "answers").glob("*.py"),
     ROOM / "grading.py",
     ROOM / "judgement.py",

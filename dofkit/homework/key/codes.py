@@ -29,6 +29,7 @@ _OF_EQUATIONS = {
     "WEAKER": "It follows from the constraint, but allows more.",
     "STRONGER": "It implies the constraint, but forbids more.",
     "DIFFERENT": "Another constraint.",
+    "ROUNDED": "The constraint with a number that was rounded, where the exact one was asked for.",
     "EMPTY": "It always holds, and says nothing.",
     "UNDECIDED": "Whether it is the same constraint could not be decided.",
     "INTEGRABLE": "The constraint integrates to a finite relation, and it was said not to.",
