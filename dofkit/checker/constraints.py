@@ -21,7 +21,6 @@ from dofkit.checker.trees import (
     add,
     call,
     difference,
-    negative,
     power,
     refuse,
     symbol,
@@ -94,7 +93,7 @@ class Surroundings:
         sure = [i for i in every if nowhere_zero(n[i], self.signs, Effort())]
         refuse(not sure and (self.dimension == 3 or not any(map(symbols_in, n))), "a direction may be 0")
         k = min(sure, key=lambda i: n[i].head != "number", default=0)
-        rows = [{i: n[k], k: negative(n[i])} for i in every if i != k]
+        rows = [{i: n[k], k: difference(ZERO, n[i])} for i in every if i != k]
         return n, tuple(tuple(row.get(j, ZERO) for j in every) for row in rows)
 
     def on_places(self, texts: Any) -> list[Sided]:

@@ -9,9 +9,8 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.checker.curves import crossing, isolated
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.fields import Told, admissible, independent, involutive, of_word, span
+from dofkit.checker.fields import Told, admissible, crossing, independent, involutive, isolated, of_word, span
 from dofkit.checker.trees import refuse
 from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
 

@@ -14,12 +14,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 from dofkit.checker.trees import FUNCTIONS, ONE, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import derivative, over_time, symbols_in
+from dofkit.checker.values import derivative, symbols_in
 
 #: The last: how often a declared function is differentiated.
 MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT, MOST_ORDERS = 20_000, 64, 60, 64, 6
 #: The last: a dot above the letter before it.
-PI, EULER, _TIME, DOT = Tree("pi"), call("exp", ONE), symbol("t"), "\u0307"
+PI, EULER, _TIME, _STEP, DOT = Tree("pi"), call("exp", ONE), symbol("t"), symbol("dt"), "\u0307"
 _LATIN = (
     "alpha beta gamma delta epsilon zeta eta theta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi phi "
     "chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"
@@ -54,7 +54,7 @@ class Lexeme(NamedTuple):
 
 
 BUILT_IN = {name: Lexeme("function", name=name) for name in FUNCTIONS}
-BUILT_IN |= {"pi": Lexeme("value", PI), "t": Lexeme("value", _TIME), "dt": Lexeme("moving", symbol("dt"))}
+BUILT_IN |= {"pi": Lexeme("value", PI), "t": Lexeme("value", _TIME), "dt": Lexeme("moving", _STEP)}
 BUILT_IN |= {"diff": Lexeme("derivative", name="diff")}
 _E = Lexeme("value", EULER)
 
@@ -76,8 +76,8 @@ def spelled_out(name: str) -> str:
 class KnownNames:
     """What a text may mention.
 
-    ``coordinates`` have differentials ``dq`` and velocities ``qdot``: these are the names of their symbols. ``values``:
-    parameters, each a symbol or what it was given. ``functions``: the names of the arguments of each declared function.
+    ``coordinates`` have velocities ``qdot``, and differentials ``dq``, which are ``qdot dt``. ``values``: parameters,
+    each a symbol or what it was given. ``functions``: the names of the arguments of each declared function.
     """
 
     coordinates: frozenset[str] = frozenset()
@@ -100,11 +100,11 @@ class KnownNames:
 
     def moved(self, word: str) -> Lexeme | None:
         """The velocity or differential of a coordinate; an index stands after the dot or before it."""
-        for form, pattern in (("{}dot", _VELOCITY), ("d{}", _DIFFERENTIAL)):
+        for pattern, step in ((_VELOCITY, ONE), (_DIFFERENTIAL, _STEP)):
             match = pattern.fullmatch(word)
             base = self.words.get("".join(match.groups(""))) if match else None
             if base and base.name in self.coordinates:
-                return Lexeme("value" if "'" in word else "moving", symbol(form.format(base.name)))
+                return Lexeme("value" if "'" in word else "moving", times(symbol(f"{base.name}dot"), step))
         return None
 
     def meaning(self, word: str) -> Lexeme | None:
@@ -202,13 +202,8 @@ class _Reader:
                 quotient and self.next.kind in _BEGIN and self.next.touching, "what a fraction line covers is unclear"
             )
             sign, factor = self.accepted("*", "/").kind, self.factor()
-            quotient = sign == "/" and factor != symbol("dt")
-            if sign != "/":
-                factors.append(factor)
-            elif quotient:
-                factors.append(_power(factor, number(-1)))
-            else:
-                factors[-1] = over_time(factors[-1], self.names.coordinates)
+            quotient = sign == "/" and factor != _STEP
+            factors.append(_power(factor, number(-1)) if sign == "/" else factor)
         return times(*factors)
 
     def factor(self) -> Tree:

@@ -117,7 +117,7 @@ def sha256_of(document: object) -> str:
 class CheckedRelation:
     """One scalar relation: ``left`` = 0, or of an inequality ``left`` > 0 (``strict``) or >= 0.
 
-    ``kind``: ``finite``, ``velocity`` or ``inequality``.
+    ``kind``: ``finite``, ``velocity`` or ``inequality``; ``leaf``: an integral, which keeps its value at the point.
     """
 
     name: str
@@ -125,6 +125,7 @@ class CheckedRelation:
     kind: str
     left: Tree
     strict: bool = False
+    leaf: bool = False
 
 
 @dataclass(frozen=True)

@@ -143,32 +143,19 @@ def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
     return folded(tree, of)
 
 
-def _differentials(tree: Tree, coordinates: Collection[str]) -> dict[str, Tree]:
-    """The differentials in a tree, and what they are over dt."""
-    found = {name for name in symbols_in(tree) if name == "dt" or (name[0] == "d" and name[1:] in coordinates)}
-    return {name: ONE if name == "dt" else symbol(f"{name[1:]}dot") for name in found}
-
-
-def over_time(tree: Tree, coordinates: Collection[str]) -> Tree:
-    """A tree over dt: ``dx/dt`` is the velocity."""
-    moved = _differentials(tree, coordinates)
-    linear = homogeneous_degree(tree, moved) == 1
-    return substituted(tree, moved) if linear else times(tree, power(symbol("dt"), MINUS))
-
-
 def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
-    """A relation with velocities in the place of differentials: over the power of dt in which it is homogeneous.
+    """A relation in velocities, without ``dt``: over the power of it in which the relation is homogeneous.
 
     What is linear in velocities becomes a form, its terms without one times ``tdot``.
     """
-    moved = _differentials(tree, coordinates)
-    refuse(moved and homogeneous_degree(tree, moved) is None, "differentials and finite terms are added together")
-    tree = substituted(tree, moved)
+    degree = homogeneous_degree(tree, ["dt"])
+    refuse(degree is None, "differentials and finite terms are added together")
+    tree = substituted(tree, {"dt": ONE})
     parts = linear_in(tree, [f"{q}dot" for q in coordinates])
     if parts is None:
         return tree
     form = [times(slope, symbol(rate)) for rate, slope in parts[0].items()]
-    return add(*form, times(parts[1], symbol(TIME_RATE))) if form or moved else parts[1]
+    return add(*form, times(parts[1], symbol(TIME_RATE))) if form or degree else parts[1]
 
 
 def excludes_zero(ball: Any) -> bool:

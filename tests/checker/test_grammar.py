@@ -24,7 +24,8 @@ NAMES = KnownNames(COORDINATES, {**{name: symbol(name) for name in PARAMETERS}, 
 x, y, theta, phi, s, t, R, L, m, g, ell, v = (
     symbol(name) for name in ("x", "y", "theta", "phi", "s", "t", "R", "L", "m", "g", "l", "v")
 )
-xdot, ydot, sdot, dx, dy, dt = (symbol(name) for name in ("xdot", "ydot", "sdot", "dx", "dy", "dt"))
+xdot, ydot, sdot, dt = (symbol(name) for name in ("xdot", "ydot", "sdot", "dt"))
+dx, dy = times(xdot, dt), times(ydot, dt)
 half, two, three = number(Fraction(1, 2)), number(2), number(3)
 
 
@@ -84,9 +85,9 @@ READ: dict[str, Tree] = {
     "ϑ + φ": add(theta, phi),
     "x_A": symbol("x_A"),
     # functions
-    "R sin(theta) dphi": times(R, call("sin", theta), symbol("dphi")),
+    "R sin(theta) dphi": times(R, call("sin", theta), symbol("phidot"), dt),
     "R cos theta": times(R, call("cos", theta)),
-    "Rcosθ dφ": times(R, call("cos", theta), symbol("dphi")),
+    "Rcosθ dφ": times(R, call("cos", theta), symbol("phidot"), dt),
     "sin^2(x)": squared(call("sin", x)),
     "sin²(x)": squared(call("sin", x)),
     "atan2(y, x)": call("atan2", y, x),
@@ -101,11 +102,11 @@ READ: dict[str, Tree] = {
     "ẋ": xdot,
     "x\u0307": xdot,
     "xdot_A": symbol("x_Adot"),
-    "dx_A": symbol("dx_A"),
+    "dx_A": times(symbol("x_Adot"), dt),
     "θ̇": symbol("thetadot"),
-    "dx/dt": xdot,
-    "-dx/dt y": times(number(-1), xdot, y),
-    "(x dy + y dx)/dt": add(times(x, ydot), times(y, xdot)),
+    "dx/dt": times(dx, over(dt)),
+    "-dx/dt y": times(number(-1), dx, over(dt), y),
+    "(x dy + y dx)/dt": times(add(times(x, dy), times(y, dx)), over(dt)),
     "dy/dx": times(dy, over(dx)),
     # declared functions
     "h": h(s),
@@ -335,6 +336,9 @@ def test_what_both_readings_take_they_take_alike(seed: int) -> None:
         except (TextError, CheckError):
             continue
         values = {symbol.args: rng.uniform(0.3, 0.9) for symbol in sorted(theirs.symbols, key=lambda s: s.args)}
+        for name in [name for kind, name in values if kind == "differential"]:
+            rate = values.setdefault(("velocity", name), 0.4)
+            values["differential", name] = rate * values.setdefault(("dt", "t"), 0.6)
         named = {SYMBOLS.get(kind, "{}").format(name): value for (kind, name), value in values.items()}
         expected = of_engine(theirs, values)
         assert of_tree(ours, {**dict.fromkeys(symbols_in(ours), 0.5), **named}) == pytest.approx(expected), text
