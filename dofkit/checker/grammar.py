@@ -198,9 +198,8 @@ class _Reader:
         """Factors; a space after a quotient makes what follows a factor of all that was before."""
         factors, quotient = [self.factor()], False
         while self.next.kind in ("*", "/", *_BEGIN):
-            refuse(
-                quotient and self.next.kind in _BEGIN and self.next.touching, "what a fraction line covers is unclear"
-            )
+            unclear = quotient and self.next.kind in _BEGIN and self.next.touching
+            refuse(unclear, "what a fraction line covers is unclear")
             sign, factor = self.accepted("*", "/").kind, self.factor()
             quotient = sign == "/" and factor != _STEP
             factors.append(_power(factor, number(-1)) if sign == "/" else factor)
@@ -244,18 +243,11 @@ class _Reader:
         return found
 
     def function(self, token: Lexeme) -> Tree:
-        """``sin(x)``, ``sin^2(x)``, ``sin x``; ``sin^-1(x)`` could be read in two ways."""
+        """``sin(x)``, ``sin^2(x)``; ``sin x`` and ``sin^-1(x)`` could be read in two ways."""
         exponent = self.needed("number").tree if self.accepted("^").kind else ONE
-        given = self.arguments() if self.next.kind in _PAIRS else [self.bare()]
+        given = self.arguments()
         refuse(len(given) != (2 if token.name == "atan2" else 1), f"`{token.name}` has {len(given)} arguments")
         return _power(ONE if (token.name, given) == ("exp", [ZERO]) else call(token.name, *given), exponent)
-
-    def bare(self) -> Tree:
-        """What a function without parentheses is taken of: one name, where nothing after it could belong to it."""
-        taken, after = self.needed("value"), self.next
-        unclear = after.kind in ("value", "number", "^", *_PAIRS) or (after.kind in ("*", "/") and after.touching)
-        refuse(unclear, f"it is not clear where what is taken of `{taken.name}` ends")
-        return taken.tree
 
     def declared(self, token: Lexeme) -> Tree:
         """``h(s)``, ``h'(s)``, ``h`` alone."""
@@ -266,20 +258,14 @@ class _Reader:
         return Tree("apply", given, alone.value, alone.orders)
 
     def derivative(self, _: Lexeme) -> Tree:
-        """``diff(h(s), s)``, ``diff(h(s), s, 2)``."""
+        """``diff(h(s), s)``, ``diff(h(s), s, s)``."""
         found, *steps = self.arguments()
-        by: list[Tree] = []
+        refuse(not 0 < len(steps) <= MOST_ORDERS, "a derivative needs what to differentiate, and by what")
         for step in steps:
-            by += by[-1:] * (_TIMES[step] - 1) if by and step in _TIMES else [step]
-        refuse(not 0 < len(by) <= MOST_ORDERS, "a derivative needs what to differentiate, and by what")
-        for step in by:
             doubtful = step == _TIME and not symbols_in(found) <= {"t", *self.names.values}
             refuse(doubtful or step.head != "symbol", "a derivative is by a symbol, and not by time on the way")
             found = derivative(found, str(step.value))
         return found
-
-
-_TIMES = {number(k): k for k in range(1, MOST_ORDERS + 1)}
 
 
 def _power(base: Tree, exponent: Tree) -> Tree:

@@ -8,15 +8,15 @@ point, and others to have a value there, so that it is true near the point.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar, cast
 
 from flint import arb
 
 from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.grammar import KnownNames, parse
-from dofkit.checker.problem import CheckedRelation, Problem
+from dofkit.checker.problem import CheckedProblem as Problem
+from dofkit.checker.problem import CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
 from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, heads_in, symbols_in
@@ -38,14 +38,12 @@ class CheckedTexts:
         self.variables: tuple[str, ...] = (*problem.coordinates, "t")
         self.velocities = frozenset(name + "dot" for name in self.variables)
         self.chosen = frozenset((*problem.parameters, *problem.generic))
-        self.functions = {name: tuple(f"a{i}" for i in range(k)) for name, k in problem.functions.items()}
 
     def once(self, key: Any, look: Callable[[], Looked]) -> Looked:
         """What was looked at under a key before, or is now."""
         if key not in self.seen:
             self.seen[key] = look()
-        found: Looked = self.seen[key]
-        return found
+        return cast(Looked, self.seen[key])
 
     def text(self, text: Any, extra: Iterable[str] = ()) -> Tree:
         """The tree of a text; ``extra`` are further names it may mention."""
@@ -55,7 +53,7 @@ class CheckedTexts:
     def _read(self, text: str, extra: tuple[str, ...]) -> Tree:
         self.effort.spend(10 * len(text) + 1)
         values = {name: symbol(name) for name in (*sorted(self.chosen), "tdot", *extra)}
-        names = KnownNames(frozenset(self.problem.coordinates), values, self.functions)
+        names = KnownNames(frozenset(self.problem.coordinates), values, self.problem.functions)
         tree = parse(text, names)
         refuse("dt" in symbols_in(tree), "an expression holds velocities, and no differentials")
         return tree
@@ -71,8 +69,8 @@ class CheckedTexts:
     def squares(self, terms: Any) -> Tree:
         """A sum of squares, which have a value everywhere, with positive coefficients."""
         pairs = [(self.text(c), self.text(a)) for c, a in terms]
-        refuse(not all(self.is_nowhere_zero(c, True) for c, _ in pairs), "a coefficient of a square is not positive")
-        refuse(not all(self.has_value_everywhere(a) for _, a in pairs), "a square has no value everywhere")
+        fit = all(self.is_nowhere_zero(c, True) and self.has_value_everywhere(a) for c, a in pairs)
+        refuse(not fit, "a coefficient of a square is not positive, or a square has no value everywhere")
         return add(*(times(c, power(a, TWO)) for c, a in pairs))
 
     def is_open(self, tree: Tree) -> bool:
@@ -90,18 +88,21 @@ class CheckedTexts:
         """Whether a tree is a product of powers of numbers and parameters that are not 0, or are positive."""
         return nowhere_zero(tree, self.problem.parameters, self.effort, positive)
 
-    def has_value_everywhere(self, tree: Tree) -> bool:
-        """Whether a tree is smooth (analytic, but for declared functions) at all real values of its symbols."""
+    def has_value_everywhere(self, tree: Tree, poles: bool = False) -> bool:
+        """Whether a tree is smooth (analytic, but for declared functions) at all real values of its symbols.
+
+        With ``poles``: whether it is a quotient of such trees.
+        """
         if not symbols_in(tree):
             return evaluated(tree, {}, self.effort) is not None
         exponent = tree.below[1].value if tree.head == "power" else None
-        plain = isinstance(exponent, Fraction) and exponent.denominator == 1 and exponent > 0
-        plain |= tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True)
-        return (plain or tree.head in _PLAIN) and all(map(self.has_value_everywhere, tree.below))
+        plain = isinstance(exponent, Fraction) and exponent.denominator == 1 and (poles or exponent > 0)
+        plain |= tree.head in _PLAIN or (tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True))
+        poles &= tree.head in ("sum", "product", "power")
+        return plain and all(self.has_value_everywhere(part, poles) for part in tree.below)
 
 
-@dataclass(frozen=True)
-class Consequence:
+class Consequence(NamedTuple):
     """``target`` holds where all ``sources`` do, where the ``nonzero`` are not 0 and the ``defined`` have a value.
 
     Near the point ``at`` only, where one is named.
@@ -163,7 +164,11 @@ class CheckedRelations(CheckedTexts):
         refuse(not whole, "there is no such factor, or power")
         base = factors.pop(chosen)
         self.identity(of.left, times(power(base, number(exponent)), *factors), "the product of the factors")
-        others = [one for one in factors if one != symbol("tdot") and not self.is_nowhere_zero(one)]
+        sure = [symbol("tdot")]
+        for positive in step.get("positive", []):
+            refuse(not self.is_nowhere_zero(self.text(positive["plus"]), True), "what is added to squares is positive")
+            sure.append(add(self.text(positive["plus"]), self.squares(positive["sos"])))
+        others = [one for one in factors if not self.is_nowhere_zero(one) and not any(self.same(one, s) for s in sure)]
         refuse(any(map(self.met_by, others)), "another factor holds velocities")
         name, defined = step["id"], (base, *factors)
         down = Consequence(name, (of.name,), tuple(others), defined)
@@ -172,8 +177,7 @@ class CheckedRelations(CheckedTexts):
     def _squares(self, step: dict[str, Any]) -> Made:
         """A sum of squares with coefficients of one sign is 0 where every square is."""
         of, total = self.relation(step["of"]), self.squares(step["terms"])
-        if not self.same(of.left, negative(total)):
-            self.identity(of.left, total, "the sum of squares")
+        refuse(not any(self.same(of.left, one) for one in (total, negative(total))), "it is no sum of these squares")
         new = {f"{step['id']}.{i}": self.text(a) for i, (_, a) in enumerate(step["terms"], 1)}
         return new, [*(Consequence(name, (of.name,)) for name in new), Consequence(of.name, tuple(new))]
 
@@ -244,7 +248,6 @@ class CheckedRelations(CheckedTexts):
             try:
                 values = [point.value_with(tree, wide) for tree in (*one.nonzero, *one.defined)]
             except CheckError:
-                refuse(self.effort.left < 0, "the work that a certificate may cost is used up")
                 return False
             return one.at in (None, point.name) and all(map(excludes_zero, values[: len(one.nonzero)]))
 

@@ -213,28 +213,6 @@ def _raised(node: Tree, u: Any, other: Any) -> Any:
     return u if zero else u**other
 
 
-def interval_newton(
-    equations: Sequence[Tree], centre: Mapping[str, Any], radius: Any, value: Callable[[Tree, Mapping[str, Any]], Any]
-) -> dict[str, Any]:
-    """Balls for the only zero of as many equations as unknowns within a box around ``centre``.
-
-    Where all matrices in F'(X) are regular and y - F'(X)^-1 F(y) lies inside X, F has exactly one zero in X, and it
-    lies there (Moore 1966, Nickel 1971). ``value`` gives the ball of a tree, from those of the unknowns.
-    """
-    with ctx.workprec(PRECISION):
-        middle = {name: ball.mid() for name, ball in centre.items()}
-        box = {name: ball + arb(0, radius) for name, ball in middle.items()}
-        smooth = all(value(equation, box).is_finite() for equation in equations)
-        slopes = arb_mat([[value(derivative(equation, name), box) for name in centre] for equation in equations])
-        values = arb_mat([[value(equation, middle)] for equation in equations])
-        steps = slopes.solve(values, nonstop=True, algorithm="precond")
-        found = {name: middle[name] - steps[i, 0] for i, name in enumerate(centre)}
-        for name, ball in found.items():
-            inside = smooth and box[name].contains_interior(ball)
-            refuse(not inside, f"interval Newton does not certify a zero: `{name}` leaves its box")
-        return found
-
-
 @dataclass
 class CheckedPoint:
     """A point that was checked: ``exact`` values, ``functions`` chosen, and ``balls`` for all symbols.
@@ -272,6 +250,20 @@ class CheckedPoint:
             refuse(rows and not excludes_zero(arb_mat(rows).det()), "the minor may be 0")
 
     def settle(self, equations: Sequence[Tree], columns: Sequence[str], radius: Any) -> None:
-        """The balls of columns become those of the only zero of as many equations in a box around them."""
-        centre = {name: self.balls[name] for name in columns}
-        self.balls |= interval_newton(equations, centre, radius, self.value_with)
+        """The balls of columns become those of the only zero of as many equations in a box around them.
+
+        Where all matrices in F'(X) are regular and y - F'(X)^-1 F(y) lies inside X, F has exactly one zero in X, and it
+        lies there (Moore 1966, Nickel 1971).
+        """
+        refuse(not radius > 0, "the radius of a box is positive")
+        with ctx.workprec(PRECISION):
+            middle = {name: self.balls[name].mid() for name in columns}
+            box = {name: ball + arb(0, radius.mid()) for name, ball in middle.items()}
+            smooth = all(self.value_with(equation, box).is_finite() for equation in equations)
+            slopes = [[self.value_with(derivative(equation, name), box) for name in columns] for equation in equations]
+            values = arb_mat([[self.value_with(equation, middle)] for equation in equations])
+            steps = arb_mat(slopes).solve(values, nonstop=True, algorithm="precond")
+            for i, name in enumerate(columns):
+                self.balls[name] = middle[name] - steps[i, 0]
+                inside = smooth and box[name].contains_interior(self.balls[name])
+                refuse(not inside, f"interval Newton does not certify a zero: `{name}` leaves its box")

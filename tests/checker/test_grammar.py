@@ -86,8 +86,6 @@ READ: dict[str, Tree] = {
     "x_A": symbol("x_A"),
     # functions
     "R sin(theta) dphi": times(R, call("sin", theta), symbol("phidot"), dt),
-    "R cos theta": times(R, call("cos", theta)),
-    "Rcosθ dφ": times(R, call("cos", theta), symbol("phidot"), dt),
     "sin^2(x)": squared(call("sin", x)),
     "sin²(x)": squared(call("sin", x)),
     "atan2(y, x)": call("atan2", y, x),
@@ -114,7 +112,6 @@ READ: dict[str, Tree] = {
     "h'(s)": h(s, 1),
     "h''(x)": h(x, 2),
     "diff(h(s), s)": h(s, 1),
-    "diff(h(s), s, 2)": h(s, 2),
     "diff(h(2x), x)": times(two, h(times(two, x), 1)),
     "w": w((0, 0), x, t),
     "diff(w(x, y), y)": w((0, 1), x, y),
