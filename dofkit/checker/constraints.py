@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -10,23 +9,8 @@ from itertools import combinations, pairwise
 from typing import Any
 
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector, apart, cross, dot, length, less, scaled, square
-from dofkit.checker.grammar import PI, KnownNames, Sided, parse, parse_relations
-from dofkit.checker.trees import (
-    MINUS,
-    ONE,
-    TWO,
-    ZERO,
-    Effort,
-    Tree,
-    add,
-    call,
-    difference,
-    negative,
-    power,
-    refuse,
-    symbol,
-    times,
-)
+from dofkit.checker.grammar import KnownNames, Sided, parse, parse_relations
+from dofkit.checker.trees import ONE, TWO, ZERO, Effort, Tree, add, call, difference, power, refuse, symbol, times
 from dofkit.checker.values import evaluated, excludes_zero, in_velocities, substituted, symbols_in
 
 Entry = Mapping[str, Any]
@@ -38,7 +22,7 @@ class Surroundings:
 
     ``names``: what texts may mention; ``signs``: of the parameters that stay symbols. ``generic`` grows by a symbol for
     each length or component that was left out; ``drawn`` by the bodies that the drawing places, ``welded`` by pairs.
-    ``index``: the place of the constraint that is read, from 1; ``made``: how many symbols of a stem it made.
+    ``index``: the place of the constraint that is read, from 1.
     """
 
     dimension: int
@@ -50,7 +34,6 @@ class Surroundings:
     drawn: set[str] = field(default_factory=set)
     welded: list[tuple[str, str]] = field(default_factory=list)
     index: int = 0
-    made: Counter[str] = field(default_factory=Counter)
 
     def expression(self, value: object, *allowed: str) -> Tree:
         """A number or text that mentions parameters, and what is ``allowed`` besides."""
@@ -70,8 +53,8 @@ class Surroundings:
     def fresh(self, stem: str) -> Tree:
         """A new generic symbol, named by the constraint it belongs to."""
         name = f"{stem}_c{self.index}"
-        self.made[name] += 1
-        self.generic.append(name if self.made[name] == 1 else f"{name}_{self.made[name]}")
+        before = sum(1 for one in self.generic if one == name or one.startswith(f"{name}_"))
+        self.generic.append(f"{name}_{before + 1}" if before else name)
         return symbol(self.generic[-1])
 
     def place(self, values: object) -> Vector:
@@ -94,16 +77,14 @@ class Surroundings:
         sure = [i for i in every if nowhere_zero(n[i], self.signs, Effort())]
         refuse(not sure and (self.dimension == 3 or not any(map(symbols_in, n))), "a direction may be 0")
         k = min(sure, key=lambda i: n[i].head != "number", default=0)
-        rows = [{i: n[k], k: negative(n[i])} for i in every if i != k]
+        rows = [{i: n[k], k: difference(ZERO, n[i])} for i in every if i != k]
         return n, tuple(tuple(row.get(j, ZERO) for j in every) for row in rows)
 
     def on_places(self, texts: Any) -> list[Sided]:
         """Relations in which x, y, z are the coordinates of a point; no velocity occurs."""
         refuse(not isinstance(texts, list), "a curve is a list of texts")
         letters = set("xyz"[: self.dimension])
-        values = {name: tree for name, tree in self.names.values.items() if name not in letters}
-        functions = {name: own for name, own in self.names.functions.items() if name not in letters}
-        own = KnownNames(self.names.coordinates.union(letters), values, functions)
+        own = KnownNames(self.names.coordinates.union(letters), self.names.values, self.names.functions)
         found = [relation for text in texts for relation in parse_relations(text, own)]
         allowed = own.coordinates.union(self.signs, "t")
         refuse(any(not symbols_in(one.tree) <= allowed for one in found), "a surface mentions places, parameters and t")
@@ -260,7 +241,7 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
         "axis": lambda: (dot(first.carry(u), second.carry(n)) for u in across),
         "line": lambda: (first.offset(moved, place, u) for u in across),
         "plane": lambda: [first.offset(moved, place, n)],
-        "cross": lambda: [crossed(world, entry, first, second)],
+        "cross": lambda: [dot(first.carry(a), second.carry(b)) for a, b in [map(world.vector, entry["axes"])]],
         "thread": lambda: [shifted(times(world.expression(entry["pitch"]), turns(first, second, n, across[0])))],
     }
     for kept in keeps.split():
@@ -276,16 +257,6 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
             yield difference(times(sine, call("cos", law)), times(cosine, call("sin", law)))
 
 
-def crossed(world: Surroundings, entry: Entry, first: CheckedFrame, second: CheckedFrame) -> Tree:
-    """The axes of a universal joint, each carried by its body, stay across each other."""
-    if "axes" in entry:
-        a, b = map(world.vector, entry["axes"])
-    else:
-        a, (u, v) = world.direction(None)
-        b = tuple(map(add, u, scaled(world.fresh("axis"), v)))
-    return dot(first.carry(a), second.carry(b))
-
-
 def turned(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> tuple[Tree, Tree]:
     """The sine and cosine of the angle about n, times one positive factor; u is across n."""
     now = second.carry(u)
@@ -294,7 +265,7 @@ def turned(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> t
 
 def turns(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> Tree:
     """How often the second body has turned about n."""
-    return times(call("atan2", *turned(first, second, n, u)), power(times(TWO, PI), MINUS))
+    return times(call("atan2", *turned(first, second, n, u)), parse("1/(2*pi)", KnownNames()))
 
 
 def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:

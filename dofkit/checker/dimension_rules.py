@@ -7,25 +7,22 @@ from __future__ import annotations
 
 from typing import Any
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq_mat
 
-from dofkit.checker.curves import crossing, isolated
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.fields import Told, admissible, independent, involutive, of_word, span
+from dofkit.checker.fields import Told, admissible, crossing, independent, involutive, isolated, of_word, span
 from dofkit.checker.trees import refuse
-from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
+from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, heads_in, symbols_in
 
 
 def _finite_minor(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
     minor = evidence.minor(given["minor"])
-    moving = any(evidence.relation(row).kind != "finite" for row in minor.rows)
-    refuse(moving, "a row of velocities does not reduce dof by itself")
+    refuse(any(evidence.relation(row).kind != "finite" for row in minor.rows), "a row of velocities reduces no dof")
     return minor
 
 
 #: What shows how many freedoms there are at most: as many as coordinates less rows, or one less.
 MOST = {"minor": _finite_minor, "frobenius": involutive, "isolated": isolated, "crossing": crossing}
-CURVED = ("isolated", "crossing")
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -34,14 +31,13 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     most, least = claim.get("most", {**one, "rule": "minor"}), claim.get("least", {**one, "rule": "regular"})
     refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
-    above = size - len(minor.rows) - (most["rule"] in CURVED)
+    above = size - len(minor.rows) - (most["rule"] in ("isolated", "crossing"))
     if least["rule"] == "crossing":
         point, found = crossing(evidence, least).point, above
     elif least["rule"] == "regular":
         other = evidence.accounts(evidence.minor(least["minor"]), evidence.equations)
         point, found = other.point, size - len(other.rows)
     else:
-        refuse(least["rule"] != "span", "a lower bound is `regular`, `span` or `crossing`")
         point, found = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
     evidence.is_about(claim["about"], point)
@@ -60,9 +56,8 @@ def instantaneous(evidence: CheckedEvidence, claim: Told, verified: Told) -> int
         refuse(minor.point is not point or set(minor.rows) != set(names), "the minor is not of all relations there")
         return size - len(names)
     slopes = [evidence.slope(name, q) for name in names for q in evidence.problem.coordinates]
-    values = [evidence.ring.rational(evidence.at_reference(tree)) for tree in slopes if point.value(tree) is not None]
-    entries = [fmpq(value.numerator, value.denominator) for value in values if value is not None]
-    refuse(len(entries) < len(slopes), "the rows are not rational at the point")
+    entries = [evidence.ring.rational(evidence.at_reference(tree)) for tree in slopes if point.value(tree) is not None]
+    refuse(None in entries, "the rows are not rational at the point")
     evidence.effort.spend(len(entries) * len(names))
     return size - (fmpq_mat(len(names), size, entries).rank() if entries else 0)
 
@@ -80,7 +75,7 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
         return verified["/dof"]
     if path == "/redundancies":
         return _groups(evidence, verified)
-    labels = [verified.get(f"/constraints/{escaped(owner)}{path}") for owner in owners(evidence)]
+    labels = [verified.get(f"{path[1:]} {owner}") for owner in owners(evidence)]
     refuse(None in labels and False not in labels, "nothing that was verified decides this")
     return False not in labels
 
@@ -88,15 +83,10 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
 def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
     """What depends on what: nothing, one constraint alone, or a circuit where one equation is too many."""
     surplus, known = verified["/redundant_equations"], [one for one in owners(evidence) if evidence.owned(one)]
-    around = [{one, *verified[key]} for one in known if (key := f"/constraints/{escaped(one)}/circuit") in verified]
+    around = [{one, *verified[key]} for one in known if (key := f"circuit {one}") in verified]
     around = [set(known)] if len(known) == 1 else around
     refuse(surplus and (len(around) != 1 or (surplus != 1 and len(known) > 1)), "several groups, or none that is shown")
     return [{"nullity": surplus, "members": [one for one in known if one in around[0]]}] if surplus else []
-
-
-def escaped(name: str) -> str:
-    """A name as a part of a path."""
-    return name.replace("~", "~0").replace("/", "~1")
 
 
 def owners(evidence: CheckedEvidence) -> list[str]:
@@ -111,10 +101,10 @@ def relations_of(evidence: CheckedEvidence, names: Any) -> tuple[str, ...]:
 
 def names_told(claim: Told) -> list[str]:
     """The claim's value as a list of names, each once."""
-    value = claim["value"]
-    fine = isinstance(value, list) and all(isinstance(one, str) for one in value) and len(set(value)) == len(value)
-    refuse(not fine, "the value is a list of names, each once")
-    return list(value)
+    value: list[str] = claim["value"]
+    texts = type(value) is list and {*map(type, value)} <= {str}
+    refuse(not texts or len({*value}) < len(value), "the value is a list of names, each once")
+    return value
 
 
 def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
@@ -128,20 +118,16 @@ def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]
     for name in names:
         others = relations_of(evidence, [other for other in names if other != name])
         minor = evidence.minor(claim["minimal"][name]["minor"], {*others, *own})
-        rows = [row for row in minor.rows if row not in own]
-        refuse(len(rows) == len(minor.rows) or minor.point is not point, "no row of the constraint, or another point")
-        evidence.follow(rows, others, point, "the other members")
-        evidence.follow(others, rows, point, "the rows of the minor")
+        apart = minor.point is point and _rank(evidence, minor, others) < len(minor.rows)
+        refuse(not apart, "no row is independent of the other members, or at another point")
     return names
 
 
 def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]) -> int:
     """How many rows of a minor follow from relations, which follow from them in turn."""
     known = evidence.closure(names, minor.point)
-    rows = [row for row in minor.rows if row in known and not evidence.relation(row).leaf]
-    evidence.on_set(minor.point, names)
-    evidence.follow(names, rows, minor.point, "the rows of the minor")
-    return len(rows)
+    rows = tuple(row for row in minor.rows if row in known and not evidence.relation(row).leaf)
+    return len(evidence.accounts(minor._replace(rows=rows), names).rows)
 
 
 def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -155,7 +141,7 @@ def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     refuse(not own, "the constraint has no equations")
     before, upto = (relations_of(evidence, order[:k]) for k in (place, place + 1))
     last = "last" in claim and "/dof at" in verified and not evidence.moving and set(upto) == set(evidence.finite)
-    after = _same_place(evidence, minor.point, verified) if last else _rank(evidence, minor, upto)
+    after = same_place(evidence, minor.point, verified) if last else _rank(evidence, minor, upto)
     return min(own, after - _rank(evidence, minor, before))
 
 
@@ -169,14 +155,12 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
     dropped, every = names_told(claim), set(evidence.equations)
     order = [owner for owner in owners(evidence) if evidence.owned(owner)]
     if "without" in claim:
-        minors = {name: evidence.minor(claim["without"][name]) for name in order}
-        others = {name: every.difference(evidence.owned(name)) for name in order}
-        ranks = {_same_place(evidence, minor.point, verified) - len(minor.rows) for minor in minors.values()}
-        whole = all(set(minor.rows) == others[name] for name, minor in minors.items())
-        refuse(
-            evidence.moving or min(ranks, default=0) <= 0 or not whole or "/dof at" not in verified,
-            "without a constraint the others are no manifold, or as large",
-        )
+        refuse(evidence.moving or "/dof at" not in verified or not order, "no dof of finite relations was verified")
+        for name in order:
+            other = evidence.minor(claim["without"][name])
+            whole = set(other.rows) == every.difference(evidence.owned(name))
+            larger = whole and same_place(evidence, other.point, verified) > len(other.rows)
+            refuse(not larger, f"without `{name}` the others are no manifold, or as large")
         return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     evidence.is_about("here", minor.point)
@@ -210,7 +194,7 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
-def _same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
+def same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
     """n less the dof that was verified near the point."""
     evidence.is_about("here", point)
     refuse(verified.get("/dof at") not in (None, "reference", point.name), "dof was verified at another point")
@@ -223,58 +207,105 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     columns = {*minor.columns, *([claim["free"]] if claim["rule"] == "isolated" else [])}
     whole = sorted((*columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
     refuse(not whole, "the columns of the minor are not all the other coordinates")
-    refuse(_same_place(evidence, minor.point, verified) != len(columns), "their number is not a verified dof")
+    refuse(same_place(evidence, minor.point, verified) != len(columns), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names_told(claim)
 
 
-def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
-    """The rank of what is finite is n - dof; the basis are relations that give it with the finite ones as written."""
-    refuse(not evidence.moving, "an integrable part is of forms")
-    found: Told = {"rank": len(evidence.problem.coordinates) - verified["/dof"], "basis": claim["value"]["basis"]}
-    if found["basis"] is None:
-        return found
-    minor, steps = evidence.minor(claim["minor"]), claim.get("steps", [])
-    whole = set(steps) <= set(minor.rows) <= {*steps, *evidence.finite} and len(minor.rows) == found["rank"]
-    refuse(_same_place(evidence, minor.point, verified) != found["rank"] or not whole, "the minor is not of the basis")
-    for text, name in zip(found["basis"], steps, strict=True):
-        left, one = told_integral(evidence, text), evidence.relation(name)
-        refuse(not one.leaf, "a relation of the basis is an integral")
-        evidence.identity(evidence.text(left), one.left, "a relation of the basis as it is told")
-    return found
-
-
-def told_integral(evidence: CheckedEvidence, text: Any) -> str:
-    """The function of an integral that is told with a constant of a name of its own."""
-    function, _, constant = str(text).rpartition("=")
-    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *evidence.functions}
-    refuse(not constant.strip().isidentifier() or constant.strip() in taken, "an integral ends with `= C`")
-    return function.strip()
-
-
 def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
-    """Words span each step of the growth from below; from above as many words as there are, or the dimension of all.
-
-    Witt 1937: of length k there are (1/k) sum over d | k of mu(d) m^(k/d) brackets of m fields at most.
-    """
+    """Words span each step of the growth from below; from above fields and their brackets, or the dimension of all."""
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
-    whole = len(evidence.problem.coordinates) - _same_place(evidence, minor.point, verified) + evidence.timed
+    whole = len(evidence.problem.coordinates) - same_place(evidence, minor.point, verified) + evidence.timed
     refuse(not evidence.moving or not all(map(evidence.is_linear, evidence.moving)), "a growth vector is of forms")
     point, fields = admissible(evidence, claim, evidence.equations)
-    rank, most, found = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), 0, list[int]()
+    rank, found = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), list[int]()
     refuse(point is not minor.point or len(fields) > rank, "the fields and the minor are of one point")
     for step, given in enumerate(claim["spans"], 1):
         words = [of_word(evidence, word, claim["fields"], step) for word in given["words"]]
         independent(evidence, words, given["columns"], point)
-        most = min(whole, most + _witt(rank, step))
+        most = min(whole, (rank, rank * (rank + 1) // 2, whole)[min(step, 3) - 1])
         refuse(len(words) != most, f"entry {step} is at least {len(words)} and at most {most}")
         found.append(most)
     refuse(found[-1] != whole and (len(found) < 2 or found[-1] != found[-2]), "the last entry is not the whole")
     return found
 
 
-def _witt(fields: int, length: int) -> int:
-    """How many independent brackets of a length there are in a free Lie algebra."""
-    moebius = {1: 1, 2: -1, 3: -1, 4: 0, 5: -1, 6: 1, 7: -1, 8: 0, 9: 0, 10: 1, 11: -1, 12: 0}
-    total = sum(moebius[d] * int(fields ** (length // d)) for d in range(1, length + 1) if length % d == 0)
-    return total // length
+def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
+    """The largest number over all parts of the set, from relations of three kinds, from which the others follow.
+
+    ``order``: each relation gives a coordinate, or its velocity, with a factor of numbers and parameters, and those
+    before do not hold it: the finite ones are a graph, and all have constant rank. Instead of a coordinate one may give
+    t, of which almost all values are then regular, where nothing else is told (Sard 1942).
+    ``blocks``: a single analytic relation that is not 0 everywhere has zeros of dimension n - 1 at most; a single form,
+    of which all finite relations are a graph, has rank 1 but on such a part.
+    ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
+    these the set is a manifold, of the rank that a cover of all shows (Sard 1942, Federer 3.4.3). Blocks, and the
+    generic relations together, share no free coordinate.
+
+    dof, where there are forms: that near a point (``most``, ``least``). None is larger where the finite relations allow
+    no more, or where all relations are named here and analytic: then orbits have the dimension that the brackets span,
+    which is largest almost everywhere at once (Nagano 1966).
+    """
+    order, blocks, generic = claim.get("order", []), claim.get("blocks", []), dict(claim.get("generic", []))
+    names, size = [*(name for name, _ in order), *blocks, *generic], len(evidence.problem.coordinates)
+    known, rank = evidence.closure(names, None), len(names)
+    whole, apart = known.issuperset(evidence.equations), len(set(names)) == rank
+    apart = apart and set(names) <= set(evidence.equations) and all(map(evidence.is_linear, names))
+    told = claim.get("about") == "everywhere" and apart and known.issuperset(evidence.finite)
+    refuse(not told, "a relation is left out, stands twice or is not linear, or the claim is not about everywhere")
+    forms = [name for name in names if evidence.relation(name).kind != "finite"]
+    refuse(forms and (generic or (blocks and not blocks == forms == names[-1:])), "forms stand in the order, or alone")
+    minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
+    free, rank = _free(evidence, order, minor and minor.point), len(minor.rows if minor else names)
+    groups = [_coordinates(evidence, name, free) for name in blocks]
+    groups.append(frozenset().union(*(_coordinates(evidence, name, free) for name in generic)))
+    refuse(sum(map(len, groups)) != len(frozenset().union(*groups)), "two blocks share a coordinate")
+    for name, letter in generic.items():
+        refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
+    smooth = all(_is_analytic(evidence, name, not minor or name in dict(order)) for name in names)
+    refuse((blocks or rank < len(names) or not minor) and not smooth, "a relation is not analytic")
+    beside = any(q == "t" for _, q in order) and (blocks or generic or evidence.moving or not minor)
+    refuse(beside or (not minor and (blocks or generic)), "t is given beside others, or a point is needed")
+    if minor:
+        evidence.is_about("here", minor.point)
+    if rank < len(names):
+        rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
+        refuse(blocks or order or sorted(rows) != sorted(names), "one cover of all finite relations is needed")
+    if not evidence.moving or claim["path"] == "/velocity_dof":
+        refuse(not whole, "each relation stands in one place")
+        return size - rank
+    found = bounds(evidence, {**claim, "about": "here"}, verified)
+    refuse(found != size - rank + len(forms) and not (whole and smooth), "another part may be larger")
+    return found
+
+
+def _is_analytic(evidence: CheckedEvidence, name: str, given: bool) -> bool:
+    """Whether a relation is analytic at all places; a form, and what gives no coordinate, up to a denominator."""
+    one = evidence.relation(name)
+    quotient = not given or one.kind != "finite"
+    return evidence.has_value_everywhere(one.left, quotient) and "apply" not in heads_in(one.left)
+
+
+def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:
+    """On which coordinates those that are given depend."""
+    later, found = [q for _, q in order], dict[str, frozenset[str]]()
+    refuse(
+        len({*later}) < len(later) or not {*later} <= {*evidence.variables},
+        "one coordinate for each relation",
+    )
+    for i, (name, q) in enumerate(order):
+        one, slope = evidence.relation(name), evidence.slope(name, q)
+        dot = "dot" if one.kind == "velocity" else ""
+        plain = symbols_in(slope) <= evidence.chosen and evidence.has_value_everywhere(slope)
+        sure = evidence.ring.rational(slope) or evidence.is_nowhere_zero(slope)
+        gives = sure or (plain and point and excludes_zero(point.value(slope)))
+        refuse(not gives or q + dot == "tdot", f"`{name}` does not give `{q}` everywhere")
+        refuse(not symbols_in(one.left).isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
+        if not dot:
+            found[q] = _coordinates(evidence, name, found) - {q}
+    return found
+
+
+def _coordinates(evidence: CheckedEvidence, name: str, given: dict[str, frozenset[str]]) -> frozenset[str]:
+    held = symbols_in(evidence.relation(name).left) & set(evidence.problem.coordinates)
+    return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from contextlib import suppress
 from typing import Any, NamedTuple
 
-from dofkit.checker.relations import FAULTS, CheckedRelations, told, total_derivative
-from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
+from dofkit.checker.relations import CheckedRelations, total_derivative
+from dofkit.checker.trees import ONE, ZERO, Tree, refuse, symbol
 from dofkit.checker.values import CheckedPoint, derivative, evaluated, excludes_zero, linear_in, substituted, symbols_in
-
-__all__ = ["FAULTS", "CheckedEvidence", "CheckedMinor", "told"]
 
 LARGEST_MINOR = 250
 
@@ -29,9 +26,7 @@ class CheckedEvidence(CheckedRelations):
     def named(self, part: str, name: Any) -> dict[str, Any]:
         """A point, minor, field or cover by its id."""
         self.effort.spend(len(self.parts[part]))
-        found = [one for one in self.parts[part] if one["id"] == name]
-        refuse(not found, f"no such entry of `{part}`: {str(name)[:60]!r}")
-        return found[0]
+        return {one["id"]: one for one in self.parts[part]}[name]
 
     def point(self, name: Any) -> CheckedPoint:
         """A point by its id: exact, or certified by interval Newton."""
@@ -40,33 +35,31 @@ class CheckedEvidence(CheckedRelations):
     def _point(self, given: dict[str, Any]) -> CheckedPoint:
         values, columns, rows = dict[str, Tree](), given.get("columns", []), given.get("rows", [])
         allowed = {*self.variables, *self.velocities, *self.chosen} - {"tdot"}
-        refuse(not allowed >= given["values"].keys() >= set(columns), "a point gives values to symbols of the scene")
         square = len(columns) == len(rows) == len(set(columns)) == len(set(rows)) <= LARGEST_MINOR
-        refuse(not square, "a box has as many rows as columns, each once, and not too many")
+        fits = square and allowed >= given["values"].keys() >= set(columns)
+        refuse(not fits, "a point gives values to symbols, and a box has as many rows as columns, each once")
         for name, text in given["values"].items():
             values[name] = substituted(self.text(text), values)
         functions = dict[str, tuple[tuple[str, ...], Tree]]()
         for name, choice in given.get("functions", {}).items():
             arguments, text = tuple(choice["arguments"]), self.text(choice["text"], choice["arguments"])
-            fits = len(set(arguments)) == self.problem.functions.get(name) and symbols_in(text) <= set(arguments)
-            refuse(not fits, f"the choice for `{name}` is no function of its arguments")
+            twice = len({*arguments}) != len(self.problem.functions[name])
+            refuse(twice or not symbols_in(text) <= {*arguments}, f"`{name}` is no function of its arguments")
             functions[name] = arguments, text
         balls = {name: evaluated(tree, {}, self.effort) for name, tree in values.items()}
         exact = {name: tree for name, tree in values.items() if name not in columns}
         point = CheckedPoint(given["id"], exact, functions, self.effort, balls, frozenset(rows))
         if columns:
             radius = evaluated(self.text(given["radius"]), {}, self.effort)
-            refuse(not radius > 0, "the radius of a box is positive")
-            point.settle([self.relation(name).left for name in rows], columns, radius.mid())
+            point.settle([self.relation(name).left for name in rows], columns, radius)
         for name, sign in self.problem.parameters.items():
-            wrong = name in balls and not (balls[name] > 0 or (sign != "positive" and excludes_zero(balls[name])))
-            refuse(wrong and sign in ("positive", "nonzero"), f"the parameter `{name}` is declared {sign}")
+            fits = name not in balls or balls[name] > 0 or (sign != "positive" and excludes_zero(balls[name]))
+            refuse(sign != "real" and not fits, f"the parameter `{name}` is declared {sign}")
         return point
 
     def holds(self, name: str, point: CheckedPoint) -> bool:
         """Whether a relation is 0 at a point, exactly."""
-        left = self.relation(name).left
-        return self.once(("holds", name, point.name), lambda: self._is_zero(left, point))
+        return self.once(("holds", name, point.name), lambda: self._is_zero(self.relation(name).left, point))
 
     def _is_zero(self, left: Tree, point: CheckedPoint) -> bool:
         """Whether a tree is 0 at a point: of a row of its box, or in the ring; and its ball holds 0."""
@@ -84,9 +77,9 @@ class CheckedEvidence(CheckedRelations):
         states = not all(self.is_linear(one.name) for one in wanted)
         for one in wanted:
             still = one.name in finite
-            smooth = [one.left] if still else [self.slope(one.name, v[:-3]) for v in self.met_by(one.left)]
-            values = [point.value(tree) for tree in smooth]
-            wrong = still and excludes_zero(values[0])
+            for velocity in self.met_by(one.left):
+                point.value(self.slope(one.name, velocity[:-3]))
+            wrong = still and excludes_zero(point.value(one.left))
             if states:
                 wrong |= not self._is_zero(total_derivative(one.left, self.variables) if still else one.left, point)
             refuse(wrong, f"`{one.name}` does not hold at the point `{point.name}`, or not for its velocities")
@@ -98,8 +91,8 @@ class CheckedEvidence(CheckedRelations):
             return self.once(key, lambda: self.minor(self.named("minors", given), allowed))
         point, rows, columns = self.point(given["at"]), tuple(given["rows"]), tuple(given["columns"])
         square = len({*rows}) == len(rows) == len(columns) == len({*columns}) <= LARGEST_MINOR
-        refuse(not square, "a minor has as many rows as columns, each once, and not too many")
-        refuse(not set(columns) <= set(self.problem.coordinates), "a column of a minor is no coordinate")
+        fits = square and set(columns) <= set(self.problem.coordinates)
+        refuse(not fits, "a minor has as many rows as columns, which are coordinates, each once, and not too many")
         self.follow(rows, self.equations if allowed is None else allowed, point, "the relations")
         self.on_set(point, rows)
         point.is_regular([[self.slope(row, column) for column in columns] for row in rows])
@@ -121,11 +114,10 @@ class CheckedEvidence(CheckedRelations):
         name = column if one.kind == "finite" else column + "dot"
         return self.once(("slope", row, column), lambda: derivative(one.left, name))
 
-    def accounts(self, minor: CheckedMinor, wanted: Iterable[str]) -> CheckedMinor:
+    def accounts(self, minor: CheckedMinor, wanted: Collection[str]) -> CheckedMinor:
         """The minor; `CheckError` unless relations hold at its point, and near it wherever its rows do."""
-        names = tuple(wanted)
-        self.on_set(minor.point, names)
-        self.follow(names, minor.rows, minor.point, "the rows of the minor")
+        self.on_set(minor.point, wanted)
+        self.follow(wanted, minor.rows, minor.point, "the rows of the minor")
         return minor
 
     def settled(self, point: CheckedPoint, names: Iterable[str], given: dict[str, Any]) -> None:
@@ -141,13 +133,10 @@ class CheckedEvidence(CheckedRelations):
     def own_symbol(self, name: str, letters: Iterable[str] | None = None) -> str:
         """A generic symbol (or one of ``letters``) of one relation alone, in which it is never stationary."""
         left = self.relation(name).left
-        others = [symbols_in(one.left) for one in self.problem.relations if one.name != name]
-        wanted = self.chosen.intersection(self.problem.generic if letters is None else letters)
-        for letter in sorted(symbols_in(left) & wanted):
-            alone = not any(letter in held for held in others) and self.is_nowhere_zero(derivative(left, letter))
-            if alone and self.has_value_everywhere(left):
-                return letter
-        return ""
+        others = frozenset().union(*(symbols_in(one.left) for one in self.problem.relations if one.name != name))
+        wanted = self.chosen.intersection(self.problem.generic if letters is None else letters) - others
+        fit = (one for one in sorted(symbols_in(left) & wanted) if self.is_nowhere_zero(derivative(left, one)))
+        return next(fit, "") if self.has_value_everywhere(left) else ""
 
     def at_reference(self, tree: Tree) -> Tree:
         """A tree at the scene's configuration, parameters and functions left open."""
@@ -157,25 +146,15 @@ class CheckedEvidence(CheckedRelations):
         """`CheckError` unless a point is one of those that a claim is about.
 
         ``reference``: the scene's configuration, which meets the relations for all values that a point chooses;
-        ``component``: any point, where no such configuration is given; ``here``: whichever of both is so.
+        ``component``: any point, where no configuration is given; ``here``: whichever of both is so.
         """
-        off = not self.problem.reference or self._is_off(point)
-        if about == "component" or (about == "here" and off):
-            refuse(not off, "the scene has a configuration: the claim has to be about it")
+        fits = about in ("here", "reference" if self.problem.reference else "component")
+        refuse(not fits, "the claim has to be about the scene's configuration, if it has one")
+        if not self.problem.reference:
             return
-        refuse(about not in ("reference", "here") or not self.problem.reference, "the scene has no configuration")
-        time = {"t": ZERO} if "t" in point.balls else {}
-        for name, tree in {**self.problem.reference, **time}.items():
+        for name, tree in {**self.problem.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():
             told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
         for left in (self.relation(name).left for name in self.finite):
             if self.is_open(left):
                 self.identity(self.at_reference(left), ZERO, "a relation at the configuration")
-
-    def _is_off(self, point: CheckedPoint) -> bool:
-        """Whether the scene's configuration is shown not to meet its relations."""
-        for name in self.finite:
-            with suppress(CheckError):
-                if excludes_zero(point.value(self.at_reference(self.relation(name).left))):
-                    return True
-        return False

@@ -1,4 +1,4 @@
-"""Velocity fields: brackets and orbits, rows that integrate, blocks of constant rank.
+"""Velocity fields: brackets and orbits, rows that integrate, blocks of constant rank; curves on independent rows.
 
 The points that can be reached along fields form an immersed manifold, whose tangent space holds all their brackets
 there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to relations never leave them.
@@ -10,37 +10,24 @@ from collections.abc import Collection, Iterable, Sequence
 from itertools import chain
 from typing import Any
 
-from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.relations import Consequence
-from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse, times
-from dofkit.checker.values import CheckedPoint, along, excludes_zero, nodes_of, substituted, symbols_in
+from flint import arb, arb_mat, ctx
 
-LARGEST_CRAMER, LONGEST_WORD, MOST_FIELDS, LARGEST_FIELD = 5, 12, 40, 20_000
+from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
+from dofkit.checker.relations import Consequence, total_derivative
+from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse
+from dofkit.checker.values import PRECISION, CheckedPoint, along, excludes_zero, substituted, symbols_in
+
+LONGEST_WORD, LARGEST_FIELD, HIGHEST_ORDER = 12, 100_000, 8
 VelocityField = dict[str, Tree]
+Fields = list[VelocityField]
 Told = dict[str, Any]
 
 
 def field_named(evidence: CheckedEvidence, name: Any) -> VelocityField:
-    """A field by its id: its components (what is left out is 0), or made from rows by Cramer's rule."""
-    given = evidence.named("fields", name)
-    if "cramer" not in given:
-        refuse(not given["components"].keys() <= set(evidence.variables), "a field has a component of no coordinate")
-        return {name: evidence.text(text) for name, text in given["components"].items()}
-    rows, columns, free = (given["cramer"][key] for key in ("rows", "columns", "free"))
-    known = len(rows) == len(columns) <= LARGEST_CRAMER and free in evidence.variables and free not in columns
-    refuse(not known, "Cramer's rule is for as many rows as columns, 5 at most, and another free column")
-    found = {free: _determinant([[evidence.slope(row, column) for column in columns] for row in rows])}
-    for place, column in enumerate(columns):
-        others = [*columns[:place], free, *columns[place + 1 :]]
-        found[column] = negative(_determinant([[evidence.slope(row, other) for other in others] for row in rows]))
-    return found
-
-
-def _determinant(rows: list[list[Tree]]) -> Tree:
-    if not rows:
-        return ONE
-    below = [_determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]]) for j in range(len(rows))]
-    return add(*(times(rows[0][j] if j % 2 == 0 else negative(rows[0][j]), one) for j, one in enumerate(below)))
+    """A field by its id: its components; what is left out is 0."""
+    given = evidence.named("fields", name)["components"]
+    refuse(not given.keys() <= set(evidence.variables), "a field has a component of no coordinate")
+    return {name: evidence.text(text) for name, text in given.items()}
 
 
 def bracket(first: VelocityField, second: VelocityField) -> VelocityField:
@@ -54,14 +41,14 @@ def of_word(evidence: CheckedEvidence, word: Any, allowed: Iterable[str], longes
     short = isinstance(word, list) and 1 <= len(word) <= longest and set(word) <= set(allowed)
     refuse(not short, "a word is a list of the fields, not too long")
     start, last = word[:-1], field_named(evidence, word[-1])
-    return evidence.once(
-        ("word", *word), lambda: paid(evidence, of_word(evidence, start, allowed), last) if start else last
-    )
+    if not start:
+        return last
+    return evidence.once(("word", *word), lambda: paid(evidence, of_word(evidence, start, allowed), last))
 
 
 def paid(evidence: CheckedEvidence, first: VelocityField, second: VelocityField) -> VelocityField:
     """A bracket, at the price of the size of its fields; large ones are refused."""
-    sizes = [sum(1 for tree in field.values() for _ in nodes_of(tree)) for field in (first, second)]
+    sizes = [sum(tree.size for tree in field.values()) for field in (first, second)]
     evidence.effort.spend(sizes[0] * len(second) + sizes[1] * len(first) + 1)
     refuse(max(sizes) > LARGEST_FIELD, "a bracket is too large")
     return bracket(first, second)
@@ -91,13 +78,10 @@ def independent(evidence: CheckedEvidence, fields: Sequence[VelocityField], colu
     point.is_regular([[field.get(column, ZERO) for column in columns] for field in fields])
 
 
-def admissible(
-    evidence: CheckedEvidence, given: Told, wanted: Sequence[str]
-) -> tuple[CheckedPoint, list[VelocityField]]:
+def admissible(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> tuple[CheckedPoint, Fields]:
     """Fields whose curves through a point are motions: tangent to rows that account for ``wanted``, smooth there."""
-    point, names, rows = evidence.point(given["at"]), given["fields"], given["rows"]
-    refuse(len(names) > MOST_FIELDS, "there are too many fields")
-    fields = [field_named(evidence, name) for name in names]
+    point, rows = evidence.point(given["at"]), given["rows"]
+    fields = [field_named(evidence, name) for name in given["fields"]]
     tangent(evidence, fields, rows)
     evidence.on_set(point, [*rows, *wanted])
     evidence.follow(rows, wanted, point, "the relations")
@@ -124,9 +108,8 @@ def involutive(evidence: CheckedEvidence, given: Told, allowed: Collection[str] 
     minor, fields = evidence.minor(given["minor"], allowed), [field_named(evidence, name) for name in given["fields"]]
     timed = evidence.holds_time(minor.rows)
     missing = len(evidence.problem.coordinates) + timed - len(minor.rows)
-    refuse(len(fields) != missing or not all(map(evidence.is_linear, minor.rows)), f"the kernel has {missing} fields")
-    moves = not timed and any(field.get("t", ZERO) != ZERO for field in fields)
-    refuse(moves, "a field moves time, which does not occur")
+    fits = len(fields) == missing and (timed or all("t" not in field for field in fields))
+    refuse(not fits or not all(map(evidence.is_linear, minor.rows)), f"the kernel has {missing} fields")
     independent(evidence, fields, given["columns"], minor.point)
     brackets = (paid(evidence, first, second) for i, first in enumerate(fields) for second in fields[:i])
     tangent(evidence, chain(fields, brackets), minor.rows)
@@ -144,7 +127,6 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> None:
     given, total = evidence.named("covers", name), 0
     minor, rows = evidence.minor(given["minor"]), [row for block in given["blocks"] for row in block["rows"]]
     once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
-    refuse(not once, "the blocks do not hold each finite relation once, or the minor has other rows")
     for row in rows:
         left = evidence.relation(row).left
         chosen = "t" in symbols_in(left) or (evidence.is_open(left) and not evidence.own_symbol(row))
@@ -158,7 +140,78 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> None:
         tangent(evidence, fields, block["rows"])
         independent(evidence, fields, block["columns"], minor.point)
         total += min(len(own) - len(fields), len(block["rows"]))
-    refuse(total != len(minor.rows), f"the blocks have rank {total} at most, the minor {len(minor.rows)}")
+    refuse(not once or total != len(minor.rows), "each finite relation once, and the rank of the minor are needed")
     evidence.seen["covers", name] = rows
     for row in set(rows) - set(minor.rows):
         evidence.consequences.append(Consequence(row, minor.rows, at=minor.point.name))
+
+
+def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tree: Tree, order: int) -> Any:
+    """The derivative of a tree of some order along a curve through the minor's point on which its rows stay 0.
+
+    Coordinates in ``speeds`` have these, and no acceleration; those of the columns follow; all others rest. Of g(q) = 0
+    the k-th derivative is J q^(k) and a rest without q^(k), by which q^(k) is found.
+    """
+    refuse(type(order) is not int or not 1 <= order <= HIGHEST_ORDER, "the order of a derivative is small")
+    lefts, moved = [*(evidence.relation(row).left for row in minor.rows), tree], [*minor.columns, *speeds]
+    names, rates = list(moved), dict[str, Any]()
+    taken = evidence.chosen.intersection(q + "dot" * k for q in moved for k in range(1, order + 1))
+    refuse(taken, "a parameter has the name of a derivative")
+    with ctx.workprec(PRECISION):
+        slopes = [[minor.point.value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
+        for k in range(1, order + 1):
+            evidence.effort.spend(10 * sum(left.size for left in lefts))
+            lefts = [total_derivative(left, names) for left in lefts]
+            names += [q + "dot" * k for q in moved]
+            rates |= {q + "dot" * k: speeds.get(q, arb(0)) if k == 1 else arb(0) for q in moved}
+            rest = arb_mat([[minor.point.value_with(left, rates)] for left in lefts[:-1]])
+            found = arb_mat(slopes).solve(rest) if minor.rows else rest
+            rates |= {q + "dot" * k: -found[i, 0] for i, q in enumerate(minor.columns)}
+    return minor.point.value_with(lefts[-1], rates)
+
+
+def _stationary(evidence: CheckedEvidence, given: Told) -> tuple[CheckedMinor, Tree, tuple[str, ...]]:
+    """A minor of finite relations of the scene, and another finite one, all analytic and without time."""
+    minor, name = evidence.minor(given["minor"]), given["zero"]
+    names = (*minor.rows, name)
+    trees = [evidence.relation(one).left for one in names]
+    unfit = evidence.moving or evidence.problem.functions or any("t" in symbols_in(tree) for tree in trees)
+    refuse(unfit or not set(names) <= set(evidence.finite), "finite relations of the scene are needed, without time")
+    evidence.on_set(minor.point, names)
+    return minor, trees[-1], names
+
+
+def isolated(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
+    """A minor at whose point the set is no more than the orbit of fields, which keep it.
+
+    Where the fields' own coordinates (``pins``) rest, the rows leave a curve, on which another relation has a
+    derivative that is not 0: its zero is isolated. Every point near it is moved there by the fields.
+    """
+    minor, zero, names = _stationary(evidence, given)
+    fields, pins, free = [field_named(evidence, name) for name in given["fields"]], given["pins"], given["free"]
+    whole = sorted((*minor.columns, *pins, free)) == sorted(evidence.problem.coordinates)
+    refuse(not whole or any("t" in field for field in fields), "columns, pins and one more are the coordinates")
+    tangent(evidence, fields, names)
+    independent(evidence, fields, pins, minor.point)
+    value = along_curve(evidence, minor, {free: arb(1)}, zero, given["order"])
+    refuse(not excludes_zero(value), "the zero on the curve is not shown to be isolated")
+    return minor
+
+
+def crossing(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
+    """A minor at whose point one more relation is positive along a curve and negative along another, and all follow.
+
+    Its zeros part what the rows leave, so that their dimension is one less (Hurewicz and Wallman 1941), and no larger,
+    since it is analytic. Signs: of the second derivatives; where a first one is not 0 it has both signs anyway.
+    """
+    minor, zero, names = _stationary(evidence, given)
+    evidence.follow(evidence.equations, names, minor.point, "the rows and one more")
+    evidence.on_set(minor.point, evidence.equations)
+    left = set(evidence.problem.coordinates) - set(minor.columns)
+    for sign, speeds in zip((1, -1), given["speeds"], strict=True):
+        numbers = {q: evidence.text(text) for q, text in speeds.items()}
+        refuse(not numbers.keys() <= left or any(map(symbols_in, numbers.values())), "numbers for free coordinates")
+        balls = {q: minor.point.value(tree) for q, tree in numbers.items()}
+        value = along_curve(evidence, minor, balls, zero, 2) * sign
+        refuse(not value > 0, "the sign along a curve is not shown")
+    return minor

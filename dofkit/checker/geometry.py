@@ -8,7 +8,6 @@ read with Cayley parameters g = (a, b, c), A = ((1 - g.g) I + 2 g g^T + 2 [g]) /
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from dofkit.checker.trees import ONE, TWO, ZERO, Tree, add, call, difference, negative, number, power, symbol, times
@@ -93,8 +92,7 @@ def apart(first: MaterialPoint, second: MaterialPoint) -> tuple[Vector, Tree]:
     return less(scaled(first.under, second.over), scaled(second.under, first.over)), times(first.under, second.under)
 
 
-@dataclass(frozen=True)
-class CheckedFrame:
+class CheckedFrame(NamedTuple):
     """A body or the ground: position p, its reference p0, and ``turn``, the rows of ``under`` times A.
 
     ``reference``: the values of its coordinates there; ``angle`` from it in the plane; ``cayley`` parameters, if any.
@@ -104,8 +102,8 @@ class CheckedFrame:
     position: Vector
     start: Vector
     turn: Matrix
-    under: Tree = ONE
-    reference: Mapping[str, Tree] = field(default_factory=dict)
+    under: Tree
+    reference: Mapping[str, Tree]
     angle: Tree = ZERO
     cayley: Vector | None = None
 
@@ -134,7 +132,7 @@ class CheckedFrame:
 def ground(d: int) -> CheckedFrame:
     """The world, which never moves."""
     zero = (ZERO,) * d
-    return CheckedFrame("ground", zero, zero, rotation(d, 0, 1), cayley=zero)
+    return CheckedFrame("ground", zero, zero, rotation(d, 0, 1), ONE, {}, cayley=zero)
 
 
 def body_frame(name: str, d: int, reference: Mapping[str, Tree], cayley: bool) -> CheckedFrame:

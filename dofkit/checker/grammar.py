@@ -14,12 +14,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 from dofkit.checker.trees import FUNCTIONS, ONE, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import derivative, over_time, symbols_in
+from dofkit.checker.values import derivative, symbols_in
 
 #: The last: how often a declared function is differentiated.
 MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT, MOST_ORDERS = 20_000, 64, 60, 64, 6
 #: The last: a dot above the letter before it.
-PI, EULER, _TIME, DOT = Tree("pi"), call("exp", ONE), symbol("t"), "\u0307"
+PI, EULER, _TIME, _STEP, DOT = Tree("pi"), call("exp", ONE), symbol("t"), symbol("dt"), "\u0307"
 _LATIN = (
     "alpha beta gamma delta epsilon zeta eta theta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi phi "
     "chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"
@@ -54,7 +54,7 @@ class Lexeme(NamedTuple):
 
 
 BUILT_IN = {name: Lexeme("function", name=name) for name in FUNCTIONS}
-BUILT_IN |= {"pi": Lexeme("value", PI), "t": Lexeme("value", _TIME), "dt": Lexeme("moving", symbol("dt"))}
+BUILT_IN |= {"pi": Lexeme("value", PI), "t": Lexeme("value", _TIME), "dt": Lexeme("moving", _STEP)}
 BUILT_IN |= {"diff": Lexeme("derivative", name="diff")}
 _E = Lexeme("value", EULER)
 
@@ -76,8 +76,8 @@ def spelled_out(name: str) -> str:
 class KnownNames:
     """What a text may mention.
 
-    ``coordinates`` have differentials ``dq`` and velocities ``qdot``: these are the names of their symbols. ``values``:
-    parameters, each a symbol or what it was given. ``functions``: the names of the arguments of each declared function.
+    ``coordinates`` have velocities ``qdot``, and differentials ``dq``, which are ``qdot dt``. ``values``: parameters,
+    each a symbol or what it was given. ``functions``: the names of the arguments of each declared function.
     """
 
     coordinates: frozenset[str] = frozenset()
@@ -100,11 +100,11 @@ class KnownNames:
 
     def moved(self, word: str) -> Lexeme | None:
         """The velocity or differential of a coordinate; an index stands after the dot or before it."""
-        for form, pattern in (("{}dot", _VELOCITY), ("d{}", _DIFFERENTIAL)):
+        for pattern, step in ((_VELOCITY, ONE), (_DIFFERENTIAL, _STEP)):
             match = pattern.fullmatch(word)
             base = self.words.get("".join(match.groups(""))) if match else None
             if base and base.name in self.coordinates:
-                return Lexeme("value" if "'" in word else "moving", symbol(form.format(base.name)))
+                return Lexeme("value" if "'" in word else "moving", times(symbol(f"{base.name}dot"), step))
         return None
 
     def meaning(self, word: str) -> Lexeme | None:
@@ -198,17 +198,11 @@ class _Reader:
         """Factors; a space after a quotient makes what follows a factor of all that was before."""
         factors, quotient = [self.factor()], False
         while self.next.kind in ("*", "/", *_BEGIN):
-            refuse(
-                quotient and self.next.kind in _BEGIN and self.next.touching, "what a fraction line covers is unclear"
-            )
+            unclear = quotient and self.next.kind in _BEGIN and self.next.touching
+            refuse(unclear, "what a fraction line covers is unclear")
             sign, factor = self.accepted("*", "/").kind, self.factor()
-            quotient = sign == "/" and factor != symbol("dt")
-            if sign != "/":
-                factors.append(factor)
-            elif quotient:
-                factors.append(_power(factor, number(-1)))
-            else:
-                factors[-1] = over_time(factors[-1], self.names.coordinates)
+            quotient = sign == "/" and factor != _STEP
+            factors.append(_power(factor, number(-1)) if sign == "/" else factor)
         return times(*factors)
 
     def factor(self) -> Tree:
@@ -249,18 +243,11 @@ class _Reader:
         return found
 
     def function(self, token: Lexeme) -> Tree:
-        """``sin(x)``, ``sin^2(x)``, ``sin x``; ``sin^-1(x)`` could be read in two ways."""
+        """``sin(x)``, ``sin^2(x)``; ``sin x`` and ``sin^-1(x)`` could be read in two ways."""
         exponent = self.needed("number").tree if self.accepted("^").kind else ONE
-        given = self.arguments() if self.next.kind in _PAIRS else [self.bare()]
+        given = self.arguments()
         refuse(len(given) != (2 if token.name == "atan2" else 1), f"`{token.name}` has {len(given)} arguments")
         return _power(ONE if (token.name, given) == ("exp", [ZERO]) else call(token.name, *given), exponent)
-
-    def bare(self) -> Tree:
-        """What a function without parentheses is taken of: one name, where nothing after it could belong to it."""
-        taken, after = self.needed("value"), self.next
-        unclear = after.kind in ("value", "number", "^", *_PAIRS) or (after.kind in ("*", "/") and after.touching)
-        refuse(unclear, f"it is not clear where what is taken of `{taken.name}` ends")
-        return taken.tree
 
     def declared(self, token: Lexeme) -> Tree:
         """``h(s)``, ``h'(s)``, ``h`` alone."""
@@ -271,20 +258,14 @@ class _Reader:
         return Tree("apply", given, alone.value, alone.orders)
 
     def derivative(self, _: Lexeme) -> Tree:
-        """``diff(h(s), s)``, ``diff(h(s), s, 2)``."""
+        """``diff(h(s), s)``, ``diff(h(s), s, s)``."""
         found, *steps = self.arguments()
-        by: list[Tree] = []
+        refuse(not 0 < len(steps) <= MOST_ORDERS, "a derivative needs what to differentiate, and by what")
         for step in steps:
-            by += by[-1:] * (_TIMES[step] - 1) if by and step in _TIMES else [step]
-        refuse(not 0 < len(by) <= MOST_ORDERS, "a derivative needs what to differentiate, and by what")
-        for step in by:
             doubtful = step == _TIME and not symbols_in(found) <= {"t", *self.names.values}
             refuse(doubtful or step.head != "symbol", "a derivative is by a symbol, and not by time on the way")
             found = derivative(found, str(step.value))
         return found
-
-
-_TIMES = {number(k): k for k in range(1, MOST_ORDERS + 1)}
 
 
 def _power(base: Tree, exponent: Tree) -> Tree:

@@ -1,15 +1,16 @@
-"""Rules for the labels of a constraint: holonomic, scleronomic, catastatic, exact, integrals."""
+"""Rules for the labels of a constraint, for what integrates, and for what can be met and what cannot."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Collection, Sequence
 from itertools import combinations
+from typing import Any
 
-from dofkit.checker.dimension_rules import told_integral
+from dofkit.checker.dimension_rules import names_told, same_place
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.fields import Told, admissible, involutive, of_word
-from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse, symbol, times
-from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
+from dofkit.checker.trees import ONE, ZERO, Tree, add, difference, refuse, times
+from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, homogeneous_degree, substituted, symbols_in
 
 Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")
@@ -95,65 +96,53 @@ def _forms(evidence: CheckedEvidence, claim: Told, single: bool = False) -> dict
     return forms
 
 
-def _curl(form: Form, i: str, j: str) -> Tree:
-    return add(derivative(form.get(j, ZERO), i), negative(derivative(form.get(i, ZERO), j)))
+def _part(form: Form, i: str, j: str, k: str = "") -> Tree:
+    """A component of the derivative of a form; of the form times its derivative, where three are named."""
+    if k:
+        return add(*(times(form.get(a, ZERO), _part(form, b, c)) for a, b, c in ((i, j, k), (j, k, i), (k, i, j))))
+    return difference(derivative(form.get(j, ZERO), i), derivative(form.get(i, ZERO), j))
 
 
-def _identically(evidence: CheckedEvidence, form: Form, part: Callable[..., Tree], size: int) -> None:
-    """`CheckError` unless a part of a form is 0 for any so many variables."""
-    held = frozenset(form).union(*map(symbols_in, form.values()))
-    for names in combinations([name for name in evidence.variables if name in held], size):
-        evidence.identity(part(form, *names), ZERO, f"the part for {', '.join(names)}")
-
-
-def _somewhere(evidence: CheckedEvidence, claim: Told, form: Form, part: Callable[..., Tree], names: list[str]) -> bool:
-    """False; `CheckError` unless a part of a form is not 0 at the claim's point."""
-    refuse(not set(names) <= set(evidence.variables), "a form has parts for coordinates and t")
-    refuse(not excludes_zero(evidence.point(claim["at"]).value(part(form, *names))), "it may be 0 at the point")
+def _is_closed(evidence: CheckedEvidence, claim: Told, forms: Collection[Form], size: int) -> bool:
+    """Whether all parts of forms for so many variables are 0; False where one that is named is not, at a point."""
+    named = claim.get("pair" if size == 2 else "triple")
+    if named is None:
+        for form in forms:
+            held = frozenset(form).union(*map(symbols_in, form.values()))
+            for names in combinations([name for name in evidence.variables if name in held], size):
+                evidence.identity(_part(form, *names), ZERO, f"the part for {', '.join(names)}")
+        return True
+    (form,) = forms
+    refuse(len(named) != size or not set(named) <= set(evidence.variables), "a form has parts for coordinates and t")
+    refuse(not excludes_zero(evidence.point(claim["at"]).value(_part(form, *named))), "it may be 0 at the point")
     return False
-
-
-def _triple(form: Form, i: str, j: str, k: str) -> Tree:
-    return add(*(times(form.get(a, ZERO), _curl(form, b, c)) for a, b, c in ((i, j, k), (j, k, i), (k, i, j))))
 
 
 def wedge(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """One form by itself integrates where omega ^ d(omega) = 0 (Frobenius)."""
-    (form,) = _forms(evidence, claim, single=True).values()
-    if "triple" in claim:
-        return _somewhere(evidence, claim, form, _triple, claim["triple"])
-    _identically(evidence, form, _triple, 3)
-    return True
+    return _is_closed(evidence, claim, _forms(evidence, claim, single=True).values(), 3)
 
 
 def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """Forms are exact near every point where they are closed; one is not where a curl is not 0."""
-    forms = _forms(evidence, claim, single="pair" in claim and "relation" not in claim)
-    if "pair" in claim:
-        return _somewhere(evidence, claim, forms[claim.get("relation", min(forms))], _curl, claim["pair"])
-    for form in forms.values():
-        _identically(evidence, form, _curl, 2)
-    return True
+    """Forms are exact near every point where they are closed; one is not where a part of its derivative is not 0."""
+    forms = _forms(evidence, claim)
+    return _is_closed(evidence, claim, [forms[claim["relation"]]] if "relation" in claim else forms.values(), 2)
 
 
 def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """Neither t nor dt occurs; what is not linear in velocities is homogeneous."""
-    names, catastatic = own(evidence, claim, EVERY), claim["field"] == "catastatic"
-    ones = [evidence.relation(name) for name in names]
+    catastatic = claim["field"] == "catastatic"
+    names = own(evidence, claim, EQUATIONS if catastatic else EVERY)
+    ones = [evidence.relation(name) for name in claim.get("steps", names)]
+    evidence.follow([one.name for one in ones], names, None, "the constraint")
+    evidence.follow(names, [one.name for one in ones], None, "the steps")
     refuse(catastatic and all(one.kind != "velocity" for one in ones), "there is no form")
     for one in ones:
-        if catastatic and one.kind != "finite":
-            evidence.identity(form_of(evidence, one.name).get("t", ZERO), ZERO, f"the dt term of `{one.name}`")
-        elif not catastatic:
-            refuse(one.kind == "inequality" and evidence.met_by(one.left), "an inequality between velocities")
-            for symbol_of_time in ("t", "tdot"):
-                slope = derivative(one.left, symbol_of_time)
-                evidence.identity(slope, ZERO, f"the derivative of `{one.name}` by {symbol_of_time}")
-            if not evidence.is_linear(one.name):
-                degree, met = evidence.text(claim["degree"][one.name]), evidence.met_by(one.left)
-                refuse(symbols_in(degree), "the degree of a relation between velocities is a number")
-                euler = add(*(times(symbol(v), derivative(one.left, v)) for v in met))
-                evidence.identity(euler, times(degree, one.left), "Euler's relation")
+        mixed = catastatic or homogeneous_degree(one.left, evidence.velocities) is None
+        refuse(mixed and not evidence.is_linear(one.name), f"`{one.name}` is no form, or not homogeneous in velocities")
+        refuse(one.kind == "inequality" and evidence.met_by(one.left), "an inequality between velocities")
+        for name in ["tdot"] if catastatic else ["t", "tdot"]:
+            evidence.identity(derivative(one.left, name), ZERO, f"the derivative of `{one.name}` by {name}")
     return True
 
 
@@ -168,16 +157,15 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     refuse(name not in names or not plain, "the rule `turns` is for one relation of the constraint, or finite ones")
     turned = derivative(one.left, "t")
     if one.kind == "velocity" and evidence.is_linear(name):
-        form = form_of(evidence, name)
-        turned = form.get("t", ZERO)
+        turned = evidence.slope(name, "t")
         if not catastatic and "pair" in claim:
-            a, b = (form.get(v, ZERO) for v in claim["pair"])
-            turned = add(times(a, derivative(b, "t")), negative(times(b, derivative(a, "t"))))
+            a, b = (evidence.slope(name, v) for v in claim["pair"])
+            turned = difference(times(a, derivative(b, "t")), times(b, derivative(a, "t")))
     else:
-        refuse(catastatic, "only a form is catastatic or not")
         if one.kind == "finite":
             evidence.on_set(point, names)
-        refuse(one.kind != "finite" and not evidence.holds(name, point), "the relation is not shown to be 0 there")
+        held = one.kind == "finite" or evidence.holds(name, point)
+        refuse(catastatic or not held, "it is no form that could be catastatic, or not shown to be 0 there")
     refuse(not excludes_zero(point.value(turned)), "time may not enter at the point")
     return False
 
@@ -187,8 +175,7 @@ def factor(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     point, tree = evidence.point(claim["at"]), evidence.text(claim["value"])
     (form,) = _forms(evidence, claim, single=True).values()
     refuse(evidence.met_by(tree) or not excludes_zero(point.value(tree)), "the factor may be 0")
-    held = dict.fromkeys(symbols_in(tree) & set(evidence.variables), ZERO)
-    _identically(evidence, {**held, **{name: times(tree, part) for name, part in form.items()}}, _curl, 2)
+    _is_closed(evidence, {}, [{name: times(tree, part) for name, part in form.items()}], 2)
     return claim["value"]
 
 
@@ -210,3 +197,96 @@ def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
         evidence.follow({*others, *evidence.finite}, rest, point, "the rows of the minor")
     integrable(evidence, {**claim, "integrals": [claim["step"], *others]}, verified)
     return claim["value"]
+
+
+def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
+    """The rank of what is finite is n - dof; the basis are relations that give it with the finite ones as written."""
+    refuse(not evidence.moving, "an integrable part is of forms")
+    found: Told = {"rank": len(evidence.problem.coordinates) - verified["/dof"], "basis": claim["value"]["basis"]}
+    if found["basis"] is None:
+        return found
+    minor, steps = evidence.minor(claim["minor"]), claim.get("steps", [])
+    whole = set(steps) <= set(minor.rows) <= {*steps, *evidence.finite} and len(minor.rows) == found["rank"]
+    refuse(same_place(evidence, minor.point, verified) != found["rank"] or not whole, "the minor is not of the basis")
+    for text, name in zip(found["basis"], steps, strict=True):
+        left, one = told_integral(evidence, text), evidence.relation(name)
+        refuse(not one.leaf, "a relation of the basis is an integral")
+        evidence.identity(evidence.text(left), one.left, "a relation of the basis as it is told")
+    return found
+
+
+def told_integral(evidence: CheckedEvidence, text: Any) -> str:
+    """The function of an integral that is told with a constant of a name of its own."""
+    function, _, constant = str(text).rpartition("=")
+    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *evidence.problem.functions}
+    refuse(not constant.strip().isidentifier() or constant.strip() in taken, "an integral ends with `= C`")
+    return function.strip()
+
+
+def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
+    """A motion meets all equations, and each inequality holds somewhere; all at one point where that is asked."""
+    point, places = moves(evidence, claim, evidence.equations), claim.get("inequalities", {})
+    sided = [one for one in evidence.problem.relations if one.kind == "inequality"]
+    together = claim["path"] == "/feasible"
+    refuse(together and not (sided and not any(evidence.met_by(one.left) for one in sided)), "inequalities of places")
+    for one in sided:
+        place = point if together else evidence.point(places.get(one.name, places.get(one.owner, point.name)))
+        equal_will_do = not one.strict and not evidence.is_open(one.left)
+        met = place.value(one.left) > 0 or (equal_will_do and evidence.holds(one.name, place))
+        refuse(not met, f"the inequality `{one.name}` is not shown to hold at its point")
+    return True
+
+
+def moves(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> CheckedPoint:
+    """A point through which a motion meets equations: a regular one, or one at which all may rest."""
+    if given["rule"] == "regular":
+        return evidence.accounts(evidence.minor(given["minor"]), wanted).point
+    point, still = evidence.point(given["at"]), [name for name in wanted if evidence.relation(name).kind == "finite"]
+    evidence.on_set(point, still)
+    evidence.settled(point, still, given)
+    chosen = any(evidence.is_open(evidence.relation(name).left) for name in still)
+    exact = {} if chosen else {name: tree for name, tree in point.exact.items() if name != "t"}
+    rest = {**dict.fromkeys(evidence.velocities, ZERO), "tdot": ONE}
+    balls = {rate: point.value(tree) for rate, tree in rest.items()}
+    for name in wanted:
+        left = evidence.relation(name).left
+        if name not in still or "t" in symbols_in(left):
+            for tree in (left, *(derivative(left, v) for v in evidence.met_by(left))):
+                point.value_with(tree, balls)
+            put_in = substituted(left, {**({} if evidence.is_open(left) else exact), **rest})
+            evidence.identity(put_in, ZERO, f"`{name}` at rest")
+    return point
+
+
+def refuted(evidence: CheckedEvidence, given: Told, verified: Told, names: Sequence[str] | None = None) -> bool:
+    """No motion meets equations: a positive number plus squares plus multiples of what is 0 cannot be 0.
+
+    An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974).
+    """
+    held = evidence.closure([one.name for one in evidence.problem.relations] if names is None else names, None)
+    total = [evidence.text(given["number"]), evidence.squares(given.get("sos", []))]
+    refuse(not evidence.is_nowhere_zero(total[0], True), "the number that is left over is not positive")
+    sided = {name: evidence.squares(terms) for name, terms in given.get("inequality", {}).items()}
+    factors = {name: evidence.text(text) for name, text in given.get("c", {}).items()}
+    refuse(len(sided) + bool(factors) > 1 and sided, "an inequality is refuted by itself")
+    for name, factor in (*sided.items(), *factors.items()):
+        one = evidence.relation(name)
+        fits = name in held and not one.leaf and (one.kind == "inequality") == (name in sided)
+        whole = fits and evidence.has_value_everywhere(factor)
+        refuse(not whole, f"`{name}` is not shown to follow everywhere, or has a cofactor without a value")
+        total.append(times(factor, one.left))
+    evidence.identity(substituted(add(*total), {"tdot": ONE}), ZERO, "what is left over")
+    return False
+
+
+def conflict(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
+    """The constraints cannot all be met, and without any one of them the others can."""
+    names = names_told(claim)
+    owned = {name: evidence.owned(name, ("finite", "velocity", "inequality")) for name in names}
+    refuted(evidence, claim["refutation"], verified, [one for found in owned.values() for one in found])
+    for name in names:
+        others = [one for other in names if other != name for one in owned[other]]
+        refuse(any(evidence.relation(one).kind == "inequality" for one in others), "an inequality conflicts by itself")
+        if others:
+            moves(evidence, claim["minimal"][name], others)
+    return names

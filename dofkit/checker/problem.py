@@ -13,15 +13,13 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from hashlib import sha256
 from itertools import chain, islice
-from typing import Any
+from typing import Any, NamedTuple
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
-from ruamel.yaml.events import CollectionEndEvent, CollectionStartEvent, MappingEndEvent, ScalarEvent
 
 from dofkit.checker.constraints import TYPES, Entry, Surroundings, known_fields
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
@@ -30,7 +28,8 @@ from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
 from dofkit.checker.values import TIME_RATE, symbols_in
 
 MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 20_000
-_NULLS = ("", "~", "null", "Null", "NULL")
+#: What is as good as left out; no name is one of these.
+_NULLS = (None, "", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
 #: Keys that say nothing of the mathematics, and values that are as good as left out.
 _SILENT, _DEFAULTS = ("name", "title", "source", "notes", "expect"), {"dimension": 3, "tolerance": 0}
@@ -61,21 +60,12 @@ def _mapping(pairs: list[tuple[Any, Any]]) -> dict[str, Any]:
 
 
 def _from_yaml(text: str) -> Any:
-    """A document from the events of a YAML text: no tags, no aliases, and nothing but texts and nulls."""
-    stack: list[list[Any]] = [[]]
-    for event in YAML(typ="safe", pure=True).parse(text):
+    """A document from a YAML text: no tags, no aliases, and nothing but texts."""
+    reader = YAML(typ="base", pure=True)
+    for event in reader.parse(text):
         odd = getattr(event, "tag", None) not in (None, "!") or getattr(event, "anchor", None)
-        refuse(odd or len(stack) > DEEPEST, "tags, aliases and depths are not read")
-        if isinstance(event, ScalarEvent):
-            stack[-1].append(None if event.value in _NULLS and not event.style else event.value)
-        elif isinstance(event, CollectionStartEvent):
-            stack.append([])
-        elif isinstance(event, CollectionEndEvent):
-            found = stack.pop()
-            pairs = list(zip(found[::2], found[1::2], strict=False))
-            stack[-1].append(_mapping(pairs) if isinstance(event, MappingEndEvent) else found)
-    refuse(len(stack[0]) != 1, "one document is needed")
-    return stack[0][0]
+        refuse(odd, "tags and aliases are not read")
+    return reader.load(text)
 
 
 def canonical(document: object) -> dict[str, Any]:
@@ -92,15 +82,17 @@ def _canonical(value: Any, key: str, depth: int) -> Any:
         value = _mapping([(name, None) for name in value])
     if isinstance(value, Mapping):
         missing = "real" if key == "parameters" else None
-        parts = [(name, missing if part is None else part) for name, part in value.items()]
+        parts = [(name, missing if part in _NULLS else part) for name, part in value.items()]
         found = _mapping([(name, _canonical(part, name, depth + 1)) for name, part in parts])
         return {name: part for name, part in found.items() if part not in (None, {}, [])}
     if isinstance(value, (list, tuple)):
         short, rest = _SHORT.get(key, ("", {}))
         longer = [{**rest, short: one} if short and isinstance(one, str) else one for one in value]
         return [_canonical(one, "" if short else key, depth + 1) for one in longer]
-    if value is None or isinstance(value, bool) or (key == "name" and isinstance(value, str)):
+    if isinstance(value, bool) or (key == "name" and isinstance(value, str)):
         return value
+    if value in _NULLS:
+        return None
     match = _VALUE.fullmatch(str(value)) if len(str(value)) <= LONGEST_VALUE else None
     refuse(match is None and not isinstance(value, str), f"{str(value)[:40]} cannot stand in a document")
     exact = Fraction(match[1]) / int(match[2] or 1) if match else Fraction(0)
@@ -113,11 +105,10 @@ def sha256_of(document: object) -> str:
     return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
-@dataclass(frozen=True)
-class CheckedRelation:
+class CheckedRelation(NamedTuple):
     """One scalar relation: ``left`` = 0, or of an inequality ``left`` > 0 (``strict``) or >= 0.
 
-    ``kind``: ``finite``, ``velocity`` or ``inequality``.
+    ``kind``: ``finite``, ``velocity`` or ``inequality``; ``leaf``: an integral, which keeps its value at the point.
     """
 
     name: str
@@ -125,22 +116,19 @@ class CheckedRelation:
     kind: str
     left: Tree
     strict: bool = False
+    leaf: bool = False
 
 
-@dataclass(frozen=True)
-class CheckedProblem:
+class CheckedProblem(NamedTuple):
     """What a scene says. ``parameters``: those that stay symbols; ``reference`` holds at t = 0, empty where none is."""
 
     dimension: int
     coordinates: tuple[str, ...]
     parameters: Mapping[str, str]
-    functions: Mapping[str, int]
+    functions: Mapping[str, tuple[str, ...]]
     relations: tuple[CheckedRelation, ...]
     generic: tuple[str, ...]
     reference: Mapping[str, Tree]
-
-
-Problem = CheckedProblem
 
 
 def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> CheckedProblem:
@@ -156,8 +144,8 @@ def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset
     names = [*coordinates, *world.names.values, *world.names.functions, *world.generic]
     for told in (names, [one.name for one in relations]):
         refuse(len({*told}) < len(told), "a name is that of a generic symbol, or relations have one name")
-    arity = {name: len(own) for name, own in world.names.functions.items()}
-    return CheckedProblem(world.dimension, coordinates, world.signs, arity, relations, tuple(world.generic), reference)
+    functions, generic = world.names.functions, tuple(world.generic)
+    return CheckedProblem(world.dimension, coordinates, world.signs, functions, relations, generic, reference)
 
 
 def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, tuple[str, ...], dict[str, Tree]]:
@@ -176,13 +164,13 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
             world.signs[name] = value
         values[name] = symbol(name) if value in SIGNS else world.expression(value)
         world.names = KnownNames(values=dict(values))
-    refuse(not all(isinstance(given, list) for given in functions.values()), "a function has a list of arguments")
     own = [spelled_out(name) for name in (*written, *values, *functions)]
     every = KnownNames(frozenset([*written, *coordinates]), values, functions)
     twice = len({*own, *BUILT_IN, TIME_RATE}) <= len(own) + len(BUILT_IN)
     names = (*own, *map(spelled_out, coordinates))
-    plain = all(re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and not every.moved(name) for name in names)
-    refuse(twice or not plain, "a name is taken, or not made of letters and digits")
+    words = (re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and name not in _NULLS for name in names)
+    plain = all(words) and not any(map(every.moved, names)) and all(isinstance(v, list) for v in functions.values())
+    refuse(twice or not plain, "a name is taken, or not made of letters, or a function has no list of arguments")
     given = {q: world.expression(value) for q, value in scene.get("configuration", {}).items()}
     refuse(not given.keys() <= {*written}, "the configuration mentions what is no coordinate")
     world.names = KnownNames(frozenset(written).intersection(coordinates), values, functions)

@@ -8,18 +8,18 @@ point, and others to have a value there, so that it is true near the point.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar, cast
 
 from flint import arb
 
 from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.grammar import KnownNames, parse
-from dofkit.checker.problem import Problem
+from dofkit.checker.problem import CheckedProblem as Problem
+from dofkit.checker.problem import CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, heads_in, substituted, symbols_in
+from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, heads_in, symbols_in
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -38,16 +38,12 @@ class CheckedTexts:
         self.variables: tuple[str, ...] = (*problem.coordinates, "t")
         self.velocities = frozenset(name + "dot" for name in self.variables)
         self.chosen = frozenset((*problem.parameters, *problem.generic))
-        self.functions = {name: tuple(f"a{i}" for i in range(k)) for name, k in problem.functions.items()}
-        taken = self.chosen.union(problem.coordinates)
-        self.forms = {f"d{q}": symbol(f"{q}dot") for q in self.variables if f"d{q}" not in taken}
 
     def once(self, key: Any, look: Callable[[], Looked]) -> Looked:
         """What was looked at under a key before, or is now."""
         if key not in self.seen:
             self.seen[key] = look()
-        found: Looked = self.seen[key]
-        return found
+        return cast(Looked, self.seen[key])
 
     def text(self, text: Any, extra: Iterable[str] = ()) -> Tree:
         """The tree of a text; ``extra`` are further names it may mention."""
@@ -57,8 +53,10 @@ class CheckedTexts:
     def _read(self, text: str, extra: tuple[str, ...]) -> Tree:
         self.effort.spend(10 * len(text) + 1)
         values = {name: symbol(name) for name in (*sorted(self.chosen), "tdot", *extra)}
-        names = KnownNames(frozenset(self.problem.coordinates), values, self.functions)
-        return substituted(parse(text, names), self.forms)
+        names = KnownNames(frozenset(self.problem.coordinates), values, self.problem.functions)
+        tree = parse(text, names)
+        refuse("dt" in symbols_in(tree), "an expression holds velocities, and no differentials")
+        return tree
 
     def identity(self, left: Tree, right: Tree, what: str) -> None:
         """`CheckError` unless two trees are the same in the ring."""
@@ -71,8 +69,8 @@ class CheckedTexts:
     def squares(self, terms: Any) -> Tree:
         """A sum of squares, which have a value everywhere, with positive coefficients."""
         pairs = [(self.text(c), self.text(a)) for c, a in terms]
-        refuse(not all(self.is_nowhere_zero(c, True) for c, _ in pairs), "a coefficient of a square is not positive")
-        refuse(not all(self.has_value_everywhere(a) for _, a in pairs), "a square has no value everywhere")
+        fit = all(self.is_nowhere_zero(c, True) and self.has_value_everywhere(a) for c, a in pairs)
+        refuse(not fit, "a coefficient of a square is not positive, or a square has no value everywhere")
         return add(*(times(c, power(a, TWO)) for c, a in pairs))
 
     def is_open(self, tree: Tree) -> bool:
@@ -90,42 +88,35 @@ class CheckedTexts:
         """Whether a tree is a product of powers of numbers and parameters that are not 0, or are positive."""
         return nowhere_zero(tree, self.problem.parameters, self.effort, positive)
 
-    def has_value_everywhere(self, tree: Tree) -> bool:
-        """Whether a tree is smooth (analytic, but for declared functions) at all real values of its symbols."""
+    def has_value_everywhere(self, tree: Tree, poles: bool = False) -> bool:
+        """Whether a tree is smooth (analytic, but for declared functions) at all real values of its symbols.
+
+        With ``poles``: whether it is a quotient of such trees.
+        """
         if not symbols_in(tree):
             return evaluated(tree, {}, self.effort) is not None
         exponent = tree.below[1].value if tree.head == "power" else None
-        plain = isinstance(exponent, Fraction) and exponent.denominator == 1 and exponent > 0
-        plain |= tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True)
-        return (plain or tree.head in _PLAIN) and all(map(self.has_value_everywhere, tree.below))
+        plain = isinstance(exponent, Fraction) and exponent.denominator == 1 and (poles or exponent > 0)
+        plain |= tree.head in _PLAIN or (tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True))
+        poles &= tree.head in ("sum", "product", "power")
+        return plain and all(self.has_value_everywhere(part, poles) for part in tree.below)
 
 
-@dataclass(frozen=True)
-class Consequence:
+class Consequence(NamedTuple):
     """``target`` holds where all ``sources`` do, where the ``nonzero`` are not 0 and the ``defined`` have a value.
 
-    Made by a ``step``; near the point ``at`` only, where one is named.
+    Near the point ``at`` only, where one is named.
     """
 
     target: str
     sources: tuple[str, ...]
     nonzero: tuple[Tree, ...] = ()
     defined: tuple[Tree, ...] = ()
-    step: str = ""
     at: str | None = None
 
 
-@dataclass(frozen=True)
-class DerivedRelation:
-    """``left`` = 0; ``kind`` finite or velocity; ``leaf``: an integral, which keeps its value at the point."""
-
-    name: str
-    kind: str
-    left: Tree
-    leaf: bool = False
-
-
-Made = tuple[list[DerivedRelation], list[Consequence]]
+#: What a step makes: the left sides of relations, and consequences.
+Made = tuple[dict[str, Tree], list[Consequence]]
 
 
 def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
@@ -139,8 +130,7 @@ class CheckedRelations(CheckedTexts):
     def __init__(self, problem: Problem, parts: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
         super().__init__(problem, effort)
         self.parts = parts
-        self.known = {one.name: DerivedRelation(one.name, one.kind, one.left) for one in problem.relations}
-        refuse(len(self.known) < len(problem.relations), "two relations of the scene have one name")
+        self.known = {one.name: one for one in problem.relations}
         self.finite, self.moving = self.owned(None, ("finite",)), self.owned(None, ("velocity",))
         self.equations = (*self.finite, *self.moving)
         self.timed = self.holds_time(self.equations)
@@ -152,44 +142,44 @@ class CheckedRelations(CheckedTexts):
         makers = {"branch": self._branch, "sos": self._squares, "rate": self._rate}
         makers |= {"implied": self._implied, "integral": self._implied}
         for step in self.parts["relations"]:
-            name = step["id"]
+            name, by = step["id"], step.get("by")
             try:
-                if "of" in step:
-                    refuse(self.relation(step["of"]).kind == "inequality", "a step is made from an equation")
-                    refuse(self.known[step["of"]].leaf and step["by"] != "rate", "an integral has a rate, and no more")
+                of = self.relation(step["of"]) if "of" in step else None
+                wrong = of and (of.kind == "inequality" or (of.leaf and by != "rate"))
+                refuse(wrong, "a step is made from an equation, and of an integral there is a rate and no more")
                 relations, consequences = makers[step["by"]](step)
-                taken = not self.known.keys().isdisjoint((name, *(one.name for one in relations)))
-                refuse(taken, "a name of this step is taken")
-                self.known.update({one.name: one for one in relations})
-                self.consequences += [replace(one, step=name) for one in consequences]
+                refuse(not self.known.keys().isdisjoint((name, *relations)), "a name of this step is taken")
+                for new, left in relations.items():
+                    kind = "velocity" if self.met_by(left) else "finite"
+                    self.known[new] = CheckedRelation(new, "", kind, left, leaf=by == "integral")
+                self.consequences += consequences
             except FAULTS as error:
                 self.faults[name] = f"step `{name[:60]}`: {told(error)}"
-
-    def _derived(self, name: str, left: Tree) -> DerivedRelation:
-        return DerivedRelation(name, "velocity" if self.met_by(left) else "finite", left)
 
     def _branch(self, step: dict[str, Any]) -> Made:
         """A product is 0 where a factor is, and where the others are not 0 only there; so is a power of the factor."""
         of, chosen, exponent = self.relation(step["of"]), step["chosen"], step.get("power", 1)
         factors = [self.text(text) for text in step["factors"]]
-        refuse(type(chosen) is not int or not 0 <= chosen < len(factors), "the chosen factor is none of the factors")
-        refuse(type(exponent) is not int or not 1 <= exponent <= 64, "a power is a whole number from 1")
+        whole = type(chosen) is type(exponent) is int and 0 <= chosen < len(factors) and 1 <= exponent <= 64
+        refuse(not whole, "there is no such factor, or power")
         base = factors.pop(chosen)
         self.identity(of.left, times(power(base, number(exponent)), *factors), "the product of the factors")
-        others = [one for one in factors if one != symbol("tdot") and not self.is_nowhere_zero(one)]
+        sure = [symbol("tdot")]
+        for positive in step.get("positive", []):
+            refuse(not self.is_nowhere_zero(self.text(positive["plus"]), True), "what is added to squares is positive")
+            sure.append(add(self.text(positive["plus"]), self.squares(positive["sos"])))
+        others = [one for one in factors if not self.is_nowhere_zero(one) and not any(self.same(one, s) for s in sure)]
         refuse(any(map(self.met_by, others)), "another factor holds velocities")
-        new, defined = self._derived(step["id"], base), (base, *factors)
-        down = Consequence(new.name, (of.name,), tuple(others), defined)
-        return [new], [down, Consequence(of.name, (new.name,), (), defined)]
+        name, defined = step["id"], (base, *factors)
+        down = Consequence(name, (of.name,), tuple(others), defined)
+        return {name: base}, [down, Consequence(of.name, (name,), (), defined)]
 
     def _squares(self, step: dict[str, Any]) -> Made:
         """A sum of squares with coefficients of one sign is 0 where every square is."""
         of, total = self.relation(step["of"]), self.squares(step["terms"])
-        if not self.same(of.left, negative(total)):
-            self.identity(of.left, total, "the sum of squares")
-        new = [self._derived(f"{step['id']}.{i}", self.text(a)) for i, (_, a) in enumerate(step["terms"], 1)]
-        names = tuple(one.name for one in new)
-        return new, [*(Consequence(name, (of.name,)) for name in names), Consequence(of.name, names)]
+        refuse(not any(self.same(of.left, one) for one in (total, negative(total))), "it is no sum of these squares")
+        new = {f"{step['id']}.{i}": self.text(a) for i, (_, a) in enumerate(step["terms"], 1)}
+        return new, [*(Consequence(name, (of.name,)) for name in new), Consequence(of.name, tuple(new))]
 
     def _implied(self, step: dict[str, Any]) -> Made:
         """h g = sum c_i r_i: g is 0 where all r_i are and h is not; a function with the rate g keeps its value.
@@ -207,15 +197,14 @@ class CheckedRelations(CheckedTexts):
         self.identity(times(h, change), total, "the cofactors")
         needs, target = () if self.is_nowhere_zero(h) else (h,), step["id" if leaf else "of"]
         defined = (h, *cofactors, left) if leaf else (h, *cofactors)
-        new = [DerivedRelation(target, "finite", left, True)] if leaf else []
-        return new, [Consequence(target, tuple(step["c"]), needs, defined)]
+        return {target: left} if leaf else {}, [Consequence(target, tuple(step["c"]), needs, defined)]
 
     def _rate(self, step: dict[str, Any]) -> Made:
         """What is constantly 0, or keeps its value, has the derivative 0."""
         of = self.relation(step["of"])
         refuse(of.kind != "finite", "only a finite relation has a rate")
-        new = DerivedRelation(step["id"], "velocity", total_derivative(of.left, self.variables))
-        return [new], [Consequence(new.name, (of.name,), (), (of.left,))]
+        rate = total_derivative(of.left, self.variables)
+        return {step["id"]: rate}, [Consequence(step["id"], (of.name,), (), (of.left,))]
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
         """The relations of a constraint, or of all."""
@@ -226,7 +215,7 @@ class CheckedRelations(CheckedTexts):
         """Whether time or dt occurs in a relation."""
         return any(not {"t", "tdot"}.isdisjoint(symbols_in(self.relation(name).left)) for name in names)
 
-    def relation(self, name: Any) -> DerivedRelation:
+    def relation(self, name: Any) -> CheckedRelation:
         """A relation by its id."""
         if name not in self.known:
             raise CheckError(self.faults.get(str(name).partition(".")[0], f"no relation `{str(name)[:60]}`"))
@@ -259,7 +248,6 @@ class CheckedRelations(CheckedTexts):
             try:
                 values = [point.value_with(tree, wide) for tree in (*one.nonzero, *one.defined)]
             except CheckError:
-                refuse(self.effort.left < 0, "the work that a certificate may cost is used up")
                 return False
             return one.at in (None, point.name) and all(map(excludes_zero, values[: len(one.nonzero)]))
 

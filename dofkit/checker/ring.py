@@ -17,13 +17,10 @@ from typing import Any, NamedTuple, TypeVar
 
 from flint import fmpq, fmpq_mpoly_ctx, fmpz
 
-from dofkit.checker.trees import CheckError, Effort, Tree, add, call, negative, number, refuse, times
+from dofkit.checker.trees import CheckError, Effort, Tree, refuse
 
 LARGEST_POWER, LARGEST_FORM, LARGEST_MULTIPLE, MOST_KNOWN = 128, 60_000, 64, 20_000
 Factor = TypeVar("Factor")
-_SIX, _TWO = (times(number(Fraction(1, 4)), call("sqrt", number(k))) for k in (6, 2))
-#: Cosine and sine of pi / 12.
-PI, TWELFTH = Tree("pi"), (add(_SIX, _TWO), add(_SIX, negative(_TWO)))
 
 
 class Quotient(NamedTuple):
@@ -67,10 +64,12 @@ class QuotientRing:
             self.rules[place] = order, self.generators[place] ** order - rule
         return Quotient(self.generators[place], self.one)
 
+    def _pay(self, first: Any, second: Any) -> None:
+        self.effort.spend(len(first) * len(second) + 1)
+        refuse(len(first) * len(second) > 100 * LARGEST_FORM, "an expression is too large to be multiplied out")
+
     def _product(self, first: Any, second: Any) -> Any:
-        cost = len(first) * len(second)
-        self.effort.spend(cost + 1)
-        refuse(cost > 100 * LARGEST_FORM, "an expression is too large to be multiplied out")
+        self._pay(first, second)
         return self._replaced(first * second)
 
     def _replaced(self, polynomial: Any) -> Any:
@@ -79,9 +78,7 @@ class QuotientRing:
         for place in sorted(self.rules, reverse=True):
             order, rule = self.rules[place]
             if degrees[-1 - place] >= order:
-                cost = len(polynomial) * len(rule)
-                self.effort.spend(cost)
-                refuse(cost > 100 * LARGEST_FORM, "an expression is too large to be multiplied out")
+                self._pay(polynomial, rule)
                 polynomial %= rule
                 degrees = polynomial.degrees()
         refuse(len(polynomial) > LARGEST_FORM, "an expression is too large when it is multiplied out")
@@ -160,23 +157,18 @@ class CheckedRing(QuotientRing):
 
     def vanishes(self, tree: Tree) -> bool:
         """Whether the normal form is 0: then the tree is 0 wherever it has a value."""
-        return bool(self.normal(tree).above == 0)
+        return bool(self.read(tree).above == 0)
 
-    def rational(self, tree: Tree) -> Fraction | None:
-        """The rational number that a tree is, where its normal form is one."""
-        value = self.value_of(self.normal(tree))
-        return None if value is None else Fraction(int(value.p), int(value.q))
-
-    def normal(self, tree: Tree) -> Quotient:
-        """The normal form of a tree."""
-        if len(self.memory) > MOST_KNOWN:
-            self.memory.clear()
-        return self.read(tree)
+    def rational(self, tree: Tree) -> Any:
+        """The rational number that a tree is, where its normal form is one; else None."""
+        return self.value_of(self.read(tree))
 
     def read(self, tree: Tree) -> Quotient:
-        """The normal form of one node, from those below it."""
+        """The normal form of a tree, from those of what is below."""
         if id(tree) not in self.memory:
             self.effort.spend(1)
+            if len(self.memory) > MOST_KNOWN:
+                self.memory.clear()
             self.memory[id(tree)] = (tree, self._read(tree))
         return self.memory[id(tree)][1]
 
@@ -215,18 +207,12 @@ class CheckedRing(QuotientRing):
         """Cosine and sine of an argument."""
         found = still = (self.constant(1), self.constant(0))
         for key, parts, multiple in self._atoms(u):
-            cosine, sine = repeated(still, self._unit(key, parts), abs(multiple), self._rotated)
+            unit = self.generator(("cos", key, parts))
+            other = self.generator(("sin", key, parts), 2, 1 - unit.above**2)
+            cosine, sine = repeated(still, (unit, other), abs(multiple), self._rotated)
             found = self._rotated(found, (cosine, sine if multiple > 0 else self.minus(still[1], sine)))
         return found
 
     def _rotated(self, one: tuple[Quotient, Quotient], by: tuple[Quotient, Quotient]) -> tuple[Quotient, Quotient]:
         (c, s), (d, r) = one, by
         return self.minus(self.times(c, d), self.times(s, r)), self.plus(self.times(s, d), self.times(c, r))
-
-    def _unit(self, key: Any, parts: int) -> tuple[Quotient, Quotient]:
-        """Cosine and sine of a part of an atom."""
-        if 12 % parts == 0 and key == self.key(self.read(PI)):
-            cosine, sine = map(self.read, TWELFTH)
-            return repeated(self._turned(self.constant(0)), (cosine, sine), 12 // parts, self._rotated)
-        cosine = self.generator(("cos", key, parts))
-        return cosine, self.generator(("sin", key, parts), 2, 1 - cosine.above**2)

@@ -112,10 +112,10 @@ def difference(a: Tree, b: Tree) -> Tree:
 
 
 def power(base: Tree, exponent: Tree) -> Tree:
-    """A power; exponents 0 and 1 are carried out."""
+    """A power; exponents 0 and 1, and powers of 1, are carried out."""
     if exponent == ONE:
         return base
-    return ONE if exponent == ZERO else Tree("power", (base, exponent))
+    return ONE if base == ONE or exponent == ZERO else Tree("power", (base, exponent))
 
 
 def call(name: str, *arguments: Tree) -> Tree:

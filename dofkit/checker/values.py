@@ -143,32 +143,19 @@ def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
     return folded(tree, of)
 
 
-def _differentials(tree: Tree, coordinates: Collection[str]) -> dict[str, Tree]:
-    """The differentials in a tree, and what they are over dt."""
-    found = {name for name in symbols_in(tree) if name == "dt" or (name[0] == "d" and name[1:] in coordinates)}
-    return {name: ONE if name == "dt" else symbol(f"{name[1:]}dot") for name in found}
-
-
-def over_time(tree: Tree, coordinates: Collection[str]) -> Tree:
-    """A tree over dt: ``dx/dt`` is the velocity."""
-    moved = _differentials(tree, coordinates)
-    linear = homogeneous_degree(tree, moved) == 1
-    return substituted(tree, moved) if linear else times(tree, power(symbol("dt"), MINUS))
-
-
 def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
-    """A relation with velocities in the place of differentials: over the power of dt in which it is homogeneous.
+    """A relation in velocities, without ``dt``: over the power of it in which the relation is homogeneous.
 
     What is linear in velocities becomes a form, its terms without one times ``tdot``.
     """
-    moved = _differentials(tree, coordinates)
-    refuse(moved and homogeneous_degree(tree, moved) is None, "differentials and finite terms are added together")
-    tree = substituted(tree, moved)
+    degree = homogeneous_degree(tree, ["dt"])
+    refuse(degree is None, "differentials and finite terms are added together")
+    tree = substituted(tree, {"dt": ONE})
     parts = linear_in(tree, [f"{q}dot" for q in coordinates])
     if parts is None:
         return tree
     form = [times(slope, symbol(rate)) for rate, slope in parts[0].items()]
-    return add(*form, times(parts[1], symbol(TIME_RATE))) if form or moved else parts[1]
+    return add(*form, times(parts[1], symbol(TIME_RATE))) if form or degree else parts[1]
 
 
 def excludes_zero(ball: Any) -> bool:
@@ -226,28 +213,6 @@ def _raised(node: Tree, u: Any, other: Any) -> Any:
     return u if zero else u**other
 
 
-def interval_newton(
-    equations: Sequence[Tree], centre: Mapping[str, Any], radius: Any, value: Callable[[Tree, Mapping[str, Any]], Any]
-) -> dict[str, Any]:
-    """Balls for the only zero of as many equations as unknowns within a box around ``centre``.
-
-    Where all matrices in F'(X) are regular and y - F'(X)^-1 F(y) lies inside X, F has exactly one zero in X, and it
-    lies there (Moore 1966, Nickel 1971). ``value`` gives the ball of a tree, from those of the unknowns.
-    """
-    with ctx.workprec(PRECISION):
-        middle = {name: ball.mid() for name, ball in centre.items()}
-        box = {name: ball + arb(0, radius) for name, ball in middle.items()}
-        smooth = all(value(equation, box).is_finite() for equation in equations)
-        slopes = arb_mat([[value(derivative(equation, name), box) for name in centre] for equation in equations])
-        values = arb_mat([[value(equation, middle)] for equation in equations])
-        steps = slopes.solve(values, nonstop=True, algorithm="precond")
-        found = {name: middle[name] - steps[i, 0] for i, name in enumerate(centre)}
-        for name, ball in found.items():
-            inside = smooth and box[name].contains_interior(ball)
-            refuse(not inside, f"interval Newton does not certify a zero: `{name}` leaves its box")
-        return found
-
-
 @dataclass
 class CheckedPoint:
     """A point that was checked: ``exact`` values, ``functions`` chosen, and ``balls`` for all symbols.
@@ -285,6 +250,20 @@ class CheckedPoint:
             refuse(rows and not excludes_zero(arb_mat(rows).det()), "the minor may be 0")
 
     def settle(self, equations: Sequence[Tree], columns: Sequence[str], radius: Any) -> None:
-        """The balls of columns become those of the only zero of as many equations in a box around them."""
-        centre = {name: self.balls[name] for name in columns}
-        self.balls |= interval_newton(equations, centre, radius, self.value_with)
+        """The balls of columns become those of the only zero of as many equations in a box around them.
+
+        Where all matrices in F'(X) are regular and y - F'(X)^-1 F(y) lies inside X, F has exactly one zero in X, and it
+        lies there (Moore 1966, Nickel 1971).
+        """
+        refuse(not radius > 0, "the radius of a box is positive")
+        with ctx.workprec(PRECISION):
+            middle = {name: self.balls[name].mid() for name in columns}
+            box = {name: ball + arb(0, radius.mid()) for name, ball in middle.items()}
+            smooth = all(self.value_with(equation, box).is_finite() for equation in equations)
+            slopes = [[self.value_with(derivative(equation, name), box) for name in columns] for equation in equations]
+            values = arb_mat([[self.value_with(equation, middle)] for equation in equations])
+            steps = arb_mat(slopes).solve(values, nonstop=True, algorithm="precond")
+            for i, name in enumerate(columns):
+                self.balls[name] = middle[name] - steps[i, 0]
+                inside = smooth and box[name].contains_interior(self.balls[name])
+                refuse(not inside, f"interval Newton does not certify a zero: `{name}` leaves its box")

@@ -26,7 +26,7 @@ def verification_lines(given: CertificateGiven) -> Json:
     except (CheckError, DofkitError, ValueError) as error:
         return _unread(given, " ".join(str(error).split()))
     refused = bool(found.failed) or (given.strict and bool(found.uncovered))
-    out = json.dumps(found.as_json(), ensure_ascii=given.ascii_only) if given.as_json else _text(found)
+    out = json.dumps(found._asdict(), ensure_ascii=given.ascii_only) if given.as_json else _text(found)
     return {"out": out + "\n", "err": "", "status": REFUSED if refused else VERIFIED}
 
 

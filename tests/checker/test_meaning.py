@@ -13,7 +13,8 @@ import pytest
 from checker.values import of_engine, of_tree, rows_of_engine, rows_of_trees
 from shared.known_scenes import SCENES, few, scene_of, stem
 
-from dofkit.checker.problem import Problem, document_of, read_problem
+from dofkit.checker.problem import CheckedProblem as Problem
+from dofkit.checker.problem import document_of, read_problem
 from dofkit.checker.values import symbols_in
 from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.tree import Expr, coordinate, parameter, sym, velocity

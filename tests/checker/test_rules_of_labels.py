@@ -203,8 +203,18 @@ def test_time():
         ],
     }
     on = {**parts, "points": [{"id": "P", "values": {**parts["points"][0]["values"], "x": "1", "y": "1"}}]}
+    square = {"plus": "1", "sos": [["1", "t"]]}
+    dropped = about("c3", "scleronomic", True, "timeless", steps=["g"])
+    for positive, good in (
+        (square, True),
+        ({**square, "plus": "2"}, False),
+        ({"plus": "1+2*t^2", "sos": [["-1", "t"]]}, False),
+    ):
+        steps = [{**parts["relations"][0], "positive": [positive]}]
+        assert accepted(scene, [dropped], **{**on, "relations": steps}) is good
+        assert not accepted(scene, [{**dropped, "path": "/constraints/c6/scleronomic"}], **{**on, "relations": steps})
     good = [
-        about("c4", "scleronomic", True, "timeless", degree={"c4": "7"}),
+        about("c4", "scleronomic", True, "timeless"),
         about("c2", "scleronomic", False, "turns", relation="c2", at="P"),
         about("c2", "catastatic", False, "turns", relation="c2", at="P"),
         about("c6", "scleronomic", False, "turns", relation="c6", at="P", pair=["x", "y"]),
@@ -218,8 +228,7 @@ def test_time():
         about("c3", "scleronomic", True, "timeless"),
         about("c3", "scleronomic", False, "turns", relation="c3", at="P", pair=["x", "y"]),
         about("c8", "scleronomic", False, "turns", relation="c8", at="P"),
-        about("c4", "scleronomic", True, "timeless", degree={"c4": "6"}),
-        about("c5", "scleronomic", True, "timeless", degree={"c5": "2"}),
+        about("c5", "scleronomic", True, "timeless"),
         about("c4", "scleronomic", False, "turns", relation="c4", at="P"),
         about("c2", "scleronomic", True, "timeless"),
         about("c2", "catastatic", True, "timeless"),

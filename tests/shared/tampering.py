@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from dofkit.checker import CheckError, Verification, verify
-from dofkit.checker.format import PARTS
 from dofkit.checker.problem import sha256_of
+from dofkit.checker.verification import PARTS
 
 #: Where a value stands: keys and places.
 Place = tuple[Any, ...]

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeVar
 
-from dofkit.checker.format import PARTS
-from dofkit.checker.problem import Problem, canonical, read_problem, sha256_of
+from dofkit.checker.problem import CheckedProblem as Problem
+from dofkit.checker.problem import canonical, read_problem, sha256_of
 from dofkit.checker.trees import CheckError
+from dofkit.checker.verification import PARTS
 from dofkit.methods.certificates import emptiness, forms, freedom, labels
 from dofkit.methods.certificates.contradictions import (
     Contradiction,

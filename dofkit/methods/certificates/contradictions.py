@@ -11,9 +11,9 @@ from copy import copy
 from typing import Any, NamedTuple
 
 from dofkit.checker.fields import admissible, field_named, involutive, span
+from dofkit.checker.label_rules import consistent, moves
 from dofkit.checker.trees import CheckError, add, negative, number, times
 from dofkit.checker.values import along, derivative, excludes_zero
-from dofkit.checker.whole_rules import consistent, moves
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.everywhere import graph_order
 from dofkit.methods.certificates.forms import Words, involutive_rows, tangent_fields, words_of

@@ -71,8 +71,8 @@ def polynomials(room: Room, trees: Sequence[Tree]) -> tuple[list[Polynomial], li
     ring = room.scenery.evidence.ring
     put_in = [substituted(tree, {"tdot": ONE}) for tree in trees]
     for tree in put_in:
-        ring.normal(tree)
-    normals = [ring.normal(tree) for tree in put_in]
+        ring.read(tree)
+    normals = [ring.read(tree) for tree in put_in]
     if any(not normal.below.is_constant() for normal in normals):
         return None
     found = []

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from dofkit.checker.fields import LARGEST_CRAMER, VelocityField, bracket, field_named
-from dofkit.checker.trees import CheckError, Tree
+from dofkit.checker.evidence import CheckedEvidence
+from dofkit.checker.fields import VelocityField, bracket, field_named
+from dofkit.checker.trees import ZERO, CheckError, Tree, negative
 from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError, Values
 from dofkit.methods.certificates.found_points import FoundPoint
+from dofkit.methods.certificates.integrals import LARGEST_CRAMER, determinant
 from dofkit.methods.certificates.rigid_fields import field_id, parts_of
 from dofkit.methods.certificates.room import Room, Standing, Told
+from dofkit.methods.certificates.texts import text_of
 
 LONGEST, MOST_WORDS, LARGEST_TREE = 7, 60, 30_000
 
@@ -40,9 +43,21 @@ def tangent_fields(room: Room, standing: Standing) -> list[str] | None:
         touched = _touched(room, standing, one)
         if len(touched) > LARGEST_CRAMER:
             return None
-        given = {"rows": touched, "columns": [pairs[row] for row in touched], "free": one}
-        found.append(field_id(scenery, {"cramer": given}))
+        components = _by_cramer(evidence, touched, [pairs[row] for row in touched], one)
+        found.append(field_id(scenery, {"components": components}))
     return found
+
+
+def _by_cramer(evidence: CheckedEvidence, rows: Sequence[str], columns: Sequence[str], free: str) -> dict[str, str]:
+    """The field with the determinant of the columns at ``free``, and Cramer's numerators at the columns."""
+
+    def minor(names: Sequence[str]) -> Tree:
+        return determinant([[evidence.slope(row, name) for name in names] for row in rows])
+
+    found = {free: minor(columns)}
+    for place, column in enumerate(columns):
+        found[column] = negative(minor([*columns[:place], free, *columns[place + 1 :]]))
+    return {name: text_of(tree) for name, tree in found.items() if tree != ZERO}
 
 
 def _touched(room: Room, standing: Standing, free: str) -> list[str]:

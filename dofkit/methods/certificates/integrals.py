@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dofkit.checker.fields import LARGEST_CRAMER
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, negative, times
 from dofkit.checker.values import derivative
 from dofkit.methods.certificates.dependence import rate_of
@@ -13,6 +12,8 @@ from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.room import Room
 from dofkit.methods.certificates.texts import text_of
 
+#: The most rows of a determinant that is written out.
+LARGEST_CRAMER = 5
 Components = dict[str, Tree]
 
 

@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from dofkit.checker.trees import CheckError, Tree, add, negative, number, power, times
-from dofkit.checker.values import derivative, homogeneous_degree
+from dofkit.checker.values import derivative
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, reach, words_of
 from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.integrals import combined_integral, follows_from_integrals
+from dofkit.methods.certificates.reductions import without_factor
 from dofkit.methods.certificates.room import FAR, Room, Told
 from dofkit.methods.certificates.texts import text_of
 from dofkit.report import ConstraintEntry
@@ -188,13 +189,12 @@ def scleronomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told
 
 
 def timeless(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
-    """Time does not occur; of a nonlinear relation a degree in the velocities is told."""
-    degrees = {}
-    for name in room.scenery.evidence.owned(entry.name, ("velocity",)):
-        if field == "scleronomic" and not room.scenery.linear(name):
-            left = room.scenery.evidence.relation(name).left
-            degrees[name] = str(homogeneous_degree(left, room.scenery.evidence.velocities) or 1)
-    yield {"rule": "timeless", **({"degree": degrees} if degrees else {})}
+    """Time does not occur; what is nonlinear in velocities is homogeneous."""
+    yield {"rule": "timeless"}
+    names = room.scenery.evidence.owned(entry.name)
+    steps = [without_factor(room.scenery, name) for name in names]
+    if steps != list(names):
+        yield {"rule": "timeless", "steps": steps}
 
 
 def _turning(room: Room, name: str, field: str) -> Iterator[Told]:

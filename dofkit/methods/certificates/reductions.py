@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from dofkit.checker.trees import CheckError, Tree, number
+from dofkit.checker.trees import CheckError, Tree, add, number, power, times
 from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.scenery import Scenery
 from dofkit.methods.certificates.texts import number_text, text_of
@@ -64,3 +64,42 @@ def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
         else:
             return None
     return None if base is None or not symbols_in(base) else (coefficient, base, exponent)
+
+
+def without_factor(scenery: Scenery, name: str) -> str:
+    """The id of a step that drops a factor that is a positive number plus squares; the relation's own without one."""
+    step, left = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).left
+    if scenery.has_step(step):
+        return step
+    terms = [_factors(term) for term in (left.below if left.head == "sum" else (left,))]
+    for factor in terms[0]:
+        positive = _positive(factor)
+        if positive is None or not all(factor in term for term in terms):
+            continue
+        places = [term.index(factor) for term in terms]
+        rest = add(*(times(*term[:i], *term[i + 1 :]) for term, i in zip(terms, places, strict=True)))
+        given = {"factors": [text_of(factor), text_of(rest)], "chosen": 1, "positive": [positive]}
+        try:
+            scenery.add_step({"id": step, "by": "branch", "of": name, **given})
+        except CheckError:
+            continue
+        return step
+    return name
+
+
+def _factors(term: Tree) -> list[Tree]:
+    return [one for part in term.below for one in _factors(part)] if term.head == "product" else [term]
+
+
+def _positive(tree: Tree) -> Step | None:
+    """A sum as a positive number and squares with positive coefficients."""
+    numbers = [part.value for part in tree.below if isinstance(part.value, Fraction)]
+    squares = [_square(part) for part in tree.below if not isinstance(part.value, Fraction)]
+    terms = [
+        [number_text(one[0]), text_of(power(one[1], number(one[2] // 2)))]
+        for one in squares
+        if one is not None and one[0] > 0
+    ]
+    if tree.head != "sum" or len(terms) < len(squares) or not numbers or numbers[0] <= 0:
+        return None
+    return {"plus": number_text(numbers[0]), "sos": terms}

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.checker.label_rules import form_of
-from dofkit.checker.problem import Problem
+from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.trees import CheckError, Tree
 from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.dependence import accounted, rate_of

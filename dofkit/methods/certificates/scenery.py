@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.checker.evidence import CheckedEvidence
-from dofkit.checker.problem import Problem
+from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.trees import CheckError, Effort, Tree
 from dofkit.checker.values import substituted, symbols_in
 
@@ -38,7 +38,7 @@ class Scenery:
     @cached_property
     def functions(self) -> dict[str, dict[str, Any]]:
         """A polynomial for every unknown function."""
-        return {name: _polynomial(count, place) for place, (name, count) in enumerate(self.problem.functions.items())}
+        return {name: _polynomial(len(own), i) for i, (name, own) in enumerate(self.problem.functions.items())}
 
     @cached_property
     def parameters(self) -> dict[str, Fraction]:

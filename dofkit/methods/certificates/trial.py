@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from dofkit.checker.evidence import FAULTS, told
-from dofkit.checker.problem import Problem
+from dofkit.checker.problem import CheckedProblem as Problem
+from dofkit.checker.relations import FAULTS, told
 from dofkit.checker.verification import Verifier
 from dofkit.methods.certificates.scenery import Scenery
 
