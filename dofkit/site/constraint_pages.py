@@ -42,14 +42,14 @@ def constraint_pages(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
 
 def _pages_of(kind: str, cls: type[ConstraintBase], known: Sequence[ShownScene]) -> Iterator[SitePage]:
     written = scene_of(cls)
-    scene = shown(f"{kind}-example", FOLDER, written)
+    scene = shown(kind, FOLDER, written)
     yield SitePage(f"{FOLDER}/{kind}.svg", scene.svg)
     first, *rest = re.split(r"\n\s*\n", cleandoc(cls.__doc__ or ""))
     yield SitePage(
         f"{FOLDER}/{kind}.md",
         page(
             kind,
-            f"{prose(_sentence(_meaning(cls)))}, {_spaces(cls)}.",
+            f"{prose(_sentence(_meaning(cls)))}. It is defined {_spaces(cls)}.",
             "## Equations",
             f"{prose(first)}\n{{ .equation }}",
             *(prose(part) for part in rest),
