@@ -22,10 +22,10 @@ PACKAGE = Path(dofkit.__file__).parent
 SOURCES = {str(path.relative_to(PACKAGE)): path for path in sorted(PACKAGE.rglob("*.py"))}
 TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in SOURCES.items()}
 
-#: The chapters of the book: fifteen rooms and two contracts.
+#: The chapters of the book: the rooms, the site and two contracts.
 TOP = {
     "base", "expressions", "exact", "scene", "relations", "mobility", "configuration", "integrability",
-    "classification", "motion", "methods", "benchmark", "homework", "interface", "checker", "pictures",
+    "classification", "motion", "methods", "benchmark", "homework", "interface", "checker", "pictures", "site",
     "system.py", "report.py", "__init__.py", "__main__.py", "py.typed", "THEOREMS.md",
 }  # fmt: skip
 

@@ -1,0 +1,104 @@
+"""The build: written and generated pages side by side, the charts, and MkDocs over all of it."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from ruamel.yaml import YAML
+
+from dofkit.base.errors import DofkitError
+from dofkit.scene.catalog import catalog_folder
+from dofkit.scene.constraints import TYPES
+from dofkit.site.command_pages import command_pages
+from dofkit.site.constraint_pages import FOLDER as TYPE_FOLDER
+from dofkit.site.constraint_pages import constraint_pages
+from dofkit.site.gallery_pages import FOLDER as GALLERY
+from dofkit.site.gallery_pages import gallery_pages
+from dofkit.site.markdown import SitePage
+from dofkit.site.readme_pages import readme_pages
+from dofkit.site.report_pages import report_pages
+from dofkit.site.shown_scenes import ShownScene, catalog_scenes
+
+ROOT = Path(__file__).parents[2]
+WRITTEN = Path(__file__).parent / "pages"
+SETTINGS = Path(__file__).parent / "mkdocs.yml"
+CHARTS = ROOT / "tests" / "charts"
+#: In the settings: where the list of constraint types, and of the gallery's pages, is put.
+TYPES_HERE, GALLERY_HERE = "every constraint type", "every folder of the catalog"
+
+
+class SiteError(DofkitError):
+    """The site could not be built."""
+
+
+def build(out: Path, kept: Path | None = None) -> None:
+    """Build the site into ``out``; ``kept``: answers of earlier builds.
+
+    Raises SiteError where MkDocs is missing, or finds a broken link.
+    """
+    if importlib.util.find_spec("material") is None:
+        raise SiteError("the site is built by mkdocs-material: pip install '.[docs]'")
+    beside = out.parent / f"{out.name}-sources"
+    sources(beside, kept or out.parent / f"{out.name}-answers")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "-f", str(beside / "mkdocs.yml")]
+    told = subprocess.run([*command, "-d", str(out.resolve())], capture_output=True, text=True, check=False)
+    if told.returncode:
+        raise SiteError(f"mkdocs refused:\n{told.stdout}{told.stderr}")
+
+
+def sources(folder: Path, kept: Path) -> None:
+    """Write all that MkDocs reads into ``folder``: its settings, the pages, their pictures."""
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(WRITTEN, folder / "pages")
+    shutil.copytree(CHARTS, folder / "pages" / "charts", ignore=shutil.ignore_patterns("*.csv", "*.json"))
+    catalog = list(catalog_scenes(kept))
+    for page in generated(catalog):
+        target = folder / "pages" / page.path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(page.text, encoding="utf-8")
+    # JSON is YAML in which nothing is taken for a truth value: there is a type `on`
+    (folder / "mkdocs.yml").write_text(json.dumps(settings(catalog)), encoding="utf-8")
+
+
+def generated(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
+    """Every page and picture that is told by the package itself."""
+    yield from readme_pages((ROOT / "README.md").read_text(encoding="utf-8"))
+    yield from constraint_pages(catalog)
+    yield from report_pages()
+    yield from command_pages()
+    yield from gallery_pages(catalog, folders())
+
+
+def folders() -> dict[str, str]:
+    """What each folder of the catalog was taken from, by the catalog's own table."""
+    text = (catalog_folder() / "README.md").read_text(encoding="utf-8")
+    return {
+        name: told.strip()[:1].upper() + told.strip()[1:] for name, told in re.findall(r"\| `(\w+)` \| ([^|]+)\|", text)
+    }
+
+
+def settings(catalog: Sequence[ShownScene]) -> Any:
+    """The settings with a line of the navigation for every type and every page of the gallery."""
+    found = YAML().load(SETTINGS.read_text(encoding="utf-8"))
+    known = folders()
+    types = [f"{TYPE_FOLDER}/index.md", *({kind: f"{TYPE_FOLDER}/{kind}.md"} for kind in TYPES)]
+    shelves = dict.fromkeys(scene.folder for scene in catalog)
+    gallery = [f"{GALLERY}/index.md", *({known.get(name, name): f"{GALLERY}/{name}.md"} for name in shelves)]
+    found["nav"] = _filled(found["nav"], {TYPES_HERE: types, GALLERY_HERE: gallery})
+    return found
+
+
+def _filled(entry: Any, lists: dict[str, list[Any]]) -> Any:
+    if isinstance(entry, str):
+        return lists.get(entry, entry)
+    if isinstance(entry, dict):
+        return {key: _filled(value, lists) for key, value in entry.items()}
+    return [_filled(part, lists) for part in entry]

@@ -1,0 +1,79 @@
+"""Pieces of Markdown: prose with nothing in it taken for markup, tables, code, folds, and the page itself."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import NamedTuple
+
+_SPECIAL = re.compile(r"([\\*_<>\[\]|#])")
+_CODE = re.compile(r"(`+[^`]+`+)")
+
+
+class SitePage(NamedTuple):
+    """A generated page or picture: its place below the site's pages, and its text."""
+
+    path: str
+    text: str
+
+
+def prose(text: str) -> str:
+    """A text on one line whose words mean themselves; what stands in backticks is code.
+
+    >>> prose("``x_1`` is |a_1|")
+    '`x_1` is \\\\|a\\\\_1\\\\|'
+    """
+    parts = _CODE.split(" ".join(text.split()))
+    return "".join(code(p.strip("`")) if p.startswith("`") else _SPECIAL.sub(r"\\\1", p) for p in parts)
+
+
+def code(text: str) -> str:
+    """A text as code within a line.
+
+    >>> code("|A - B|")
+    '`|A - B|`'
+    """
+    return f"`{text}`"
+
+
+def fence(kind: str, text: str, title: str = "") -> str:
+    """Lines of code as a block."""
+    named = f' title="{title}"' if title else ""
+    return f"```{kind}{named}\n{text.strip()}\n```"
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table whose cells are prose already; a bar within code is kept from ending its cell."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(_cell(cell) for cell in line) + " |" for line in lines)
+
+
+def _cell(text: str) -> str:
+    parts = _CODE.split(text.replace("\n", " "))
+    return "".join(p.replace("|", "\\|") if p.startswith("`") else p for p in parts)
+
+
+def folded(title: str, text: str) -> str:
+    """What is opened by a click."""
+    inner = "\n".join(f"    {line}" if line else "" for line in text.splitlines())
+    return f'??? note "{title}"\n\n{inner}'
+
+
+def picture(path: str, alternative: str) -> str:
+    """A picture on paper, as an element that loads when it is reached."""
+    return f'<img class="paper" src="{escape(path)}" alt="{escape(alternative)}" loading="lazy">'
+
+
+def anchor(text: str) -> str:
+    """The name of a place in a page.
+
+    >>> anchor("Points over GF(p)")
+    'points-over-gf-p'
+    """
+    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
+
+
+def page(title: str, *parts: str) -> str:
+    """A page of a title and blocks."""
+    return "\n\n".join([f"# {title}", *(part for part in parts if part)]) + "\n"

@@ -1,0 +1,100 @@
+"""Scenes as the site shows them: text, picture and answer, kept from one build to the next."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+from dofkit.methods.classify import classify
+from dofkit.pictures.still import draw
+from dofkit.pictures.vector import svg_of
+from dofkit.report import Report
+from dofkit.scene.catalog import catalog_folder, catalog_text
+from dofkit.scene.reading import loads
+
+#: The width of a picture and of a report: pixels, columns.
+PIXELS, COLUMNS = 440.0, 88
+PACKAGE = Path(__file__).parents[1]
+
+
+class ShownScene(NamedTuple):
+    """A scene, what it looks like, and what is said of it: in a line, and whole."""
+
+    name: str
+    folder: str
+    title: str
+    written: str
+    types: tuple[str, ...]
+    svg: str
+    alternative: str
+    answer: str
+    report: str
+
+
+def catalog_scenes(kept: Path) -> Iterator[ShownScene]:
+    """Every scene of the catalog, by folder and name; ``kept``: where those of an earlier build are."""
+    kept.mkdir(parents=True, exist_ok=True)
+    for folder in sorted((entry for entry in catalog_folder().iterdir() if entry.is_dir()), key=lambda e: e.name):
+        for file in sorted(folder.iterdir(), key=lambda entry: entry.name):
+            if file.name.endswith(".yaml"):
+                name = file.name.removesuffix(".yaml")
+                yield _kept_or_shown(name, folder.name, catalog_text(name), kept)
+
+
+def _kept_or_shown(name: str, folder: str, written: str, kept: Path) -> ShownScene:
+    file = kept / f"{hashlib.sha256((_engine() + written).encode()).hexdigest()}.json"
+    if file.exists():
+        fields = json.loads(file.read_text(encoding="utf-8"))
+        return ShownScene(**{**fields, "types": tuple(fields["types"])})
+    scene = shown(name, folder, written)
+    file.write_text(json.dumps(scene._asdict()), encoding="utf-8")
+    return scene
+
+
+@cache
+def _engine() -> str:
+    """A digest of the package: what is kept is of no use to another."""
+    digest = hashlib.sha256()
+    for path in sorted(PACKAGE.rglob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def shown(name: str, folder: str, written: str) -> ShownScene:
+    """A scene with its picture and its answers. Raises SceneError where it cannot be read."""
+    scene = loads(written, name)
+    report = classify(scene)
+    drawn = draw(scene, report)
+    return ShownScene(
+        name=name,
+        folder=folder,
+        title=scene.title or name,
+        written=written,
+        types=tuple(dict.fromkeys(entry.type for entry in report.constraints)),
+        svg=svg_of(drawn.page, PIXELS),
+        alternative=drawn.alternative,
+        answer=in_a_line(report),
+        report=report.text(COLUMNS),
+    )
+
+
+def in_a_line(report: Report) -> str:
+    """The freedom, the velocities, the system's labels, and how sure."""
+    if report.consistent is False:
+        return f"inconsistent: {', '.join(report.conflicting or ())} ({report.verdict})"
+    parts = [f"f = {'open' if report.dof is None else report.dof}"]
+    if report.velocity_dof is not None and report.velocity_dof != report.dof:
+        parts.append(f"{report.velocity_dof} velocities")
+    for told, yes, no in (
+        (report.holonomic, "holonomic", "non-holonomic"),
+        (report.scleronomic, "scleronomic", "rheonomic"),
+    ):
+        if told is not None and report.constraints:
+            parts.append(yes if told else no)
+    if report.redundant:
+        parts.append(f"redundant: {', '.join(report.redundant)}")
+    return f"{', '.join(parts)} ({report.verdict})"

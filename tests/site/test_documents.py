@@ -1,0 +1,84 @@
+"""Every block of code in the README and the site runs, and prints what is shown."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from shared.documented import (
+    DOCUMENTS,
+    INSTALLS,
+    ROOT,
+    Block,
+    Command,
+    blocks_of,
+    commands_of,
+    holds,
+    name_of,
+    run,
+    run_command,
+    written_to,
+)
+
+import dofkit
+
+#: Kinds of blocks: data, what runs, and what is shown.
+KINDS = {"yaml", "csv", "python", "sh", "text"}
+#: Files that are no scene, or one with faults.
+NO_SCENES = ("sheet.yaml", "ada.yaml", "broken.yaml")
+PROGRAMS = [(document, block) for document in DOCUMENTS for block in blocks_of(document) if block.kind == "python"]
+COMMANDS = [(document, command) for document in DOCUMENTS for command in commands_of(document)]
+SCENES = [
+    (document, block.text)
+    for document in DOCUMENTS
+    for block in blocks_of(document)
+    if block.kind == "yaml" and block.title not in NO_SCENES
+]
+
+
+@pytest.fixture(scope="session")
+def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[Path, Path]:
+    """A reader's folder for each document, in which its commands run one after the other."""
+    return {document: written_to(tmp_path_factory.mktemp("reader")) for document in DOCUMENTS}
+
+
+def test_every_block_is_of_a_kind_that_is_tested() -> None:
+    assert {block.kind for document in DOCUMENTS for block in blocks_of(document)} <= KINDS
+    assert all("```" not in block.text for document in DOCUMENTS for block in blocks_of(document))
+
+
+@pytest.mark.parametrize(
+    "program", [block for _, block in PROGRAMS], ids=[name_of(document) for document, _ in PROGRAMS]
+)
+def test_python_runs(program: Block, tmp_path: Path) -> None:
+    told = run(written_to(tmp_path), "-c", program.text)
+    assert told.returncode == 0, told.stderr
+    assert holds(told.stdout, program.printed), told.stdout
+
+
+def _parameters() -> list[object]:
+    return [
+        pytest.param(document, command, marks=pytest.mark.xdist_group(name_of(document)), id=command.line)
+        for document, command in COMMANDS
+    ]
+
+
+@pytest.mark.parametrize(("document", "command"), _parameters())
+def test_commands_run(folders: dict[Path, Path], document: Path, command: Command) -> None:
+    folder = folders[document]
+    told = run_command(folder, command.line)
+    assert told.returncode == command.status, told.stderr
+    assert holds(told.stdout + told.stderr, command.printed), told.stdout + told.stderr
+    words = command.line.split()
+    assert told.stdout or told.returncode or (folder / words[words.index("--out") + 1]).exists()
+
+
+@pytest.mark.parametrize("text", [text for _, text in SCENES], ids=[name_of(document) for document, _ in SCENES])
+def test_scenes_load(text: str) -> None:
+    assert dofkit.loads(text).constraints
+
+
+def test_lines_that_install_are_what_is_run() -> None:
+    ci = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+    lines = [line for d in DOCUMENTS for b in blocks_of(d) if b.kind == "sh" for line in b.text.splitlines()]
+    assert all(line in ci for line in lines if line.startswith(INSTALLS))

@@ -1,0 +1,152 @@
+"""The generated pages: every type, field, verdict, command, theorem and scene is told of, from where it is defined."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from ruamel.yaml import YAML
+from shared.documented import ROOT, SITE
+
+import dofkit
+from dofkit.classification.arguments import TABLE
+from dofkit.interface.explanations import all_explanations
+from dofkit.report import ConstraintEntry, Report
+from dofkit.scene.constraints import TYPES
+from dofkit.site import shown_scenes as room
+from dofkit.site.building import SETTINGS, folders, settings
+from dofkit.site.command_pages import command_pages, commands
+from dofkit.site.constraint_pages import FOLDER, constraint_pages, equations_of, scene_of
+from dofkit.site.gallery_pages import gallery_pages
+from dofkit.site.markdown import fence, picture, prose, table
+from dofkit.site.readme_pages import readme_pages
+from dofkit.site.report_pages import THEOREMS, report_pages
+from dofkit.site.shown_scenes import ShownScene, catalog_scenes, in_a_line, shown
+
+DISC = """
+coordinates: [x, y, theta, phi]
+parameters: {R: positive}
+constraints: ["dy = R cos(theta) dphi", "dx = -R sin(theta) dphi"]
+"""
+
+
+@pytest.fixture(scope="module")
+def disc() -> ShownScene:
+    return shown("disc", "l6", DISC)
+
+
+@pytest.fixture(scope="module")
+def types(disc: ShownScene) -> dict[str, str]:
+    return {page.path: page.text for page in constraint_pages([disc])}
+
+
+@pytest.mark.parametrize("kind", TYPES)
+def test_every_type_has_its_page_with_equations_a_picture_and_a_scene(types: dict[str, str], kind: str) -> None:
+    page, cls = types[f"{FOLDER}/{kind}.md"], TYPES[kind]
+    assert (cls.__doc__ or "").strip(), "its docstring says its equations"
+    assert cls.examples, "an example is its scene"
+    assert prose((cls.__doc__ or "").split("\n")[0])[:40] in page
+    assert types[f"{FOLDER}/{kind}.svg"].startswith("<svg")
+    assert scene_of(cls) in page
+    assert dofkit.loads(scene_of(cls)).constraints
+    assert all(f"| `{field}` |" in page for field in cls.model_fields)
+    assert f"[`{kind}`]({kind}.md)" in types[f"{FOLDER}/index.md"]
+
+
+def test_a_type_names_the_scenes_of_the_catalog_that_have_it(types: dict[str, str]) -> None:
+    assert "../../gallery/l6.md#disc" in types[f"{FOLDER}/equation.md"]
+    assert "In the catalog" not in types[f"{FOLDER}/cam.md"]
+
+
+def test_the_equations_of_a_scene() -> None:
+    told = list(equations_of("dimension: 2\nparticles: [A]\nconstraints: [{type: fixed, point: A}]"))
+    assert len(told) == 2
+    assert list(equations_of("coordinates: [x]\nconstraints: [x <= 3]")) == ["3 - x >= 0"]
+
+
+def test_every_field_and_verdict_is_told_of() -> None:
+    pages = {page.path: page.text for page in report_pages()}
+    told = pages["reference/report.md"]
+    left_out = {"joint_coordinates"} & set(Report.model_fields)
+    assert all(f"| `{field}` |" in told for field in {*Report.model_fields, *ConstraintEntry.model_fields} - left_out)
+    assert all(f"| `{v}` |" in told for v in ("proved", "probable", "numeric", "undecided"))
+    assert all(prose(key) in pages["reference/arguments.md"] for key in TABLE)
+    codes = [told.word for told in all_explanations() if told.kind == "code of feedback"]
+    assert codes
+    assert all(f"`{code}`" in pages["reference/feedback.md"] for code in codes)
+
+
+def test_every_theorem_has_its_place_and_no_table_is_left() -> None:
+    told = next(page.text for page in report_pages() if page.path == THEOREMS)
+    keys = re.findall(r"^\| `(\w+)` \|", (ROOT / "dofkit" / "THEOREMS.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert len(keys) > 40
+    assert all(f"### {key} {{#{key.lower()}}}" in told for key in keys)
+    assert "|---" not in told
+
+
+def test_every_command_and_option_is_told_of() -> None:
+    (page,) = command_pages()
+    names = [path for path, _ in commands()]
+    assert {"dofkit classify", "dofkit catalog show", "dofkit export gradescope"} <= set(names)
+    assert all(f"## {name}\n" in page.text for name in names)
+    assert "`--fail-on WHAT,...`" in page.text
+    assert "Default: `auto`." in page.text
+
+
+def test_an_answer_in_a_line() -> None:
+    def told(*constraints: str) -> str:
+        return in_a_line(dofkit.classify({"coordinates": ["x", "y"], "constraints": list(constraints)}))
+
+    assert told("x = t", "2 x = 2 t") == "f = 1, holonomic, rheonomic, redundant: c2 (proved)"
+    assert told("x = 1", "x = 2").startswith("inconsistent: c1, c2 (")
+
+
+def test_the_gallery_shows_a_scene_with_its_answer(disc: ShownScene) -> None:
+    pages = {page.path: page.text for page in gallery_pages([disc], folders())}
+    assert set(pages) == {"gallery/index.md", "gallery/l6.md", "gallery/disc.svg"}
+    assert "f = 4, 2 velocities, non-holonomic, scleronomic (proved)" in pages["gallery/l6.md"]
+    assert 'href="l6.html#disc"' in pages["gallery/index.md"]
+    assert "Lecture 6" in pages["gallery/index.md"]
+
+
+def test_what_was_shown_once_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "catalog" / "l6").mkdir(parents=True)
+    (tmp_path / "catalog" / "l6" / "disc.yaml").write_text(DISC, encoding="utf-8")
+    monkeypatch.setattr(room, "catalog_folder", lambda: tmp_path / "catalog")
+    monkeypatch.setattr(room, "catalog_text", lambda name: DISC)
+    first = list(catalog_scenes(tmp_path / "kept"))
+    monkeypatch.setattr(room, "shown", None)
+    assert list(catalog_scenes(tmp_path / "kept")) == first
+    assert first[0].types == ("equation",)
+
+
+def test_the_navigation_holds_every_written_page_and_every_type(disc: ShownScene) -> None:
+    listed = set(re.findall(r"[\w/-]+\.md", str(settings([disc])["nav"])))
+    assert {str(path.relative_to(SITE)) for path in SITE.rglob("*.md")} <= listed
+    assert {f"{FOLDER}/{kind}.md" for kind in TYPES} <= listed
+    assert {"gallery/index.md", "gallery/l6.md", THEOREMS, "about/limits.md"} <= listed
+
+
+def test_nothing_is_fetched_from_anywhere() -> None:
+    found = YAML(typ="safe").load(SETTINGS.read_text(encoding="utf-8"))
+    assert found["theme"]["font"] is False
+    assert not re.search(r"https?://", SETTINGS.read_text(encoding="utf-8"))
+
+
+def test_the_readme_is_the_first_page_and_its_sections_others() -> None:
+    pages = {
+        page.path: page.text
+        for page in readme_pages("# T\n\nA.\n\n## Architecture\n\n### B\n\n## C\n\n[d](dofkit/site/pages/d.md)\n")
+    }
+    assert pages == {
+        "index.md": "# T\n\nA.\n\n## C\n\n[d](d.md)\n",
+        "about/architecture.md": "# Architecture\n\n## B\n",
+    }
+
+
+def test_words_mean_themselves() -> None:
+    assert prose("``x_1`` and y_1 * z < |A|\n  again") == "`x_1` and y\\_1 \\* z \\< \\|A\\| again"
+    assert table(("a",), [("`|x|`",)]).splitlines()[-1] == "| `\\|x\\|` |"
+    assert fence("yaml", "a: 1\n", "a.yaml") == '```yaml title="a.yaml"\na: 1\n```'
+    assert 'alt="&quot;a&quot; &lt; b"' in picture("a.svg", '"a" < b')
