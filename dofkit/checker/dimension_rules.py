@@ -33,7 +33,8 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
     above = size - len(minor.rows) - (most["rule"] in ("isolated", "crossing"))
     if least["rule"] == "crossing":
-        point, found = crossing(evidence, least).point, above
+        other = crossing(evidence, least)
+        point, found = other.point, size - len(other.rows) - 1
     elif least["rule"] == "regular":
         other = evidence.accounts(evidence.minor(least["minor"]), evidence.equations)
         point, found = other.point, size - len(other.rows)
@@ -289,10 +290,7 @@ def _is_analytic(evidence: CheckedEvidence, name: str, given: bool) -> bool:
 def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:
     """On which coordinates those that are given depend."""
     later, found = [q for _, q in order], dict[str, frozenset[str]]()
-    refuse(
-        len({*later}) < len(later) or not {*later} <= {*evidence.variables},
-        "one coordinate for each relation",
-    )
+    refuse(len({*later}) < len(later) or not {*later} <= {*evidence.variables}, "one coordinate for each relation")
     for i, (name, q) in enumerate(order):
         one, slope = evidence.relation(name), evidence.slope(name, q)
         dot = "dot" if one.kind == "velocity" else ""

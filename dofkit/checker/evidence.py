@@ -101,12 +101,8 @@ class CheckedEvidence(CheckedRelations):
     def is_linear(self, name: str) -> bool:
         """Whether a relation is finite, or a linear form in the velocities (dt included)."""
         one = self.relation(name)
-
-        def look() -> bool:
-            parts = linear_in(one.left, self.velocities)
-            return parts is not None and self.ring.vanishes(parts[1])
-
-        return one.kind != "velocity" or self.once(("linear", name), look)
+        parts = self.once(("linear", name), lambda: linear_in(one.left, self.velocities))
+        return one.kind != "velocity" or (parts is not None and self.ring.vanishes(parts[1]))
 
     def slope(self, row: str, column: str) -> Tree:
         """The entry of a row: by a coordinate, or by its velocity."""

@@ -14,12 +14,11 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
 from dofkit.checker.relations import Consequence, total_derivative
-from dofkit.checker.trees import ONE, ZERO, Tree, add, negative, refuse
+from dofkit.checker.trees import ONE, ZERO, Tree, difference, refuse
 from dofkit.checker.values import PRECISION, CheckedPoint, along, excludes_zero, substituted, symbols_in
 
 LONGEST_WORD, LARGEST_FIELD, HIGHEST_ORDER = 12, 100_000, 8
 VelocityField = dict[str, Tree]
-Fields = list[VelocityField]
 Told = dict[str, Any]
 
 
@@ -30,12 +29,6 @@ def field_named(evidence: CheckedEvidence, name: Any) -> VelocityField:
     return {name: evidence.text(text) for name, text in given.items()}
 
 
-def bracket(first: VelocityField, second: VelocityField) -> VelocityField:
-    """[X, Y] = (DY) X - (DX) Y."""
-    names, (x, y) = dict.fromkeys([*first, *second]), (first, second)
-    return {q: add(along(x, y.get(q, ZERO)), negative(along(y, x.get(q, ZERO)))) for q in names}
-
-
 def of_word(evidence: CheckedEvidence, word: Any, allowed: Iterable[str], longest: int = LONGEST_WORD) -> VelocityField:
     """The left-normed bracket of a word of the fields that are allowed: [A, B, C] is [[A, B], C]."""
     short = isinstance(word, list) and 1 <= len(word) <= longest and set(word) <= set(allowed)
@@ -43,15 +36,15 @@ def of_word(evidence: CheckedEvidence, word: Any, allowed: Iterable[str], longes
     start, last = word[:-1], field_named(evidence, word[-1])
     if not start:
         return last
-    return evidence.once(("word", *word), lambda: paid(evidence, of_word(evidence, start, allowed), last))
+    return evidence.once(("word", *word), lambda: bracket(evidence, of_word(evidence, start, allowed), last))
 
 
-def paid(evidence: CheckedEvidence, first: VelocityField, second: VelocityField) -> VelocityField:
-    """A bracket, at the price of the size of its fields; large ones are refused."""
-    sizes = [sum(tree.size for tree in field.values()) for field in (first, second)]
-    evidence.effort.spend(sizes[0] * len(second) + sizes[1] * len(first) + 1)
+def bracket(evidence: CheckedEvidence, x: VelocityField, y: VelocityField) -> VelocityField:
+    """[X, Y] = (DY) X - (DX) Y, at the price of the size of the fields; large ones are refused."""
+    sizes = [sum(tree.size for tree in field.values()) for field in (x, y)]
+    evidence.effort.spend(sizes[0] * len(y) + sizes[1] * len(x) + 1)
     refuse(max(sizes) > LARGEST_FIELD, "a bracket is too large")
-    return bracket(first, second)
+    return {q: difference(along(x, y.get(q, ZERO)), along(y, x.get(q, ZERO))) for q in {**x, **y}}
 
 
 def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
@@ -78,7 +71,9 @@ def independent(evidence: CheckedEvidence, fields: Sequence[VelocityField], colu
     point.is_regular([[field.get(column, ZERO) for column in columns] for field in fields])
 
 
-def admissible(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> tuple[CheckedPoint, Fields]:
+def admissible(
+    evidence: CheckedEvidence, given: Told, wanted: Sequence[str]
+) -> tuple[CheckedPoint, list[VelocityField]]:
     """Fields whose curves through a point are motions: tangent to rows that account for ``wanted``, smooth there."""
     point, rows = evidence.point(given["at"]), given["rows"]
     fields = [field_named(evidence, name) for name in given["fields"]]
@@ -111,7 +106,7 @@ def involutive(evidence: CheckedEvidence, given: Told, allowed: Collection[str] 
     fits = len(fields) == missing and (timed or all("t" not in field for field in fields))
     refuse(not fits or not all(map(evidence.is_linear, minor.rows)), f"the kernel has {missing} fields")
     independent(evidence, fields, given["columns"], minor.point)
-    brackets = (paid(evidence, first, second) for i, first in enumerate(fields) for second in fields[:i])
+    brackets = (bracket(evidence, first, second) for i, first in enumerate(fields) for second in fields[:i])
     tangent(evidence, chain(fields, brackets), minor.rows)
     return minor
 

@@ -25,7 +25,7 @@ from dofkit.checker.constraints import TYPES, Entry, Surroundings, known_fields
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
 from dofkit.checker.grammar import BUILT_IN, DECIMAL, KnownNames, Sided, spelled_out
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
-from dofkit.checker.values import TIME_RATE, symbols_in
+from dofkit.checker.values import symbols_in
 
 MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 20_000
 #: What is as good as left out; no name is one of these.
@@ -144,8 +144,8 @@ def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset
     names = [*coordinates, *world.names.values, *world.names.functions, *world.generic]
     for told in (names, [one.name for one in relations]):
         refuse(len({*told}) < len(told), "a name is that of a generic symbol, or relations have one name")
-    functions, generic = world.names.functions, tuple(world.generic)
-    return CheckedProblem(world.dimension, coordinates, world.signs, functions, relations, generic, reference)
+    named = coordinates, world.signs, world.names.functions
+    return CheckedProblem(world.dimension, *named, relations, tuple(world.generic), reference)
 
 
 def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, tuple[str, ...], dict[str, Tree]]:
@@ -166,7 +166,7 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
         world.names = KnownNames(values=dict(values))
     own = [spelled_out(name) for name in (*written, *values, *functions)]
     every = KnownNames(frozenset([*written, *coordinates]), values, functions)
-    twice = len({*own, *BUILT_IN, TIME_RATE}) <= len(own) + len(BUILT_IN)
+    twice = len({*own, *BUILT_IN, "tdot"}) <= len(own) + len(BUILT_IN)
     names = (*own, *map(spelled_out, coordinates))
     words = (re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and name not in _NULLS for name in names)
     plain = all(words) and not any(map(every.moved, names)) and all(isinstance(v, list) for v in functions.values())
@@ -198,7 +198,7 @@ def _owners(scene: Entry, key: str, roles: Sequence[str]) -> dict[str, list[str]
 
 def _relations(world: Surroundings, scene: Entry, coordinates: Sequence[str]) -> Iterator[CheckedRelation]:
     """The relations of every constraint, in order."""
-    rates, left, owners = {*(f"{q}dot" for q in coordinates), TIME_RATE}, MOST_RELATIONS, set[str]()
+    rates, left, owners = {*(f"{q}dot" for q in coordinates), "tdot"}, MOST_RELATIONS, set[str]()
     for world.index, entry in enumerate(scene.get("constraints", []), 1):
         called = entry.get("type", "equation")
         read, fields, dimensions = TYPES[called]

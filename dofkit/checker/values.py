@@ -19,7 +19,6 @@ from dofkit.checker.trees import MINUS, ONE, TWO, ZERO, Effort, Tree, add, call,
 
 #: Bits of every ball.
 PRECISION = 320
-TIME_RATE = "tdot"
 Made = TypeVar("Made")
 #: A choice for a declared function: its arguments, and a text of them.
 Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
@@ -155,7 +154,7 @@ def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
     if parts is None:
         return tree
     form = [times(slope, symbol(rate)) for rate, slope in parts[0].items()]
-    return add(*form, times(parts[1], symbol(TIME_RATE))) if form or degree else parts[1]
+    return add(*form, times(parts[1], symbol("tdot"))) if form or degree else parts[1]
 
 
 def excludes_zero(ball: Any) -> bool:

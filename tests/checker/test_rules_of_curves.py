@@ -137,6 +137,8 @@ def test_a_crossing(second: str, change: dict[str, Any], good: bool) -> None:
     way = {**CROSS, **change}
     assert accepted(scene, [{**DOF, "value": 1, "most": way, "least": way}], **parts) is good
     assert not accepted(scene, [{**DOF, "value": 2, "most": way, "least": way}], **parts)
+    # a crossing is one less than its rows leave, whatever bounds from above: z = 0 = x y is no plane
+    assert not accepted(scene, [{**DOF, "value": 2, "most": {"rule": "minor", "minor": "m"}, "least": way}], **parts)
     more = {**scene, "constraints": [*scene["constraints"], "x = y"]}
     assert not accepted(more, [{**DOF, "value": 1, "most": way, "least": way}], **parts)
 

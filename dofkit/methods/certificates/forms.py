@@ -118,7 +118,12 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
         levels.append(len(words))
         if len(words) >= most or not fresh:
             break
-        level = [([*word, one], bracket(value, bases[one])) for word, value in fresh for one in fields if word != [one]]
+        level = [
+            ([*word, one], bracket(room.scenery.evidence, value, bases[one]))
+            for word, value in fresh
+            for one in fields
+            if word != [one]
+        ]
         level = level[:MOST_WORDS]
     return Words(fields, list(standing.rows), words, columns, vectors, levels)
 
