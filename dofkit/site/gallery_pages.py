@@ -18,18 +18,21 @@ def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Ite
     for folder, scenes in groupby(catalog, key=attrgetter("folder")):
         members = list(scenes)
         source = sources.get(folder, folder)
-        told.append(f"* [{prose(source)}]({folder}.md): {len(members)} scenes")
+        cards = "\n".join(_card(scene) for scene in members)
+        told += [
+            f"## {prose(source)}",
+            f"[{len(members)} scenes]({folder}.md)",
+            f'<div class="gallery">\n{cards}\n</div>',
+        ]
         yield SitePage(f"{FOLDER}/{folder}.md", page(source, *(_entry(scene) for scene in members)))
         yield from (SitePage(f"{FOLDER}/{scene.name}.svg", scene.svg) for scene in members)
-    cards = "\n".join(_card(scene) for scene in catalog)
     yield SitePage(
         f"{FOLDER}/index.md",
         page(
             "Gallery",
             f"All {len(catalog)} scenes that come with dofkit, with what it says of them. A name stands wherever a "
             "scene's file does: `dofkit classify NAME`. A picture leads to the scene's text and its whole report.",
-            "\n".join(told),
-            f'<div class="gallery">\n{cards}\n</div>',
+            *told,
         ),
     )
 

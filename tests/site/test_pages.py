@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -150,3 +151,10 @@ def test_words_mean_themselves() -> None:
     assert table(("a",), [("`|x|`",)]).splitlines()[-1] == "| `\\|x\\|` |"
     assert fence("yaml", "a: 1\n", "a.yaml") == '```yaml title="a.yaml"\na: 1\n```'
     assert 'alt="&quot;a&quot; &lt; b"' in picture("a.svg", '"a" < b')
+
+
+def test_the_site_is_not_in_the_wheel_and_its_extra_says_what_builds_it() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert project["tool"]["hatch"]["build"]["targets"]["wheel"]["exclude"] == ["dofkit/site"]
+    needed = project["project"]["optional-dependencies"]["docs"]
+    assert all(">=" in name for name in needed if not name.startswith("dofkit["))
