@@ -27,7 +27,7 @@ from dofkit.checker.grammar import BUILT_IN, DECIMAL, KnownNames, Sided, spelled
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
 from dofkit.checker.values import symbols_in
 
-MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 20_000
+MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 8_000
 #: What is as good as left out; no name is one of these.
 _NULLS = (None, "", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)

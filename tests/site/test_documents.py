@@ -41,6 +41,7 @@ def test_every_block_is_of_a_kind_that_is_tested() -> None:
     assert all("```" not in block.text for document in DOCUMENTS for block in blocks_of(document))
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     "program", [block for _, block in PROGRAMS], ids=[name_of(document) for document, _ in PROGRAMS]
 )
@@ -50,6 +51,7 @@ def test_python_runs(program: Block, tmp_path: Path) -> None:
     assert holds(told.stdout, program.printed), told.stdout
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("document", "command"), [pytest.param(document, command, id=command.line) for document, command in COMMANDS]
 )
