@@ -14,12 +14,15 @@ from functools import cache
 from pathlib import Path
 
 import dofkit
+from dofkit.checker.dimension_rules import MOST
+from dofkit.checker.verification import RULES
 from dofkit.configuration.local.criteria import CRITERIA
 
 PACKAGE = Path(dofkit.__file__).parent
 TABLE = PACKAGE / "THEOREMS.md"
 #: A key in a comment or a docstring: a name in brackets that is no subscript, and no word in capitals for a field.
 KEY = re.compile(r"(?<![\w\]])\[([A-Z][A-Za-z]+\d{1,4}|[A-Z]+[a-z][A-Za-z]*)\]")
+IN_CERTIFICATES = re.compile(r"\(in certificates: ([^)]+)\)")
 ROW = re.compile(r"^\| `(\w+)` \| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]*) ?\|$", re.MULTILINE)
 
 
@@ -68,6 +71,20 @@ def test_where_a_theorem_is_used_is_told() -> None:
     """Each path exists and holds the key, and no file that holds it is left out."""
     found = uses()
     assert {key: re.findall(r"`([^`]+)`", where) for key, (*_, where) in rows().items()} == found
+
+
+def test_rows_name_the_rules_of_certificates_that_rest_on_them() -> None:
+    """Each rule named is one of the checker's; the others follow by definition, by identity or by count."""
+    named = {
+        rule for *_, text, _ in rows().values() for told in IN_CERTIFICATES.findall(text) for rule in told.split("`")
+    }
+    named -= {"", ", "}
+    known = {rule for _, rule in RULES} | set(MOST) | {"span", "regular"}
+    assert named <= known
+    assert known - named == {
+        *("squeeze", "count", "rank", "conflict", "integrals"),  # by bounds, by counting, by arithmetic, by other rules
+        *("finite", "inequality", "timeless", "turns", "not exact"),  # by definition, at a point
+    }
 
 
 def test_a_theorem_has_an_author_a_year_and_one_sentence() -> None:
