@@ -21,8 +21,8 @@ class Surroundings:
     """A scene as one constraint after the other sees it.
 
     ``names``: what texts may mention; ``signs``: of the parameters that stay symbols. ``generic`` grows by a symbol for
-    each length or component that was left out; ``drawn`` by the bodies that the drawing places, ``welded`` by pairs.
-    ``index``: the place of the constraint that is read, from 1.
+    each length or component that was left out, ``counts`` by name; ``drawn`` by the bodies that the drawing
+    places, ``welded`` by pairs. ``index``: the place of the constraint that is read, from 1.
     """
 
     dimension: int
@@ -31,6 +31,7 @@ class Surroundings:
     signs: dict[str, str] = field(default_factory=dict)
     particles: dict[str, MaterialPoint] = field(default_factory=dict)
     generic: list[str] = field(default_factory=list)
+    counts: dict[str, int] = field(default_factory=dict)
     drawn: set[str] = field(default_factory=set)
     welded: list[tuple[str, str]] = field(default_factory=list)
     index: int = 0
@@ -53,8 +54,8 @@ class Surroundings:
     def fresh(self, stem: str) -> Tree:
         """A new generic symbol, named by the constraint it belongs to."""
         name = f"{stem}_c{self.index}"
-        before = sum(1 for one in self.generic if one == name or one.startswith(f"{name}_"))
-        self.generic.append(f"{name}_{before + 1}" if before else name)
+        self.counts[name] = self.counts.get(name, 0) + 1
+        self.generic.append(f"{name}_{self.counts[name]}" if self.counts[name] > 1 else name)
         return symbol(self.generic[-1])
 
     def place(self, values: object) -> Vector:

@@ -23,7 +23,7 @@ from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero,
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
-LONGEST_TEXT = 40_000
+LONGEST_TEXT, MOST_SYMBOLS = 40_000, 2000
 Looked = TypeVar("Looked")
 _PLAIN = frozenset(("symbol", "sum", "product", "sin", "cos", "exp", "apply"))
 
@@ -33,7 +33,8 @@ class CheckedTexts:
 
     def __init__(self, problem: Problem, effort: Effort) -> None:
         self.problem, self.effort = problem, effort
-        self.ring = CheckedRing(effort, 2 * len(problem.coordinates) + len(problem.parameters) + len(problem.generic))
+        count = 2 * len(problem.coordinates) + len(problem.parameters) + len(problem.generic)
+        self.ring = CheckedRing(effort, min(count, MOST_SYMBOLS))
         self.seen: dict[Any, Any] = {}
         self.variables: tuple[str, ...] = (*problem.coordinates, "t")
         self.velocities = frozenset(name + "dot" for name in self.variables)
