@@ -235,7 +235,7 @@ class CheckedRelations(CheckedTexts):
         while len(found) > size:
             size = len(found)
             for i, one in enumerate(self.consequences):
-                if one.target not in found and found.issuperset(one.sources) and self._met(i, point):
+                if one.target not in found and found.issuperset(one.sources) and self.applies(i, point):
                     found.add(one.target)
             self.effort.spend(len(self.consequences) + 1)
         return found
@@ -246,11 +246,12 @@ class CheckedRelations(CheckedTexts):
         left = left and left - self.closure(start, point)
         refuse(left, f"`{min(left, default='')}` is not shown to follow from {what}")
 
-    def _met(self, place: int, point: CheckedPoint | None) -> bool:
+    def applies(self, place: int, point: CheckedPoint | None) -> bool:
+        """Whether what a consequence needs is so near a point, at all velocities; without a point, everywhere."""
         one = self.consequences[place]
         if point is None:
             return one.at is None and not one.nonzero and all(map(self.has_value_everywhere, one.defined))
-        wide = {v: arb(0, 10**30) for v in self.velocities - point.balls.keys()}
+        wide = {v: arb(0, 10**30) for v in self.velocities}
 
         def look() -> bool:
             try:
