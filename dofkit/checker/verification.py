@@ -121,8 +121,9 @@ path                                    rule           fields
 /holonomic, /scleronomic                count          (of the verified entries)
 /redundant_equations                    count          (of verified /velocity_dof)
 /redundancies                           count          (of verified /redundant_equations: 0, or all equations are of
-                                                       one constraint, or 1 and one verified circuit, or all where
-                                                       /redundant was verified by ``without``)
+                                                       one constraint, or 1 and one verified circuit, at the
+                                                       point of a verified /redundant; or all are of one group
+                                                       where that was verified by ``without``)
 /feasible true                          point, regular at, or minor: equations as for /consistent; all inequalities
                                                        hold at that point
 /integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of
