@@ -164,6 +164,7 @@ path                                    rule           fields
                                                        it has equations. last: of the last one, /dof before
 ======================================= ============== ==========================================================
 
+Euler angles are read at a point only where the sine of the second is not 0: else they are no chart of the poses.
 Local claims (holonomic, circuit, independent, ...) are made at the scene's configuration (with t = 0), where one is
 given that meets the relations; else at any point. Claims are verified in their order.
 """

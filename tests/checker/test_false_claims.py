@@ -135,7 +135,61 @@ INTEGRALS: dict[str, False_] = {
         "has no integral",
     ),
 }
-FALSE = {**DEPENDENCE, **PLACES, **INTEGRALS}
+WELDED = {"bodies": ["B"], "constraints": [{"type": "weld", "between": ["ground", "B"]}]}
+HINGED = {
+    "bodies": ["B"],
+    "constraints": [{"type": "revolute", "between": ["ground", "B"], "at": [0, 0, 0], "axis": [0, 1, 0]}],
+}
+UPRIGHT: dict[str, Any] = {"id": "P", "values": {f"{q}_B": "0" for q in ("x", "y", "z", "phi", "theta", "psi")}}
+#: Where theta is 0 the angles phi and psi turn about one axis: one pose has a line of angles.
+ANGLES: dict[str, False_] = {
+    "the first order of a welded body": (
+        WELDED,
+        [claim("/instantaneous_dof", 1, "rank", at="P")],
+        {"points": [UPRIGHT]},
+        "no chart of the poses around",
+    ),
+    "the freedom of a welded body": (
+        WELDED,
+        [
+            claim(
+                "/dof",
+                1,
+                "regular",
+                about="reference",
+                minor=minor("c1.1 c1.2 c1.4 c1.5 c1.6", "x_B y_B z_B theta_B phi_B"),
+            )
+        ],
+        {"relations": [implied("k", "c1.3", **{"c1.2": "-sin(psi_B)/cos(phi_B)"})], "points": [UPRIGHT]},
+        "no chart of the poses around",
+    ),
+    # the turn about y by u has the angles pi/2, u, -pi/2
+    "an angle that rests": (
+        HINGED,
+        [
+            claim(
+                "/dof",
+                1,
+                "regular",
+                about="reference",
+                cayley=True,
+                minor=minor("c1.1 c1.2 c1.3 c1.4 c1.5", "x_B y_B z_B B_a B_c", "C"),
+            ),
+            claim(
+                "/generalized_coordinates",
+                ["phi_B"],
+                "minor",
+                minor=minor("c1.1 c1.2 c1.3 c1.4 c1.5", "x_B y_B z_B theta_B psi_B"),
+            ),
+        ],
+        {
+            "cayley": ["B"],
+            "points": [UPRIGHT, {"id": "C", "values": dict.fromkeys(("x_B", "y_B", "z_B", "B_a", "B_b", "B_c"), "0")}],
+        },
+        "no chart of the poses around",
+    ),
+}
+FALSE = {**DEPENDENCE, **PLACES, **INTEGRALS, **ANGLES}
 
 
 @pytest.mark.parametrize("name", FALSE)
