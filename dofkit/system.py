@@ -255,6 +255,7 @@ class System:
     (constraint index, particle, particle), ``distances`` those between points of any kind that constraints
     hold, by constraint index; ``connections`` what each constraint of given or generic geometry
     connects, ``starts`` where the bodies' origins stand. ``size``: the largest distance between given points.
+    ``left_out``: what the scene says that it leaves out.
     """
 
     name: str
@@ -277,6 +278,7 @@ class System:
     tolerance: Fraction | None = None
     size: float = 1.0
     warnings: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
 
     @property
     def numbers(self) -> Iterator[Fraction]:

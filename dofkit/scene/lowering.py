@@ -55,6 +55,7 @@ def system_of(scene: Scene, found: Survey) -> System:
         tolerance=scene.tolerance or None,
         size=found.size,
         warnings=(*found.warnings, SPECIAL) if found.special else found.warnings,
+        left_out=scene.left_out,
     )
 
 

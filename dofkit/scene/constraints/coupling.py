@@ -8,7 +8,7 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Annotated, ClassVar, Literal, NamedTuple
 
-from pydantic import BeforeValidator, Field
+from pydantic import Discriminator, Field, Tag, WrapValidator
 
 from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.rows import combined
@@ -20,7 +20,7 @@ from dofkit.expressions.tree import MINUS_ONE, ONE, TIME, ZERO, Expr, coordinate
 from dofkit.expressions.vectors import Vec, difference, dot, is_zero, length
 from dofkit.scene.constraints.base import ConstraintBase, root
 from dofkit.scene.constraints.joints import Axial, Joint, Measure
-from dofkit.scene.fields import Text
+from dofkit.scene.fields import Text, untagged
 from dofkit.scene.frames import Frame, relative
 from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
@@ -38,9 +38,16 @@ def _coupling_rows(at: Kinematics) -> Iterator[VelocityRow]:
         yield combined([(factor, rate(part)) for rate, factor, part in at.parts])
 
 
-def _letters(value: object) -> object:
-    """A list of joints stands for each by its own name."""
-    return {name: name for name in value} if isinstance(value, (list, tuple)) else value
+def _shape(value: object) -> str:
+    return "lettered" if isinstance(value, Mapping) else "named"
+
+
+#: Names of joints, or a mapping from letters.
+Joints = Annotated[
+    Annotated[dict[str, str], Tag("lettered")] | Annotated[tuple[str, ...], Tag("named")],
+    Discriminator(_shape),
+    WrapValidator(untagged),
+]
 
 
 class Coupling(ConstraintBase):
@@ -67,11 +74,7 @@ class Coupling(ConstraintBase):
     }
     understood: ClassVar[tuple[str, ...]] = ("mimic", "differential", "timing_belt", "transmission", "bevel", "coupled")
     other_keys: ClassVar[Mapping[str, str]] = {"between": "joints"}
-    joints: Annotated[
-        dict[str, str],
-        Field(min_length=1),
-        BeforeValidator(_letters, json_schema_input_type=list[str] | dict[str, str]),
-    ] = Field(
+    joints: Joints = Field(
         description="names of joints, or a mapping letter -> joint; of one that both turns and slides, `JOINT.angle` "
         "or `JOINT.displacement`"
     )
@@ -80,9 +83,14 @@ class Coupling(ConstraintBase):
     facts: ClassVar[TypeFacts] = TypeFacts(_coupling_rows)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
 
+    @property
+    def lettered(self) -> dict[str, str]:
+        """The joint of every letter; a name in a list is its own."""
+        return dict(self.joints) if isinstance(self.joints, Mapping) else {name: name for name in self.joints}
+
     def relations(self, world: World) -> Iterator[Relation]:
         measured = self._measured(world)
-        letters = tuple(self.joints)
+        letters = tuple(self.lettered)
         own = replace(within_member(world.names, letters), coordinates=frozenset(letters))
         before = len(world.faults)
         found = world.relations(self.text, "text", names=own, allow=FINITE)
@@ -102,7 +110,7 @@ class Coupling(ConstraintBase):
     def _measured(self, world: World) -> dict[Expr, MeasuredJoint] | None:
         """What every letter stands for; None after a fault, or where a joint itself is at fault."""
         before = len(world.faults)
-        found = {coordinate(letter): self._joint(world, letter, name) for letter, name in self.joints.items()}
+        found = {coordinate(letter): self._joint(world, letter, name) for letter, name in self.lettered.items()}
         known = {letter: joint for letter, joint in found.items() if joint is not None}
         return known if len(known) == len(found) and len(world.faults) == before else None
 
@@ -167,7 +175,7 @@ class Coupling(ConstraintBase):
 
     @property
     def in_words(self) -> str:
-        named = [f"{letter}: {name}" for letter, name in self.joints.items() if letter != name]
+        named = [f"{letter}: {name}" for letter, name in self.lettered.items() if letter != name]
         return f"coupling {self.text}" + (f" ({', '.join(named)})" if named else "")
 
 
