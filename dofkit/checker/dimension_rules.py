@@ -81,17 +81,15 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
 
 
 def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
-    """What depends on what: nothing, one constraint alone, or a circuit where one equation is too many.
+    """What depends on what: nothing; a circuit where one equation is too many; all, where without any one nothing.
 
     So it is where what can be dropped was verified at the same point: there the dependent equation is a regular one.
     """
     surplus, known = verified["/redundant_equations"], [one for one in owners(evidence) if evidence.owned(one)]
-    place = verified.get("at /redundant")
-    around = [
-        {one, *verified[f"circuit {one}"]} for one in known if place and verified.get(f"at circuit {one}") == place
-    ]
-    around = [set(known)] if len(known) == 1 else around
-    refuse(surplus and (len(around) != 1 or (surplus != 1 and len(known) > 1)), "several groups, or none that is shown")
+    place, whole = verified.get("at /redundant", object()), len(known) == 1 or "apart" in verified
+    around = [{one, *verified[f"circuit {one}"]} for one in known if verified.get(f"at circuit {one}") == place]
+    around = [set(known)] if whole else around
+    refuse(surplus and (len(around) != 1 or (surplus > 1 and not whole)), "several groups, or none that is shown")
     return [{"nullity": surplus, "members": [one for one in known if one in around[0]]}] if surplus else []
 
 
@@ -167,6 +165,7 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
             whole = set(other.rows) == every.difference(evidence.owned(name))
             larger = whole and same_place(evidence, other.point, verified) > len(other.rows)
             refuse(not larger, f"without `{name}` the others are no manifold, or as large")
+        verified["apart"] = True
         return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     refuse(not set(dropped) <= set(order) or not set(minor.rows) <= every, "no constraints, or rows of no relations")
