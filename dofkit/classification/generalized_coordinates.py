@@ -9,6 +9,7 @@ import numpy as np
 
 from dofkit.base.deadline import expired
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
+from dofkit.classification.freedom.branches import Outcome
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
@@ -21,6 +22,7 @@ from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
+from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
@@ -43,6 +45,8 @@ DAMPED = (2, 1)
 #: The same at a singular point, which a descent reaches to half its digits.
 ROUGH = 1e-5
 MAX_COLUMNS = 120
+#: An angle of the drawing that holds parameters.
+GENERIC = 0.7
 
 
 def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rotation]) -> list[str] | None:
@@ -66,6 +70,36 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return orbit.chart_of()
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
     return found if found is not None else (direct if len(direct) == a.dof and not turning else None)
+
+
+def in_angles(outcome: Outcome, setting: Setting, rotations: Sequence[Rotation], chosen: set[str]) -> set[str] | None:
+    """The choice where the Gibbs vector of a body is spread over blocks, of which some but not all of it was chosen.
+
+    One component of it is no angle of Euler's: what shares the body is looked at as one block. None where that is not
+    told.
+    """
+    for r in rotations:
+        if r.chart == "euler" or not 0 < len(chosen.intersection(r.names)) < len(r.names):
+            continue
+        names, size = set(r.names), 0
+        while len(names) > size:
+            size = len(names)
+            groups = [*(b.coordinates for b in outcome.blocks), *(one.names for one in rotations)]
+            names = names.union(*(group for group in groups if not names.isdisjoint(group)))
+        parts = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if names & set(b.coordinates)]
+        if any(names == set(b.coordinates) for b, _ in parts):
+            continue
+        if any(a.dof is None or b.forms or b.nonlinear for b, a in parts) or setting.engines != BOTH or expired():
+            return None
+        dof = sum(a.dof or 0 for _, a in parts) + len(names.intersection(outcome.untouched))
+        conditions = tuple(c for b, _ in parts for c in b.conditions)
+        whole = Block(tuple(sorted(names)), tuple(row for b, _ in parts for row in b.rows), conditions)
+        turning = [one for one in rotations if one.chart == "gibbs" and not names.isdisjoint(one.names)]
+        found = None if len(names) > MAX_COLUMNS else _nearby(whole, dof, setting, turning)
+        if found is None:
+            return None
+        chosen = chosen.difference(names).union(found)
+    return chosen
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
@@ -118,7 +152,7 @@ def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:
 
 def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
     """From the tangent space at a regular point near the reference, or anywhere where there is none."""
-    chart = make_chart(block, setting)
+    chart = make_chart(block, setting, more=[ex.coordinate(name) for name in block.coordinates])
     start = _start(chart, setting)
     drawn = _drawn_tangent(chart, start, setting, dof)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
@@ -244,36 +278,32 @@ def _groups(chart: Chart, setting: Setting) -> list[list[int]]:
 
 
 def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:
-    at = values(chart.ring, FloatPoint(symbols, 0))
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     for rotation in turning:
-        basis = _euler_rates(basis, [names.index(n) for n in rotation.names if n in names], at, chart, rotation)
+        places = [names.index(n) for n in rotation.names if n in names]
+        if len(places) == len(rotation.names):
+            rates = _euler_rates(np.array([symbols.get(ex.coordinate(n), 0.0) for n in rotation.names]), rotation)
+            changed = basis.copy()
+            changed[:, places] = basis[:, places] @ rates.T
+            basis = changed
     return basis
 
 
-def _euler_rates(basis: Any, places: Sequence[int], at: Any, chart: Chart, rotation: Rotation) -> Any:
-    """The columns of a Gibbs vector g turned into those of the Euler angles (phi, theta, psi), up to a factor each.
+def _euler_rates(g: Any, rotation: Rotation) -> Any:
+    """The matrix by which the rates of a Gibbs vector g are those of the Euler angles (phi, theta, psi).
 
-    omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot R e_z, with n along e_z x R e_z.
-    Where the body keeps its z axis upright, psi stands for the turn about it, theta and phi for tilts.
+    omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot k, where k is the axis of the body that
+    is e_z at angles 0, and n lies along e_z x k; psi stands for the turn about e_z where k is upright, theta and phi
+    for tilts.
     """
-    if len(places) != 3:
-        return basis
-    g = np.array([_value(at, chart, n) for n in rotation.names])
     cross = np.array([[0, -g[2], g[1]], [g[2], 0, -g[0]], [-g[1], g[0], 0]])
     turned = np.eye(3) + 2 * (cross + cross @ cross) / (1 + g @ g)
-    axes = np.array([[0, 0, 1.0], np.cross([0, 0, 1.0], turned[:, 2]), turned[:, 2]]).T
+    phi, theta = (GENERIC if (value := approximate(e)) is None else value for e in rotation.initial[:2])
+    k = turned @ [np.sin(phi) * np.sin(theta), -np.cos(phi) * np.sin(theta), np.cos(theta)]
+    axes = np.array([[0, 0, 1.0], np.cross([0, 0, 1.0], k), k]).T
     if abs(np.linalg.det(axes)) < ZERO:
         axes = np.array([[0, 1.0, 0], [1.0, 0, 0], [0, 0, 1.0]])
-    rates = np.linalg.solve(axes, 2 * (np.eye(3) + cross) / (1 + g @ g))
-    changed = basis.copy()
-    changed[:, list(places)] = basis[:, list(places)] @ rates.T
-    return changed
-
-
-def _value(at: Any, chart: Chart, name: str) -> float:
-    index = chart.ring.var_index(ex.coordinate(name))
-    return 0.0 if index is None else float(at[chart.ring.var_node[index]])
+    return np.linalg.solve(axes, 2 * (np.eye(3) + cross) / (1 + g @ g))
 
 
 def _rigid(block: Block, dof: int, setting: Setting) -> list[str] | None:

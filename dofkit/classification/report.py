@@ -9,7 +9,7 @@ from dofkit.base.deadline import unless_late
 from dofkit.base.wording import many, verb
 from dofkit.classification.dependence.redundancy import merged
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.generalized_coordinates import generalized
+from dofkit.classification.generalized_coordinates import generalized, in_angles
 from dofkit.classification.labels.integrable_part import integrable_part
 from dofkit.classification.study import Study
 from dofkit.expressions.text import to_text
@@ -88,7 +88,8 @@ def _generalized(study: Study) -> list[str] | None:
         if own is None:
             return None
         chosen |= set(own)
-    return [c.name for c in system.coordinates if c.name in chosen]
+    told = in_angles(outcome, study.setting, system.rotations, chosen)
+    return None if told is None else [c.name for c in system.coordinates if c.name in told]
 
 
 def largest_integrable_part(study: Study) -> IntegrablePart | None:
