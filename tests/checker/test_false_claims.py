@@ -160,7 +160,10 @@ ANGLES: dict[str, False_] = {
                 minor=minor("c1.1 c1.2 c1.4 c1.5 c1.6", "x_B y_B z_B theta_B phi_B"),
             )
         ],
-        {"relations": [implied("k", "c1.3", **{"c1.2": "-sin(psi_B)/cos(phi_B)"})], "points": [UPRIGHT]},
+        {
+            "relations": [implied("k", "c1.3", **{"c1.2": "(sin(phi_B) - sin(psi_B))/(cos(phi_B) + cos(psi_B))"})],
+            "points": [UPRIGHT],
+        },
         "no chart of the poses around",
     ),
     # the turn about y by u has the angles pi/2, u, -pi/2
@@ -189,7 +192,27 @@ ANGLES: dict[str, False_] = {
         "no chart of the poses around",
     ),
 }
-FALSE = {**DEPENDENCE, **PLACES, **INTEGRALS, **ANGLES}
+QUARTER = "1.5707963267948966192313216916397514420985846996875529104874722961539082"
+#: A third of a turn about (1, 1, 1), which leaves no entry 12, 23 or 31 of the matrix, is no weld.
+TURNED: dict[str, False_] = {
+    "a welded body that is turned": (
+        {**WELDED, "constraints": [*WELDED["constraints"], "cos(theta_B) <= 1/2"]},
+        [claim("/feasible", True, "point", at="P")],
+        {
+            "points": [
+                {
+                    "id": "P",
+                    "values": {**UPRIGHT["values"], "phi_B": QUARTER, "theta_B": QUARTER},
+                    "rows": ["c1.1", "c1.2", "c1.3"],
+                    "columns": ["phi_B", "theta_B", "psi_B"],
+                    "radius": "1e-40",
+                }
+            ]
+        },
+        "leaves its box",
+    ),
+}
+FALSE = {**DEPENDENCE, **PLACES, **INTEGRALS, **ANGLES, **TURNED}
 
 
 @pytest.mark.parametrize("name", FALSE)
