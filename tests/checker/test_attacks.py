@@ -49,7 +49,7 @@ def along_y(most: Any) -> dict[str, Any]:
 
 BOTH = {"id": "m", "at": "P", "rows": ["c1", "k"], "columns": ["x", "y"]}
 IN_Y = {"id": "m", "at": "P", "rows": ["c1"], "columns": ["y"]}
-FACTOR_X = {"id": "k", "by": "factor", "of": "c1", "factor": "x", "rest": "y"}
+FACTOR_X = {"id": "k", "by": "branch", "of": "c1", "factors": ["x", "y"], "chosen": 1}
 #: x = 0 leaves y free.
 A_LINE: dict[str, Attack] = {
     "a cofactor y/x at x = 0": (
@@ -117,13 +117,13 @@ A_LINE: dict[str, Attack] = {
     "a factor x that is said to be nowhere 0": (
         plane("x*y = 0", "y = 1"),
         [consistent(False, "nullstellensatz", number="1", c={"k": "-1", "c2": "1"})],
-        {"relations": [{**FACTOR_X, "nonzero": {"exp": "log(x)"}}]},
+        {"relations": [{**FACTOR_X, "positive": [{"plus": "exp(log(x))", "sos": []}]}]},
     ),
     "a factor x that is said to be a square and 1": (
         plane("x*y = 0", "y = 1"),
         [consistent(False, "nullstellensatz", number="1", c={"k": "-1", "c2": "1"})],
         {
-            "relations": [{**FACTOR_X, "nonzero": {"sos": [["1", "sqrt(x - 1)"]], "plus": "1"}}],
+            "relations": [{**FACTOR_X, "positive": [{"sos": [["1", "sqrt(x - 1)"]], "plus": "1"}]}],
         },
     ),
 }
@@ -265,15 +265,17 @@ NOT_AT_THE_POINT: dict[str, Attack] = {
                 "value": ["c1", "c2"],
                 "rule": "cofactors",
                 "at": "P",
-                "minimal": {"c1": {"at": "Q"}, "c2": {"at": "R"}},
+                "minimal": {
+                    "c1": {"minor": {"at": "Q", "rows": ["c2", "c3"], "columns": ["z", "x"]}},
+                    "c2": {"minor": {"at": "Q", "rows": ["c1"], "columns": ["x"]}},
+                },
             }
         ],
         {
             "relations": [{"id": "i", "by": "implied", "of": "c3", "h": "y - 1", "c": {"c1": "y"}}],
             "points": [
                 {"id": "P", "values": {"x": "0", "y": "0", "z": "0"}},
-                {"id": "Q", "values": {"x": "1", "y": "2", "z": "0"}},
-                {"id": "R", "values": {"x": "5", "y": "1", "z": "0"}},
+                {"id": "Q", "values": {"x": "0", "y": "2", "z": "0"}},
             ],
         },
     ),
@@ -291,11 +293,11 @@ TIME: dict[str, Attack] = {
             "relations": [
                 {
                     "id": "s",
-                    "by": "factor",
+                    "by": "branch",
                     "of": "c1",
-                    "factor": "x - t",
-                    "rest": "1",
-                    "nonzero": {"exp": "log(x - t)"},
+                    "factors": ["x - t", "1"],
+                    "chosen": 1,
+                    "positive": [{"plus": "exp(log(x - t))", "sos": []}],
                 }
             ]
         },
@@ -305,8 +307,8 @@ TIME: dict[str, Attack] = {
         [scleronomic("s")],
         {
             "relations": [
-                {"id": "s", "by": "factor", "of": "c1", "factor": "x - t", "rest": "1"},
-                {"id": "s.1", "by": "implied", "of": "c1", "c": {"c1": "0"}, "nonzero": {"number": True}},
+                {"id": "s", "by": "branch", "of": "c1", "factors": ["x - t", "1"], "chosen": 1},
+                {"id": "s.1", "by": "implied", "of": "c1", "c": {"c1": "1"}},
             ]
         },
     ),
