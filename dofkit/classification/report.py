@@ -12,8 +12,10 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.generalized_coordinates import generalized
 from dofkit.classification.labels.integrable_part import integrable_part
 from dofkit.classification.study import Study
+from dofkit.classification.turned_coordinates import partly_turned, turned_together
 from dofkit.expressions.text import to_text
 from dofkit.mobility.textbook_count import CountedFacts, count
+from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import uses_time
 from dofkit.relations.integration_constants import about_constants
 from dofkit.relations.normal.normal_form import Finite
@@ -88,6 +90,16 @@ def _generalized(study: Study) -> list[str] | None:
         if own is None:
             return None
         chosen |= set(own)
+    turning = partly_turned(chosen, system.rotations)
+    for group in turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning):
+        if group.places == 1:
+            continue
+        free = chosen.intersection(group.block.coordinates)
+        whole = Answer(dof=len(free), dependent=group.block.coordinates, hidden=[*group.hidden])
+        own = generalized(group.block, whole, study.setting, system.rotations)
+        if own is None:
+            return None
+        chosen = chosen - free | set(own)
     return [c.name for c in system.coordinates if c.name in chosen]
 
 
