@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from dofkit.base.errors import Fault
+from dofkit.base.spelling import nearest
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.synonyms import dimension_of, other_keys
@@ -63,8 +64,10 @@ def without_echoes(faults: Iterable[Fault]) -> list[Fault]:
 
 def _meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
     """The constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
+    words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
     word = word.lower() if isinstance(word, str) else ""
-    fields = {kind: cls.model_fields for kind, cls in TYPES.items() if word in (kind, *cls.synonyms, *cls.understood)}
+    near = nearest(word, dict.fromkeys(one for known in words.values() for one in known))
+    fields = {kind: TYPES[kind].model_fields for kind, known in words.items() if near in known}
     return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
 
 

@@ -132,6 +132,7 @@ def test_faults_stand_where_the_words_were_written() -> None:
 #: What is written wrongly ({A}: of a body a, {B}: and a particle A) -> what its hint shows.
 SHOWN: dict[str, tuple[str, str]] = {
     "a word that is understood": ("{A}[{type: pivot, between: [ground, a]}]", "{type: revolute,"),
+    "a misspelt other word": ("{A}[{type: hing, between: [ground, a]}]", "did you mean 'revolute'? for example"),
     "a pinned point": ("particles: [A]\nconstraints: [{type: pin, point: A}]", "{type: fixed, point: A}"),
     "a slider that is a point": ("particles: [A]\nconstraints: [{type: slider, point: A, body: a}]", "{type: slot,"),
     "a spring": ("particles: [A, B]\nconstraints: [{type: spring, between: [A, B]}]", "forces: [{type: spring,"),
