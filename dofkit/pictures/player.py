@@ -11,9 +11,11 @@ from typing import Any
 
 import numpy as np
 
+from dofkit.base.themes import schemes
 from dofkit.pictures.layout import HEIGHT, MARGIN, WIDTH, Standpoint, margins_of, name_size, ruler_of, standpoint_of
-from dofkit.pictures.looks import Ink, ink_of, keys_of
+from dofkit.pictures.looks import ON_DARK, Ink, ink_of, keys_of
 from dofkit.pictures.shapes import Array, Clip, Displacement, Poses, Sketch
+from dofkit.pictures.vector import CLASS, dark_style
 
 #: Pixels of an inline page beyond its picture.
 BESIDE = 190
@@ -42,7 +44,8 @@ def framed(page: str) -> str:
     """A page inside another one, which its script and style do not touch."""
     height = int(HEIGHT * 1.2) + BESIDE
     return (
-        f'<iframe srcdoc="{escape(page, quote=True)}" sandbox="allow-scripts" title="dofkit" '
+        f'<style>{schemes("." + CLASS)}</style><iframe class="{CLASS}" srcdoc="{escape(page, quote=True)}" '
+        f'sandbox="allow-scripts" title="dofkit" '
         f'style="width:100%;max-width:{int(WIDTH * 1.5)}px;height:{height}px;border:0"></iframe>'
     )
 
@@ -70,6 +73,7 @@ def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
         "dimension": sketch.dimension,
         "axes": list(sketch.axes[: sketch.dimension]),
         "shapes": shapes,
+        "dark": dict(ON_DARK),
         "looks": [[k.line, k.width, list(k.dash), k.fill, k.dense, k.hatch, k.layer] for k in looks],
         "names": name_size(sketch),
         "still": _told_poses(sketch, carriers, sketch.poses),
@@ -132,10 +136,13 @@ def _rounded(values: Array | Sequence[float]) -> list[float]:
 
 def _legend(sketch: Sketch) -> str:
     rows = []
-    for ink, text in keys_of(sketch.shapes):
+    for ink, text in keys_of(sketch.shapes, sketch.meanings):
         dash = f' stroke-dasharray="{" ".join(map(str, ink.dash))}"' if ink.dash else ""
         line = f'stroke="{ink.line}" stroke-width="{ink.width}"{dash}'
         fill = f'<rect x="1" y="2" width="18" height="9" fill="{ink.fill}" {line}/>' if ink.fill else None
         sample = fill or f'<path d="M1 6.5H19" {line}/>'
-        rows.append(f'<span><svg width="20" height="13" aria-hidden="true">{sample}</svg> {escape(text)}</span>')
-    return "".join(rows)
+        rows.append(
+            f'<span><svg class="{CLASS}" width="20" height="13" aria-hidden="true">{sample}</svg> {escape(text)}</span>'
+        )
+    samples = "".join(rows)
+    return f"{dark_style(samples)}{samples}"

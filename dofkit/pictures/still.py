@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -69,12 +70,7 @@ class Picture:
 
         Raises ArgumentError for any other ending, ExtraMissingError where matplotlib is needed and missing, OSError.
         """
-        target = Path(path)
-        write = _WRITERS.get(target.suffix.lower())
-        if write is None:
-            raise ArgumentError(no_such(target.suffix or str(path), list(_WRITERS), "ending"))
-        write(self, target)
-        return target
+        return saved(self, path, _WRITERS)
 
     def _repr_html_(self) -> str:
         return framed(self.html()) if self.sketch.dimension == 3 or self.script else self.svg()
@@ -83,10 +79,27 @@ class Picture:
         return png_of(self.page) if has_matplotlib() else None
 
 
+_Drawn = TypeVar("_Drawn")
+
+
+def saved(picture: _Drawn, path: str | Path, writers: Mapping[str, Callable[[_Drawn, Path], None]]) -> Path:
+    """Write a picture with the one of the ``writers`` that the path's ending asks for; returns the path.
+
+    Raises ArgumentError for any other ending, and what the writer raises.
+    """
+    target = Path(path)
+    write = writers.get(target.suffix.lower())
+    if write is None:
+        raise ArgumentError(no_such(target.suffix or str(path), list(writers), "ending"))
+    write(picture, target)
+    return target
+
+
 _PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title>
 <meta name="viewport" content="width=device-width">
-<style>body {{ margin: 1em; font-family: sans-serif; }} svg {{ max-width: 100%; height: auto; }}</style></head>
+<style>:root {{ color-scheme: light dark; }}
+body {{ margin: 1em; font-family: sans-serif; }} svg {{ max-width: 100%; height: auto; }}</style></head>
 <body>
 {body}</body></html>
 """

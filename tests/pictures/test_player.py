@@ -65,6 +65,21 @@ def test_a_click_on_play_moves_a_body(viewer: Viewer, name: str, tmp_path: Path)
     assert viewer.said == []
 
 
+def test_paper_is_dark_where_the_reader_has_it_so(viewer: Viewer, tmp_path: Path) -> None:
+    paper = "[...document.querySelector('canvas').getContext('2d').getImageData(3, 3, 1, 1).data].slice(0, 3)"
+    svg = "getComputedStyle(document.querySelector('rect')).fill"
+    try:
+        for scheme, colour in (("light", [255, 255, 255]), ("dark", [0x15, 0x1B, 0x23])):
+            viewer.page.emulate_media(color_scheme=scheme)
+            viewer.show(dofkit.animate("four-bar-linkage").save(tmp_path / "a.html"))
+            assert viewer.page.evaluate(paper) == colour
+            viewer.page.goto(dofkit.draw("four-bar-linkage").save(tmp_path / "a.svg").as_uri())
+            assert viewer.page.evaluate(svg) == f"rgb({', '.join(map(str, colour))})"
+    finally:
+        viewer.page.emulate_media(color_scheme="light")
+    assert viewer.said == []
+
+
 def test_the_slider_shows_any_frame(viewer: Viewer, tmp_path: Path) -> None:
     before = viewer.show(dofkit.animate("four-bar-linkage").save(tmp_path / "a.html"))
     viewer.page.evaluate("s = document.querySelector('#slider'); s.value = 30; s.dispatchEvent(new Event('input'))")
