@@ -82,8 +82,10 @@ def ink_of(shape: Shape) -> Ink:
     return plain
 
 
-def keys_of(shapes: Iterable[Shape], meanings: Mapping[State, str]) -> list[tuple[Ink, str]]:
-    """What the legend explains: what occurs, and of states those that have a meaning."""
+def keys_of(shapes: Iterable[Shape], meanings: Mapping[State, str] | None) -> list[tuple[Ink, str]]:
+    """What the legend explains: what occurs, and of states those that have a meaning; without meanings nothing."""
+    if meanings is None:
+        return []
     found: dict[str, Ink] = {}
     for shape in shapes:
         ink = ink_of(shape)

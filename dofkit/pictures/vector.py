@@ -13,6 +13,8 @@ from dofkit.pictures.paper import Mark, Page, Spot
 #: Of everything that is drawn, for its style.
 CLASS = "dofkit-picture"
 FONT = "DejaVu Sans, Verdana, Arial, sans-serif"
+#: Typesetters that do not know the colours of style sheets would take them for black: they pass over this.
+_AS_MODERN = "@supports (color:light-dark(#fff,#000))"
 _COLOUR = re.compile('(fill|stroke)="(#[0-9A-F]{6})"')
 _HATCH = (
     '<pattern id="hatch" width="6" height="6" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">'
@@ -45,7 +47,7 @@ def dark_style(parts: str) -> str:
         for paint, colour in sorted(set(_COLOUR.findall(parts)))
         if colour in ON_DARK
     )
-    return f"<style>{schemes('.' + CLASS)}{''.join(rules)}</style>"
+    return f"<style>{_AS_MODERN}{{{schemes('.' + CLASS)}{''.join(rules)}}}</style>"
 
 
 def _element(mark: Mark, height: float) -> str:

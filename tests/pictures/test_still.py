@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from itertools import combinations, product
 from pathlib import Path
@@ -101,6 +102,17 @@ def test_an_svg_knows_light_and_dark() -> None:
     assert style is not None
     assert f'[fill="{WHITE}"]{{fill:light-dark({WHITE},{ON_DARK[WHITE]})}}' in (style.text or "")
     assert f'fill="{WHITE}"' in told
+
+
+def test_a_typesetter_that_knows_no_light_and_dark_has_white_paper(tmp_path: Path) -> None:
+    from PIL import Image
+    from typst import compile as typeset
+
+    dofkit.draw(DOOR).save(tmp_path / "a.svg")
+    (tmp_path / "a.typ").write_text('#image("a.svg")', encoding="utf-8")
+    with Image.open(io.BytesIO(typeset(tmp_path / "a.typ", format="png", ppi=36))) as image:
+        dark = sum(image.convert("L").histogram()[:64]) / (image.width * image.height)
+    assert 0 < dark < 0.05
 
 
 def test_the_alternative_text_states_the_answer() -> None:
