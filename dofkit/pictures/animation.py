@@ -12,7 +12,7 @@ from dofkit.pictures.coordinates import MOST, gauge_sketch, is_bare
 from dofkit.pictures.layout import page_of, standpoint_of
 from dofkit.pictures.motion import clips_of
 from dofkit.pictures.paper import Page
-from dofkit.pictures.player import framed, page_html
+from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.raster import ExtraMissingError, draw_marks, figure_of, require_matplotlib
 from dofkit.pictures.shapes import Clip, Sketch
 from dofkit.pictures.states import can_hold
@@ -65,7 +65,7 @@ class Animation:
         return saved(self, path, _WRITERS)
 
     def _repr_html_(self) -> str:
-        return framed(self.html())
+        return framed(self.html(), page_height(self.sketch, self.clips))
 
 
 def animate(scene: SceneLike, report: Report | None = None) -> Animation:

@@ -17,10 +17,10 @@ from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
 from dofkit.pictures.coordinates import MOST, coordinate_sketch, is_bare
 from dofkit.pictures.directions import phase_sketch
-from dofkit.pictures.layout import page_of
+from dofkit.pictures.layout import WIDTH, page_of
 from dofkit.pictures.mechanism import sketch_of
 from dofkit.pictures.paper import Page
-from dofkit.pictures.player import framed, page_html
+from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.raster import has_matplotlib, png_of, write_pdf
 from dofkit.pictures.shapes import Sketch
 from dofkit.pictures.stage import StagedScene, stage_of
@@ -29,6 +29,8 @@ from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
 
+#: Pixels around a still picture on a page of its own.
+BESIDE = 20.0
 #: A picture that reaches so much further than its places has larger symbols.
 WIDER = 1.6
 NOTHING = "The scene declares nothing that could move."
@@ -73,7 +75,9 @@ class Picture:
         return saved(self, path, _WRITERS)
 
     def _repr_html_(self) -> str:
-        return framed(self.html()) if self.sketch.dimension == 3 or self.script else self.svg()
+        if self.sketch.dimension == 3:
+            return framed(self.html(), page_height(self.sketch, ()))
+        return framed(self.html(), self.page.height + 2 * BESIDE) if self.script else self.svg()
 
     def _repr_png_(self) -> bytes | None:
         return png_of(self.page) if has_matplotlib() else None
@@ -195,7 +199,7 @@ def phase(scene: SceneLike, report: Report | None = None) -> Picture:
     return Picture(phase_sketch(stage_of(given, told)))
 
 
-def svg(scene: SceneLike, report: Report | None = None, width: float = 360.0) -> str:
+def svg(scene: SceneLike, report: Report | None = None, width: float = WIDTH) -> str:
     """A small picture of a scene as the text of an ``svg`` element, for inside of another page; it is `draw`'s.
 
     ``width`` is in the page's pixels. Raises as `draw` does.

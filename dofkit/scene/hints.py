@@ -91,8 +91,8 @@ def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
 
 
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
-    twice = _said_twice(fault, value)
-    told = twice or fault.hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
+    told = _said_twice(fault, value) or _direction(fault, value) or fault.hint
+    told = told or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
     if told is not None and _ENOUGH.search(told):
         return told
     line = _line(fault, told or "", value)
@@ -111,6 +111,13 @@ def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
     return (
         None if meant is None else f"`{key}` is another word for `{meant}`, which is given too: leave one of them out"
     )
+
+
+def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
+    """What a direction is, where something else is given for one."""
+    if fault.where[-1:] != ("axis",) or "a list is needed" not in fault.message:
+        return None
+    return f"a direction is {' or '.join('xyz'[: dimension_of(value)])}, or its components"
 
 
 def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:

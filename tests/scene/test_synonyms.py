@@ -156,6 +156,10 @@ SHOWN: dict[str, tuple[str, str]] = {
     "an axis that is no direction": (
         "{A}[{type: hinge, between: [ground, a], at: [0, 0, 0], axis: w}]", "`axis: [0, 0, 1]`",
     ),
+    "an axis out of the plane": (
+        "dimension: 2\n{A}[{type: slider, between: [ground, a], axis: z}]",
+        "a direction is x or y, or its components; for example `axis: [1, 0]`",
+    ),
     "no axis": ("{A}[{type: hinge, between: [ground, a], at: [0, 0, 0]}]", "`axis: [0, 0, 1]`"),
     "a body for a point": ("{B}[{type: link, between: [a, A]}]", "`{on: a, at: [0, 0, 0]}`"),
     "a particle for a body": ("{B}[{type: weld, between: [a, A]}]", "`{type: fixed, point: A}`"),
