@@ -44,7 +44,7 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
         poses={GROUND: AT_REST},
         size=2.0,
         answer=answer(report),
-        alternative=f"{alternative(scene, report)} A graph: dots are what moves, boxes constraints.",
+        alternative=f"{alternative(scene, report)} A graph: dots are bodies, particles and coordinates, boxes constraints.",
         notes=(*notes, *_circuits_told(report)),
         meanings=meanings(report, looked=False),
         axes=(),

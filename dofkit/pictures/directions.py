@@ -62,6 +62,8 @@ def phase_sketch(stage: StagedScene) -> Sketch:
     axes = f"hown: {', '.join(names)}."
     if len(names) < len(distribution.names):
         axes += f" Left out: {', '.join(n for n in distribution.names if n not in names)}."
+    if distribution.timed:
+        axes += " Time stands still here."
     note = f"{_growth(report, found)}; s{axes}"
     return Sketch(
         title=f"{stage.scene.title or stage.scene.name}: directions",
