@@ -19,6 +19,7 @@ from dofkit.system import GROUND, Constraint, System
 MOST_SPREAD = 450
 #: More nodes than this have no names.
 MOST_NAMES = 90
+WHAT = "A graph: dots are bodies, particles and coordinates, boxes constraints."
 
 
 def graph_sketch(scene: Scene, system: System, report: Report, reason: str | None = None) -> Sketch:
@@ -44,7 +45,7 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
         poses={GROUND: AT_REST},
         size=2.0,
         answer=answer(report),
-        alternative=f"{alternative(scene, report)} A graph: dots are bodies, particles and coordinates, boxes constraints.",
+        alternative=f"{alternative(scene, report)} {WHAT}",
         notes=(*notes, *_circuits_told(report)),
         meanings=meanings(report, looked=False),
         axes=(),
