@@ -188,11 +188,10 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
         yield f"{many(rigid, 'dependent set')} taken for one rigid body each"
     if followed and left_out:
         yield f"{many(followed, 'other dependent set')} followed apart from all else"
-    spared = sum(k.spared for k in looked)
-    if spared:
+    if any(k.spared for k in looked):
         yield (
-            f"{many(spared, 'coordinate')} fewer where motions were followed (welded bodies and rigid "
-            "clusters as one, bodies that do not turn as particles, what a linear relation gives explicitly)"
+            "fewer coordinates where motions were followed (welded bodies and rigid clusters as one, bodies that do "
+            "not turn as particles, what a linear relation gives explicitly)"
         )
 
 

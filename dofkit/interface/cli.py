@@ -111,28 +111,25 @@ def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: o
     _print(motions(files, linearize, Telling.here(as_json)))
 
 
-@app.command()
-def draw(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
-    """Draw scenes: ground, bodies, joints by their symbols, what moves, is redundant or contradicts."""
-    _pictures(files, "draw", out, kind)
+def _still(kind: str, about: str) -> None:
+    """A command for a kind of still picture."""
+
+    @app.command(kind, help=about)
+    def still(files: options.Files, out: options.PicturePath = None, form: options.StillKind = "svg") -> None:
+        _pictures(files, kind, out, form)
+
+
+_still("draw", "Draw scenes: ground, bodies, joints by their symbols, what moves, is redundant or contradicts.")
 
 
 @app.command()
-def animate(files: options.Files, out: options.PicturePath = None, kind: options.MovingKind = "html") -> None:
+def animate(files: options.Files, out: options.PicturePath = None, form: options.MovingKind = "html") -> None:
     """Draw scenes in motion: a page with a slider, a gif or an mp4."""
-    _pictures(files, "animate", out, kind)
+    _pictures(files, "animate", out, form)
 
 
-@app.command()
-def graph(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
-    """Draw constraints and what they hold as a graph, redundant ones marked."""
-    _pictures(files, "graph", out, kind)
-
-
-@app.command()
-def phase(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
-    """Draw the directions that differential constraints allow, and those that their brackets add."""
-    _pictures(files, "phase", out, kind)
+_still("graph", "Draw constraints and what they hold as a graph, redundant ones marked.")
+_still("phase", "Draw the directions that differential constraints allow, and those that their brackets add.")
 
 
 @app.command()
