@@ -126,7 +126,7 @@ def _at_signs(text: str) -> Iterator[tuple[int, int]]:
 
 
 def _within_brackets(before: str) -> bool:
-    """Is a parenthesis open behind a text? One that closes none, as behind the number of an equation, counts nothing."""
+    """Is a parenthesis open behind a text? One that closes none, as behind an equation's number, counts nothing."""
     depth = 0
     for char in before:
         depth = max(0, depth + (char == "(") - (char == ")"))
