@@ -62,6 +62,7 @@ def system_of(scene: Scene, found: Survey) -> System:
         tolerance=scene.tolerance or None,
         size=found.size,
         warnings=tuple(warnings),
+        left_out=scene.left_out,
     )
 
 
