@@ -11,42 +11,45 @@ from dofkit.models.model_document import ModelDocument, ModelFile
 
 
 class ModelFormat(NamedTuple):
-    """A format: how its files begin, and the module whose `read` takes them."""
+    """A format: the tag that its files begin with, and the module whose `read` takes them."""
 
     title: str
-    beginning: re.Pattern[bytes]
+    tag: str
     module: str
 
 
-_BEFORE = rb"(?:\xef\xbb\xbf)?(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>)*"
+#: The letters before a SolveSpace sketch stand for its tag.
+_SKETCH = b"\xb1\xb2\xb3SolveSpaceREVa"
 FORMATS = (
-    ModelFormat("MJCF", re.compile(_BEFORE + rb"<mujoco\b", re.DOTALL), "dofkit.models.mjcf"),
-    ModelFormat("URDF", re.compile(_BEFORE + rb"<robot\b", re.DOTALL), "dofkit.models.urdf"),
-    ModelFormat("SolveSpace", re.compile(rb"\xb1\xb2\xb3SolveSpaceREVa"), "dofkit.models.solvespace"),
+    ModelFormat("MJCF", "mujoco", "dofkit.models.mjcf"),
+    ModelFormat("URDF", "robot", "dofkit.models.urdf"),
+    ModelFormat("SolveSpace", "SolveSpace", "dofkit.models.solvespace"),
 )
-_BEGINS = re.compile(rb"(?:\xef\xbb\xbf)?\s*<[?!A-Za-z]|\xb1\xb2\xb3SolveSpace")
-#: What else begins like XML.
-_MARKUP = re.compile(_BEFORE + rb"<([A-Za-z][\w:.-]*)", re.DOTALL)
+#: Roots of what is only a part of a model.
+_PARTS = ("mujocoinclude", "config")
+_TAG = re.compile(rb"<([A-Za-z][\w:.-]*)")
+#: What may stand before the first tag: how it begins and ends.
+_BEFORE = ((b"<?", b"?>"), (b"<!--", b"-->"), (b"<!", b">"))
 #: A beginning is looked for in so many bytes.
 LOOKED_AT = 200_000
 
 
 def is_model(data: bytes | str) -> bool:
     """Does a file begin as no scene does: with a tag, or with SolveSpace's letters?"""
-    start = data[:LOOKED_AT].encode("utf-8", "replace") if isinstance(data, str) else data[:LOOKED_AT]
-    return _BEGINS.match(start) is not None
+    start = _beginning(data)
+    return start.startswith((b"<?xml", b"<!", _SKETCH)) or _TAG.match(start) is not None
 
 
 def format_of(data: bytes | str) -> ModelFormat | None:
     """The format of a file by its beginning; None for a scene. Raises SceneError for XML that is no model."""
-    start = (data[:LOOKED_AT].encode("utf-8", "replace") if isinstance(data, str) else data[:LOOKED_AT]).lstrip()
-    found = next((one for one in FORMATS if one.beginning.match(start)), None)
-    markup = _MARKUP.match(start) if found is None else None
-    if markup is not None:
-        root = markup[1].decode("utf-8", "replace")
-        message = f"an XML file that begins with <{root}> is no model that is read"
+    if not is_model(data):
+        return None
+    tag = _first_tag(_beginning(data))
+    found = next((one for one in FORMATS if one.tag == tag), None)
+    if found is None and tag:
+        message = f"an XML file that begins with <{tag}> is no model that is read"
         hint = "models begin with <mujoco> (MJCF) or <robot> (URDF)"
-        if root in ("mujocoinclude", "config"):
+        if tag in _PARTS:
             hint = "this is a part of a model: name the file that includes it"
         raise SceneError((Fault(message, line=1, column=1, hint=hint),))
     return found
@@ -56,10 +59,30 @@ def read_model(file: ModelFile) -> ModelDocument:
     """The scene of a model's file. Raises SceneError with what is at fault, each in its line."""
     found = format_of(file.data)
     if found is None:
-        raise SceneError((Fault("this is no model", hint=f"those that are read: {_titles()}"),), file.name)
+        titles = ", ".join(one.title for one in FORMATS)
+        raise SceneError((Fault("this is no model", hint=f"those that are read: {titles}"),), file.name)
     document: ModelDocument = import_module(found.module).read(file)
     return document
 
 
-def _titles() -> str:
-    return ", ".join(one.title for one in FORMATS)
+def _beginning(data: bytes | str) -> bytes:
+    start = data[:LOOKED_AT]
+    raw = start.encode("utf-8", "replace") if isinstance(start, str) else start
+    return raw.removeprefix(b"\xef\xbb\xbf").lstrip()
+
+
+def _first_tag(start: bytes) -> str:
+    """The first tag after declarations and comments; empty where none is found."""
+    if start.startswith(_SKETCH):
+        return "SolveSpace"
+    at = 0
+    while True:
+        at += len(start[at:]) - len(start[at:].lstrip())
+        pair = next((pair for pair in _BEFORE if start.startswith(pair[0], at)), None)
+        if pair is None:
+            match = _TAG.match(start, at)
+            return "" if match is None else match[1].decode("ascii", "replace")
+        end = start.find(pair[1], at)
+        if end < 0:
+            return ""
+        at = end + len(pair[1])

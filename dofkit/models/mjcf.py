@@ -84,7 +84,7 @@ class _MjcfScene:
             self._equality(equality)
         self._ranges()
         self._rest()
-        return self.draft.document(self._tolerance() if self.loops else None)
+        return self.draft.document(self._tolerance(), self.loops)
 
     def _body(self, index: int, body: Mapping[str, Any]) -> None:
         name = body["name"] or f"body_{index}"

@@ -39,10 +39,14 @@ class ModelFile(NamedTuple):
 
 @dataclass(frozen=True)
 class ModelDocument:
-    """The mapping of a scene, and the line of the model that each part of it is from, by its path."""
+    """The mapping of a scene, and the line of the model that each part of it is from, by its path.
+
+    ``tolerance``: what the digits of the file are worth, which the scene says only where places may be special.
+    """
 
     value: dict[str, Any]
     lines: Mapping[tuple[str | int, ...], int]
+    tolerance: float | None = None
 
 
 @dataclass
@@ -93,19 +97,20 @@ class SceneDraft:
         if what not in self.left_out:
             self.left_out.append(what)
 
-    def document(self, tolerance: float | None) -> ModelDocument:
-        """The scene."""
+    def document(self, tolerance: float | None, special: bool) -> ModelDocument:
+        """The scene; with its tolerance where its places may be ``special``."""
+        tolerance = None if tolerance is None else float(f"{tolerance:.2g}")
         value: dict[str, Any] = {"title": self.title, "dimension": self.dimension}
         for key in ("parameters", "particles", "bodies", "coordinates", "constraints", "forces"):
             if getattr(self, key):
                 value[key] = getattr(self, key)
-        if tolerance is not None:
-            value["tolerance"] = float(f"{tolerance:.2g}")
+        if special and tolerance is not None:
+            value["tolerance"] = tolerance
         if self.configuration:
             value["configuration"] = self.configuration
         if self.left_out:
             value["left_out"] = self.left_out
-        return ModelDocument(value, self.lines)
+        return ModelDocument(value, self.lines, tolerance)
 
     def _at(self, path: tuple[str | int, ...], line: int | None) -> None:
         if line is not None:

@@ -21,7 +21,7 @@ from dofkit.models.model_document import (
     tolerance_of,
     vector,
 )
-from dofkit.models.urdf_elements import LoopJoint, Robot, RobotJoint, Transform, read_robot
+from dofkit.models.urdf_elements import FIXED, SCALAR, WITH_AXIS, LoopJoint, Robot, RobotJoint, Transform, read_robot
 from dofkit.system import GROUND
 
 #: The joint of a scene for each kind; one that is free has none.
@@ -29,10 +29,6 @@ _KINDS = {
     "revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "weld", "planar": "planar",
     "ball": "spherical", "spherical": "spherical", "cylindrical": "cylindrical",
 }  # fmt: skip
-#: Kinds with one angle or displacement, which others may mimic.
-_SCALAR = ("revolute", "continuous", "prismatic")
-#: What need not be placed by a joint's own place; what has an axis.
-_NO_PLACE, _WITH_AXIS = ("fixed",), (*_SCALAR, "planar", "cylindrical")
 
 
 def read(file: ModelFile) -> ModelDocument:
@@ -59,7 +55,7 @@ class _UrdfScene:
         markers = []
         for name in poses.order:
             link, joint = robot.links[name], poses.joint_of.get(name)
-            loose = link.mass == 0 and name not in parents and joint is not None and joint.kind == "fixed"
+            loose = link.mass == 0 and name not in parents and joint is not None and joint.kind == FIXED
             if loose and joint is not None:
                 markers.append(name)
                 self.stands[name] = self.stands[joint.parent]
@@ -81,7 +77,7 @@ class _UrdfScene:
         self._ranges()
         self._rest()
         loops = bool(robot.loops or poses.closing)
-        return self.draft.document(self._tolerance(poses.pose) if loops else None)
+        return self.draft.document(self._tolerance(poses.pose), loops)
 
     def _link(self, name: str, pose: Transform, joint: RobotJoint | None) -> None:
         link = self.robot.links[name]
@@ -101,9 +97,9 @@ class _UrdfScene:
         if kind is None:
             return
         given: dict[str, Any] = {"between": [self.stands[joint.parent], self.stands[joint.child]]}
-        if joint.kind not in _NO_PLACE:
+        if joint.kind != FIXED:
             given["at"] = vector(frame.at)
-        if joint.kind in _WITH_AXIS:
+        if joint.kind in WITH_AXIS:
             given["axis"] = vector(frame.turn @ np.array(joint.axis))
         self.names[joint.name] = self.draft.constraint(joint.name, kind, joint.line, **given)
 
@@ -118,9 +114,9 @@ class _UrdfScene:
             self.draft.constraint(loop.name, "coincident", loop.line, between=points)
             return
         given: dict[str, Any] = {"between": [end["on"] for end in ends]}
-        if loop.kind not in _NO_PLACE:
+        if loop.kind != FIXED:
             given["at"] = vector(frames[0].at)
-        if loop.kind in _WITH_AXIS:
+        if loop.kind in WITH_AXIS:
             given["axis"] = vector(frames[0].turn @ np.array(loop.axis))
         self.draft.constraint(loop.name, kind, loop.line, **given)
 
@@ -135,7 +131,7 @@ class _UrdfScene:
                 self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **given)
 
     def _ranges(self) -> None:
-        ranged = [joint for joint in self.robot.joints if joint.range and joint.kind in _SCALAR]
+        ranged = [joint for joint in self.robot.joints if joint.range and joint.kind in SCALAR]
         if ranged and not self.limits:
             shown = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
             self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they are inequalities")

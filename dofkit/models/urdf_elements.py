@@ -17,6 +17,10 @@ from dofkit.models.model_document import ModelFile, listed
 
 Array: TypeAlias = Any
 KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball", "spherical", "cylindrical")
+#: Those with one angle or displacement, which others may mimic; those with an axis.
+FIXED = "fixed"
+SCALAR = ("revolute", "continuous", "prismatic")
+WITH_AXIS = (*SCALAR, "planar", "cylindrical")
 #: Elements that say nothing of how a robot moves, and what they are.
 _OTHERS = {
     "transmission": "transmissions: actuators are forces, and constrain nothing",
@@ -219,7 +223,7 @@ class _RobotReader:
         ends = [self._named(part, tag, "link", links) for tag in ("parent", "child")]
         axis = part.first("axis")
         direction = (1.0, 0.0, 0.0) if axis is None else self._numbers(axis, "xyz", (1.0, 0.0, 0.0))
-        if axis is not None and not any(direction):
+        if axis is not None and not any(direction) and kind in WITH_AXIS:
             self._fault(axis, f"the axis of '{name}' is zero", "write a direction, such as xyz='0 0 1'")
         limit, mimic = part.first("limit"), part.first("mimic")
         limits = None
@@ -246,10 +250,9 @@ class _RobotReader:
             if joint.mimic is None:
                 continue
             other = known.get(joint.mimic.joint)
-            scalar = ("revolute", "continuous", "prismatic")
-            if other is None or other.kind not in scalar or joint.kind not in scalar or other is joint:
+            if other is None or other.kind not in SCALAR or joint.kind not in SCALAR or other is joint:
                 near = nearest(joint.mimic.joint, tuple(known)) if other is None else None
-                hint = f"did you mean '{near}'?" if near else f"joints that can be mimicked are {', '.join(scalar)}"
+                hint = f"did you mean '{near}'?" if near else f"joints that can be mimicked are {', '.join(SCALAR)}"
                 self._fault(lines[joint.name], f"'{joint.name}' mimics '{joint.mimic.joint}', which it cannot", hint)
         self._check_mimics(known, lines)
         children = {joint.child for joint in joints}
