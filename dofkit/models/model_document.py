@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from decimal import Decimal
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -104,6 +106,7 @@ class SceneDraft:
         for key in ("parameters", "particles", "bodies", "coordinates", "constraints", "forces"):
             if getattr(self, key):
                 value[key] = getattr(self, key)
+        self._measurable_axes()
         if special and tolerance is not None:
             value["tolerance"] = tolerance
         if self.configuration:
@@ -111,6 +114,13 @@ class SceneDraft:
         if self.left_out:
             value["left_out"] = self.left_out
         return ModelDocument(value, self.lines, tolerance)
+
+    def _measurable_axes(self) -> None:
+        """Give the axes of coupled joints a length that is a fraction: their angles are told without roots."""
+        coupled = {joint for c in self.constraints for joint in c.get("joints", {}).values()}
+        for constraint in self.constraints:
+            if constraint["name"] in coupled and "axis" in constraint:
+                constraint["axis"] = measurable(constraint["axis"])
 
     def _at(self, path: tuple[str | int, ...], line: int | None) -> None:
         if line is not None:
@@ -126,6 +136,25 @@ def number(value: float) -> float | int:
 def vector(values: Iterable[float]) -> list[float | int]:
     """Numbers as a person would write them."""
     return [number(v) for v in values]
+
+
+def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:
+    """A direction along the axis, right to within 1e-9, whose length is a fraction.
+
+    With n of length 1, c its largest component, and (a, b) = the others over 1 + |c|: (2a, 2b, 1 - a^2 - b^2).
+
+    >>> measurable([0, 0, 1]), [float(v) for v in measurable([0.6, 0.0, 0.8])]
+    ([0, 0, 1], [0.666666666, 0.0, 0.8888888891111111])
+    """
+    if sum(map(bool, axis)) == 1:
+        return [*axis]
+    k = max(range(3), key=lambda i: abs(axis[i]))
+    size = math.sqrt(sum(v * v for v in axis))
+    sign = 1 if axis[k] > 0 else -1
+    a, b = (round(Decimal(sign * axis[i] / size / (1 + abs(axis[k]) / size)), 9) for i in range(3) if i != k)
+    found: list[float | int | Decimal] = [sign * 2 * a, sign * 2 * b]
+    found.insert(k, sign * (1 - a * a - b * b))
+    return found
 
 
 def unique(name: str, taken: set[str]) -> str:

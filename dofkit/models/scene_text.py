@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping
+from decimal import Decimal
 from typing import Any
 
 #: A text that YAML 1.2 reads as itself without quotes, in brackets too.
@@ -46,9 +47,4 @@ def _flow(value: Any) -> str:
     if isinstance(value, str):
         plain = _PLAIN.fullmatch(value) and value.lower() not in _WORDS
         return value if plain else json.dumps(value, ensure_ascii=False)
-    return _figures(value)
-
-
-def _figures(value: float) -> str:
-    """A number as YAML 1.2 reads it: with a digit before and after the point of what has an exponent."""
-    return json.dumps(value)
+    return str(value) if isinstance(value, Decimal) else json.dumps(value)

@@ -121,14 +121,15 @@ class _UrdfScene:
         self.draft.constraint(loop.name, kind, loop.line, **given)
 
     def _mimics(self) -> None:
+        """What joints mimic; one that does not move leaves nothing free."""
+        kinds = {joint.name: joint.kind for joint in self.robot.joints}
         for joint in self.robot.joints:
-            if joint.mimic is not None:
-                one, other = (
-                    JointSum(((self.names[joint.name], 1.0),)),
-                    JointSum(((self.names[joint.mimic.joint], 1.0),)),
-                )
-                given = relation(one, other, [0.0, joint.mimic.factor])
-                self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **given)
+            if joint.mimic is None or joint.kind == FIXED:
+                continue
+            other = kinds[joint.mimic.joint]
+            right = None if other == FIXED else JointSum(((self.names[joint.mimic.joint], 1.0),))
+            given = relation(JointSum(((self.names[joint.name], 1.0),)), right, [0.0, joint.mimic.factor])
+            self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **given)
 
     def _ranges(self) -> None:
         ranged = [joint for joint in self.robot.joints if joint.range and joint.kind in SCALAR]

@@ -250,7 +250,8 @@ class _RobotReader:
             if joint.mimic is None:
                 continue
             other = known.get(joint.mimic.joint)
-            if other is None or other.kind not in SCALAR or joint.kind not in SCALAR or other is joint:
+            kinds = (*SCALAR, FIXED)
+            if other is None or other.kind not in kinds or joint.kind not in kinds or other is joint:
                 near = nearest(joint.mimic.joint, tuple(known)) if other is None else None
                 hint = f"did you mean '{near}'?" if near else f"joints that can be mimicked are {', '.join(SCALAR)}"
                 self._fault(lines[joint.name], f"'{joint.name}' mimics '{joint.mimic.joint}', which it cannot", hint)
