@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -32,9 +31,6 @@ class CompiledModel(NamedTuple):
 
 def compiled(file: ModelFile) -> CompiledModel:
     """The model compiled. Raises SceneError for what the compiler does not take."""
-    if find_spec("mujoco") is None:
-        hint = "install it: pip install 'dofkit[models]'"
-        raise SceneError((Fault("MJCF is read with MuJoCo's compiler, which is not here", hint=hint),), file.name)
     root = read_markup(file.data, file.name)
     included = tuple(_included(root, file))
     worker = Worker(MEMORY, ("dofkit.models.mujoco_model", "mujoco"))

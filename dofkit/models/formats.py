@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from importlib import import_module
+from importlib.util import find_spec
 from typing import NamedTuple
 
 from dofkit.base.errors import Fault, SceneError
@@ -11,18 +12,19 @@ from dofkit.models.model_document import ModelDocument, ModelFile
 
 
 class ModelFormat(NamedTuple):
-    """A format: the tag that its files begin with, and the module whose `read` takes them."""
+    """A format: the tag that its files begin with, the module whose `read` takes them, and what that ``needs``."""
 
     title: str
     tag: str
     module: str
+    needs: tuple[str, ...] = ()
 
 
 #: The letters before a SolveSpace sketch stand for its tag.
 _SKETCH = b"\xb1\xb2\xb3SolveSpaceREVa"
 FORMATS = (
-    ModelFormat("MJCF", "mujoco", "dofkit.models.mjcf"),
-    ModelFormat("URDF", "robot", "dofkit.models.urdf"),
+    ModelFormat("MJCF", "mujoco", "dofkit.models.mjcf", ("defusedxml", "mujoco")),
+    ModelFormat("URDF", "robot", "dofkit.models.urdf", ("defusedxml",)),
     ModelFormat("SolveSpace", "SolveSpace", "dofkit.models.solvespace"),
 )
 #: Roots of what is only a part of a model.
@@ -61,6 +63,10 @@ def read_model(file: ModelFile) -> ModelDocument:
     if found is None:
         titles = ", ".join(one.title for one in FORMATS)
         raise SceneError((Fault("this is no model", hint=f"those that are read: {titles}"),), file.name)
+    missing = [name for name in found.needs if find_spec(name) is None]
+    if missing:
+        message = f"{found.title} is read with {' and '.join(missing)}, which is not installed"
+        raise SceneError((Fault(message, hint="install it: pip install 'dofkit[models]'"),), file.name)
     document: ModelDocument = import_module(found.module).read(file)
     return document
 

@@ -135,7 +135,7 @@ class _MjcfScene:
         elif kind in ("joint", "tendon"):
             self._coupling(name, kind, told, line)
         else:
-            self.draft.leave_out(f"the equality {name}: of kind {kind}, which only MuJoCo knows")
+            self.draft.leave_out(f"{name}: of kind {kind}, which only MuJoCo knows", binding=True)
 
     def _coupling(self, name: str, kind: str, told: Mapping[str, Any], line: int | None) -> None:
         of = [i for i in told["of"] if i >= 0]
@@ -144,7 +144,7 @@ class _MjcfScene:
         sums = [self._joint_sum(i) if kind == "joint" else self._fixed_tendon(i) for i in of]
         known = [one for one in sums if one is not None]
         if len(known) < len(sums):
-            self.draft.leave_out(f"the equality {name}: of tendons that run around shapes")
+            self.draft.leave_out(f"{name}: of tendons that run around shapes", binding=True)
             return
         given = relation(known[0], known[1] if len(known) > 1 else None, told["polynomial"])
         self.draft.constraint(name, "coupling", line, **given)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dofkit.expressions.text import valid_name
+from dofkit.system import BINDING
 
 #: Numbers are rounded to so many decimals: what a compiler of doubles knows.
 DECIMALS = 12
@@ -94,8 +95,9 @@ class SceneDraft:
         self.constraints.append({"name": found, "type": kind, **given})
         return found
 
-    def leave_out(self, what: str) -> None:
-        """Say what was not read, and why; once."""
+    def leave_out(self, what: str, binding: bool = False) -> None:
+        """Say what was not read, and why; once. ``binding``: it is a constraint, and would take freedom away."""
+        what = f"{BINDING}{what}" if binding else what
         if what not in self.left_out:
             self.left_out.append(what)
 
