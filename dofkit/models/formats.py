@@ -89,6 +89,8 @@ def _first_tag(start: bytes) -> str:
             match = _TAG.match(start, at)
             return "" if match is None else match[1].decode("ascii", "replace")
         end = start.find(pair[1], at)
+        if pair[0] == b"<!" and 0 <= start.find(b"[", at) < end:
+            end = start.find(b">", start.find(b"]", at))
         if end < 0:
             return ""
         at = end + len(pair[1])

@@ -49,7 +49,7 @@ class Element:
             left += reversed(part.below)
 
 
-class _Reader(ContentHandler):
+class _MarkupReader(ContentHandler):
     """Collects elements with their lines."""
 
     def __init__(self) -> None:
@@ -96,7 +96,7 @@ def read_markup(data: bytes | str, name: str) -> Element:
     if len(raw) > MOST_BYTES:
         fault = Fault(f"the file is longer than {MOST_BYTES // 10**6} MB", line=1, column=1, hint="split the model")
         raise SceneError((fault,), name)
-    reader = _Reader()
+    reader = _MarkupReader()
     try:
         defusedxml.sax.parseString(raw, reader)
     except DefusedXmlException:

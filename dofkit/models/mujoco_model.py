@@ -32,7 +32,8 @@ def described_model(given: Mapping[str, Any]) -> dict[str, Any]:
     import mujoco
 
     mujoco.set_mju_user_warning(lambda message: None)
-    path, notes = given["path"], []
+    path = given["path"]
+    notes: list[str] = []
     spec = mujoco.MjSpec.from_file(path) if path else mujoco.MjSpec.from_string(given["text"])
     folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
     notes += _without_files(spec, folder)

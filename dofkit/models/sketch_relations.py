@@ -16,7 +16,7 @@ from dofkit.models.sketch_geometry import Arrow, Round, SketchPoint, at_angle, c
 Written = dict[str, Any]
 
 
-class Mentioned(NamedTuple):
+class SketchMentions(NamedTuple):
     """What a constraint of a sketch mentions: its points, its entities, its number and its two choices."""
 
     points: tuple[SketchPoint, ...]
@@ -31,7 +31,7 @@ class SketchKind(NamedTuple):
     """A kind: its name in SolveSpace, and what it says (None: it is not read); ``needs``: points, lines and rounds."""
 
     name: str
-    says: Callable[[Mentioned], Iterator[Written]] | None
+    says: Callable[[SketchMentions], Iterator[Written]] | None
     needs: tuple[int, int, int] = (0, 0, 0)
 
 
@@ -43,15 +43,15 @@ def _link(first: SketchPoint, second: SketchPoint, length: float) -> Written:
     return {"type": "link", "between": [first.written, second.written], "length": number(length)}
 
 
-def _coincident(m: Mentioned) -> Iterator[Written]:
+def _coincident(m: SketchMentions) -> Iterator[Written]:
     yield {"type": "coincident", "between": [point.written for point in m.points]}
 
 
-def _distance(m: Mentioned) -> Iterator[Written]:
+def _distance(m: SketchMentions) -> Iterator[Written]:
     yield _link(m.points[0], m.points[1], m.value)
 
 
-def _line_distance(m: Mentioned) -> Iterator[Written]:
+def _line_distance(m: SketchMentions) -> Iterator[Written]:
     """d x (p - a) = +-value |d|, to the side on which it is drawn."""
     line = m.lines[0]
     to = Arrow(line.start, m.points[0])
@@ -59,23 +59,23 @@ def _line_distance(m: Mentioned) -> Iterator[Written]:
     yield _equation(f"{cross(line, to)} = {side}{figures(abs(m.value))}*{line.length}")
 
 
-def _on_line(m: Mentioned) -> Iterator[Written]:
+def _on_line(m: SketchMentions) -> Iterator[Written]:
     yield _equation(f"{cross(m.lines[0], Arrow(m.lines[0].start, m.points[0]))} = 0")
 
 
-def _equal_length(m: Mentioned) -> Iterator[Written]:
+def _equal_length(m: SketchMentions) -> Iterator[Written]:
     yield _equation(f"{m.lines[0].squared} = {m.lines[1].squared}")
 
 
-def _length_ratio(m: Mentioned) -> Iterator[Written]:
+def _length_ratio(m: SketchMentions) -> Iterator[Written]:
     yield _equation(f"{m.lines[0].squared} = {figures(m.value)}^2*{m.lines[1].squared}")
 
 
-def _length_difference(m: Mentioned) -> Iterator[Written]:
+def _length_difference(m: SketchMentions) -> Iterator[Written]:
     yield _equation(f"{m.lines[0].length} - {m.lines[1].length} = {figures(m.value)}")
 
 
-def _length_and_distance(m: Mentioned) -> Iterator[Written]:
+def _length_and_distance(m: SketchMentions) -> Iterator[Written]:
     """|a| |d| = +-d x (p - s): the length of one line is the distance of a point from the other."""
     first, line = m.lines
     to = Arrow(line.start, m.points[0])
@@ -83,29 +83,29 @@ def _length_and_distance(m: Mentioned) -> Iterator[Written]:
     yield _equation(f"{first.length}*{line.length} = {side}{cross(line, to)}")
 
 
-def _equal_distances(m: Mentioned) -> Iterator[Written]:
+def _equal_distances(m: SketchMentions) -> Iterator[Written]:
     one, other = (Arrow(line.start, p) for line, p in zip(m.lines, m.points, strict=True))
     a, b = m.lines
     side = "-" if drawn_cross(a, one) * drawn_cross(b, other) < 0 else ""
     yield _equation(f"{cross(a, one)}*{b.length} = {side}{cross(b, other)}*{a.length}")
 
 
-def _equal_angle(m: Mentioned) -> Iterator[Written]:
+def _equal_angle(m: SketchMentions) -> Iterator[Written]:
     """The cosines of two angles, their lines turned about where the other angle is meant."""
     a, b, c, d = m.lines
     sign = "-" if m.other else ""
     yield _equation(f"{sign}{dot(a, b)}*{c.length}*{d.length} = {dot(c, d)}*{a.length}*{b.length}")
 
 
-def _mirrored(m: Mentioned) -> Iterator[Written]:
+def _mirrored(m: SketchMentions) -> Iterator[Written]:
     """The line through the points is across the line of symmetry, which goes through their middle."""
     (p, q), line = m.points, m.lines[0]
     yield _equation(f"{dot(line, Arrow(p, q))} = 0")
     yield _equation(f"{cross(line, Arrow(line.start, p))} + {cross(line, Arrow(line.start, q))} = 0")
 
 
-def _mirrored_on_axis(along: int) -> Callable[[Mentioned], Iterator[Written]]:
-    def says(m: Mentioned) -> Iterator[Written]:
+def _mirrored_on_axis(along: int) -> Callable[[SketchMentions], Iterator[Written]]:
+    def says(m: SketchMentions) -> Iterator[Written]:
         p, q = m.points
         same, opposite = ((p.y, q.y), (p.x, q.x)) if along == 0 else ((p.x, q.x), (p.y, q.y))
         yield _equation(f"{same[0]} = {same[1]}")
@@ -114,21 +114,21 @@ def _mirrored_on_axis(along: int) -> Callable[[Mentioned], Iterator[Written]]:
     return says
 
 
-def _midpoint(m: Mentioned) -> Iterator[Written]:
+def _midpoint(m: SketchMentions) -> Iterator[Written]:
     p, line = m.points[0], m.lines[0]
     yield _equation(f"2*{_wrapped(p.x)} = {line.start.x} + {_wrapped(line.end.x)}")
     yield _equation(f"2*{_wrapped(p.y)} = {line.start.y} + {_wrapped(line.end.y)}")
 
 
-def _level(which: int) -> Callable[[Mentioned], Iterator[Written]]:
-    def says(m: Mentioned) -> Iterator[Written]:
+def _level(which: int) -> Callable[[SketchMentions], Iterator[Written]]:
+    def says(m: SketchMentions) -> Iterator[Written]:
         ends = (m.lines[0].start, m.lines[0].end) if m.lines else m.points
         yield _equation(f"{ends[0][which]} = {ends[1][which]}")
 
     return says
 
 
-def _diameter(m: Mentioned) -> Iterator[Written]:
+def _diameter(m: SketchMentions) -> Iterator[Written]:
     (one,) = m.rounds
     if one.ends is not None:
         yield _link(one.centre, one.ends[0], m.value / 2)
@@ -136,30 +136,30 @@ def _diameter(m: Mentioned) -> Iterator[Written]:
         yield _equation(f"2*{one.radius} = {figures(m.value)}")
 
 
-def _on_circle(m: Mentioned) -> Iterator[Written]:
+def _on_circle(m: SketchMentions) -> Iterator[Written]:
     yield _equation(f"{Arrow(m.rounds[0].centre, m.points[0]).squared} = {m.rounds[0].squared}")
 
 
-def _angle(m: Mentioned) -> Iterator[Written]:
-    yield _equation(at_angle(*m.lines, m.value))
+def _angle(m: SketchMentions) -> Iterator[Written]:
+    yield _equation(at_angle(m.lines[0], m.lines[1], m.value))
 
 
-def _parallel(m: Mentioned) -> Iterator[Written]:
+def _parallel(m: SketchMentions) -> Iterator[Written]:
     yield _equation(f"{cross(*m.lines)} = 0")
 
 
-def _perpendicular(m: Mentioned) -> Iterator[Written]:
+def _perpendicular(m: SketchMentions) -> Iterator[Written]:
     yield _equation(f"{dot(*m.lines)} = 0")
 
 
-def _tangent_line(m: Mentioned) -> Iterator[Written]:
+def _tangent_line(m: SketchMentions) -> Iterator[Written]:
     """The line is across the radius to the arc's end."""
     (arc,), (line,) = m.rounds, m.lines
     if arc.ends is not None:
         yield _equation(f"{dot(line, Arrow(arc.centre, arc.ends[m.other]))} = 0")
 
 
-def _tangent_arcs(m: Mentioned) -> Iterator[Written]:
+def _tangent_arcs(m: SketchMentions) -> Iterator[Written]:
     """The radii to the ends where they meet are parallel."""
     one, other = m.rounds
     if one.ends is not None and other.ends is not None:
@@ -167,11 +167,11 @@ def _tangent_arcs(m: Mentioned) -> Iterator[Written]:
         yield _equation(f"{cross(*radii)} = 0")
 
 
-def _equal_radius(m: Mentioned) -> Iterator[Written]:
+def _equal_radius(m: SketchMentions) -> Iterator[Written]:
     yield _equation(f"{m.rounds[0].squared} = {m.rounds[1].squared}")
 
 
-def _dragged(m: Mentioned) -> Iterator[Written]:
+def _dragged(m: SketchMentions) -> Iterator[Written]:
     yield {"type": "fixed", "point": m.points[0].written}
 
 

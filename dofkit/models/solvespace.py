@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from dofkit.base.errors import Fault, SceneError
 from dofkit.models.model_document import (
     COARSEST,
     FINEST,
@@ -22,7 +23,7 @@ from dofkit.models.model_document import (
 )
 from dofkit.models.sketch_file import Record, SketchFile, read_sketch
 from dofkit.models.sketch_geometry import Arrow, Round, SketchPoint, fixed_point, particle_point
-from dofkit.models.sketch_relations import KINDS, Mentioned
+from dofkit.models.sketch_relations import KINDS, SketchMentions
 
 #: Types of entities and requests.
 _POINT_2D, _LINE, _CIRCLE, _ARC = 2001, 11000, 13000, 14000
@@ -39,8 +40,13 @@ _ROLES = {_LINE: ("start", "end"), _CIRCLE: ("centre",), _ARC: ("centre", "start
 def read(file: ModelFile) -> ModelDocument:
     """The scene of a sketch. Raises SceneError for what is no such file."""
     found = read_sketch(file)
+    plane = _main_plane(found)
+    if not plane:
+        hint = "sketches in a workplane are read; those of space are not"
+        fault = Fault("no point of this file is drawn in a workplane", line=1, column=1, hint=hint)
+        raise SceneError((fault,), file.name)
     draft = SceneDraft(f"SolveSpace sketch {file.name}", dimension=2)
-    return _SketchScene(found, draft, _main_plane(found)).document()
+    return _SketchScene(found, draft, plane).document()
 
 
 def _main_plane(file: SketchFile) -> int:
@@ -152,18 +158,18 @@ class _SketchScene:
         given = len(mentioned.points), len(mentioned.lines), len(mentioned.rounds)
         level = kind.needs == (0, 0, 0) and (given[1] == 1 or given[0] == 2)
         if not level and given != kind.needs:
-            self.draft.leave_out(
-                f"{name}: it mentions what is not in the plane that is read, or no line, circle or arc"
-            )
+            self.draft.leave_out(f"{name}: it mentions what is not in the plane that is read", binding=True)
             return
         written = list(kind.says(mentioned))
         for k, one in enumerate(written):
-            self.draft.constraint(name if len(written) == 1 else f"{name}-{'ab'[k]}", line=record.line, **_kinded(one))
+            called = name if len(written) == 1 else f"{name}-{'ab'[k]}"
+            fields = {key: part for key, part in one.items() if key != "type"}
+            self.draft.constraint(called, one["type"], record.line, **fields)
 
-    def _mentioned(self, record: Record) -> Mentioned:
+    def _mentioned(self, record: Record) -> SketchMentions:
         points = [self.points.get(record.handle(f"pt{k}.v")) for k in "AB"]
         entities = [record.handle(f"entity{k}.v") for k in "ABCD"]
-        return Mentioned(
+        return SketchMentions(
             tuple(p for p in points if p is not None),
             tuple(self.lines[e] for e in entities if e in self.lines),
             tuple(self.rounds[e] for e in entities if e in self.rounds),
@@ -187,11 +193,6 @@ class _SketchScene:
 
     def _elsewhere(self, handle: int, record: Record) -> bool:
         return record.whole("type") in _POINTS and handle not in self.points
-
-
-def _kinded(written: dict[str, object]) -> dict[str, object]:
-    """The fields of a constraint with its type as they are given to a draft."""
-    return {"kind" if key == "type" else key: part for key, part in written.items()}
 
 
 def _axes(normal: Record) -> np.ndarray:

@@ -112,7 +112,8 @@ class Robot:
         by_name = {joint.name: joint for joint in self.joints}
         found: dict[str, float] = {}
         for joint in self.joints:
-            chain, one = [], joint
+            chain: list[Mimic] = []
+            one = joint
             while one.mimic is not None and len(chain) <= len(by_name):
                 chain.append(one.mimic)
                 one = by_name[one.mimic.joint]
