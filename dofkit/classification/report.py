@@ -20,7 +20,7 @@ from dofkit.relations.blocks import uses_time
 from dofkit.relations.integration_constants import about_constants
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
-from dofkit.system import System
+from dofkit.system import BINDING, System
 
 
 def instantaneous_dof(study: Study) -> int | None:
@@ -198,6 +198,9 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
 def warnings(study: Study) -> list[str]:
     """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
     told = list(study.system.warnings)
+    told += [
+        f"not read, so that there may be less freedom: {t}" for t in study.system.left_out if t.startswith(BINDING)
+    ]
     for r in study.reduced:
         for normal in r.normals:
             told += [f"'{r.constraint.name}': {note}" for note in normal.notes]

@@ -72,6 +72,7 @@ def classify(
     budget: options.Budget = None,
     method: options.Method = "auto",
     certificate: options.CertificatePath = None,
+    limits: options.Limits = False,
 ) -> None:
     """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
     from dofkit.interface.classification import Asked, classified, watched
@@ -80,7 +81,7 @@ def classify(
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
     place = None if certificate is None else str(certificate)
     telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
-    telling = telling._replace(only=options.fields(only), without=options.listed(without))
+    telling = telling._replace(only=options.fields(only), without=options.listed(without), limits=limits)
     asked = Asked(tuple(files), telling, budget, cast("MethodName", method), place, options.failures(fail_on))
     with failures_of("--watch"):
         status = watched(asked) if watch else classified(asked)
@@ -101,6 +102,15 @@ def verify(files: options.CertificateFiles, strict: options.Strict = False, as_j
     typer.echo(err, nl=False, err=True)
     if status:
         raise typer.Exit(status)
+
+
+@app.command()
+def convert(file: options.ModelPath, out: options.ScenePath = None, limits: options.Limits = False) -> None:
+    """Make a scene of a model: MJCF, URDF or a SolveSpace sketch, as a file to go on from."""
+    from dofkit.interface.conversion import write_converted
+
+    with failures_of(file):
+        typer.echo(write_converted(file, out, limits), nl=False)
 
 
 @app.command()
