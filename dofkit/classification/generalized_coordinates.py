@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from dofkit.base.deadline import expired
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
-from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.turned_coordinates import ANYWHERE, partly_turned
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
@@ -45,8 +46,6 @@ DAMPED = (2, 1)
 #: The same at a singular point, which a descent reaches to half its digits.
 ROUGH = 1e-5
 MAX_COLUMNS = 120
-#: An angle of the drawing that holds parameters.
-GENERIC = 0.7
 
 
 def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rotation]) -> list[str] | None:
@@ -63,43 +62,17 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return direct if chosen is None or regular_at_witness(block.coordinates, a, chosen) is False else chosen
     if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
-    if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear:
-        return direct if len(direct) == a.dof else None
+    whole = direct if len(direct) == a.dof and not partly_turned(direct, turning) else None
+    if len(block.coordinates) > MAX_COLUMNS or expired():
+        return whole
+    if block.forms or block.nonlinear:
+        finite = Block(block.coordinates, block.finite, block.conditions)
+        return whole or _nearby(finite, a.dof, setting, turning, a.hidden)
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
-    return found if found is not None else (direct if len(direct) == a.dof and not turning else None)
-
-
-def in_angles(outcome: Outcome, setting: Setting, rotations: Sequence[Rotation], chosen: set[str]) -> set[str] | None:
-    """The choice where the Gibbs vector of a body is spread over blocks, of which some but not all of it was chosen.
-
-    One component of it is no angle of Euler's: what shares the body is looked at as one block. None where that is not
-    told.
-    """
-    for r in rotations:
-        if r.chart == "euler" or not 0 < len(chosen.intersection(r.names)) < len(r.names):
-            continue
-        names, size = set(r.names), 0
-        while len(names) > size:
-            size = len(names)
-            groups = [*(b.coordinates for b in outcome.blocks), *(one.names for one in rotations)]
-            names = names.union(*(group for group in groups if not names.isdisjoint(group)))
-        parts = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if names & set(b.coordinates)]
-        if any(names == set(b.coordinates) for b, _ in parts):
-            continue
-        if any(a.dof is None or b.forms or b.nonlinear for b, a in parts) or setting.engines != BOTH or expired():
-            return None
-        dof = sum(a.dof or 0 for _, a in parts) + len(names.intersection(outcome.untouched))
-        conditions = tuple(c for b, _ in parts for c in b.conditions)
-        whole = Block(tuple(sorted(names)), tuple(row for b, _ in parts for row in b.rows), conditions)
-        turning = [one for one in rotations if one.chart == "gibbs" and not names.isdisjoint(one.names)]
-        found = None if len(names) > MAX_COLUMNS else _nearby(whole, dof, setting, turning)
-        if found is None:
-            return None
-        chosen = chosen.difference(names).union(found)
-    return chosen
+    return found if found is not None or turning else whole
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
@@ -150,9 +123,11 @@ def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:
     return explicit(relations, block.coordinates, len(block.coordinates) - dof, most)
 
 
-def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
+def _nearby(
+    block: Block, dof: int, setting: Setting, turning: Sequence[Rotation], hidden: Sequence[Expr] = ()
+) -> list[str] | None:
     """From the tangent space at a regular point near the reference, or anywhere where there is none."""
-    chart = make_chart(block, setting, more=[ex.coordinate(name) for name in block.coordinates])
+    chart = make_chart(block, setting, hidden)
     start = _start(chart, setting)
     drawn = _drawn_tangent(chart, start, setting, dof)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
@@ -278,32 +253,38 @@ def _groups(chart: Chart, setting: Setting) -> list[list[int]]:
 
 
 def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:
+    at = values(chart.ring, FloatPoint(symbols, 0))
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     for rotation in turning:
-        places = [names.index(n) for n in rotation.names if n in names]
-        if len(places) == len(rotation.names):
-            rates = _euler_rates(np.array([symbols.get(ex.coordinate(n), 0.0) for n in rotation.names]), rotation)
-            changed = basis.copy()
-            changed[:, places] = basis[:, places] @ rates.T
-            basis = changed
+        basis = _euler_rates(basis, [names.index(n) for n in rotation.names if n in names], at, chart, rotation)
     return basis
 
 
-def _euler_rates(g: Any, rotation: Rotation) -> Any:
-    """The matrix by which the rates of a Gibbs vector g are those of the Euler angles (phi, theta, psi).
+def _euler_rates(basis: Any, places: Sequence[int], at: Any, chart: Chart, rotation: Rotation) -> Any:
+    """The columns of a Gibbs vector g turned into those of the Euler angles (phi, theta, psi), up to a factor each.
 
-    omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot k, where k is the axis of the body that
-    is e_z at angles 0, and n lies along e_z x k; psi stands for the turn about e_z where k is upright, theta and phi
-    for tilts.
+    omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot R e_z, with n along e_z x R e_z.
+    Where the body keeps its z axis upright, psi stands for the turn about it, theta and phi for tilts.
     """
+    if len(places) != 3:
+        return basis
+    g = np.array([_value(at, chart, n) for n in rotation.names])
     cross = np.array([[0, -g[2], g[1]], [g[2], 0, -g[0]], [-g[1], g[0], 0]])
     turned = np.eye(3) + 2 * (cross + cross @ cross) / (1 + g @ g)
-    phi, theta = (GENERIC if (value := approximate(e)) is None else value for e in rotation.initial[:2])
-    k = turned @ [np.sin(phi) * np.sin(theta), -np.cos(phi) * np.sin(theta), np.cos(theta)]
-    axes = np.array([[0, 0, 1.0], np.cross([0, 0, 1.0], k), k]).T
+    phi, theta = (approximate(e) or 0.0 for e in rotation.initial[:2])
+    axis = turned @ [math.sin(theta) * math.sin(phi), -math.sin(theta) * math.cos(phi), math.cos(theta)]
+    axes = np.array([[0, 0, 1.0], np.cross([0, 0, 1.0], axis), axis]).T
     if abs(np.linalg.det(axes)) < ZERO:
         axes = np.array([[0, 1.0, 0], [1.0, 0, 0], [0, 0, 1.0]])
-    return np.linalg.solve(axes, 2 * (np.eye(3) + cross) / (1 + g @ g))
+    rates = np.linalg.solve(axes, 2 * (np.eye(3) + cross) / (1 + g @ g))
+    changed = basis.copy()
+    changed[:, list(places)] = basis[:, list(places)] @ rates.T
+    return changed
+
+
+def _value(at: Any, chart: Chart, name: str) -> float:
+    index = chart.ring.var_index(ex.coordinate(name))
+    return ANYWHERE if index is None else float(at[chart.ring.var_node[index]])
 
 
 def _rigid(block: Block, dof: int, setting: Setting) -> list[str] | None:
