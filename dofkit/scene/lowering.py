@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
+
 from dofkit.base.errors import SceneError
-from dofkit.expressions.tree import parameter
+from dofkit.base.wording import verb
+from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.tree import Expr, call, parameter
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.elaboration import names_by_position
-from dofkit.scene.reference import pose_of, reference_of
+from dofkit.scene.reference import pose_of, reference_of, undrawn
 from dofkit.scene.scene import Scene, survey_of
 from dofkit.scene.survey import Survey
-from dofkit.system import ListedForce, Rotation, System
+from dofkit.system import Constraint, ListedForce, Rotation, System
 
 #: Said where the drawing is not used.
 SPECIAL = (
     "The drawing has numbers where lengths are parameters: it fits only special values of them, "
     "so it is not used as a reference configuration."
+)
+
+
+#: Below this size a sine is taken for 0: such a drawing is not looked at.
+SINGULAR = 1e-9
+#: Said where the drawing shows no velocities.
+LEVEL = (
+    "The drawing is not used as a reference configuration: texts name Euler angles, which are singular where {} is "
+    "drawn (theta = 0: the other two angles turn alike). Give another theta in `configuration` to draw it elsewhere."
 )
 
 
@@ -30,9 +43,17 @@ def system_of(scene: Scene, found: Survey) -> System:
     """The mathematics of a scene that was surveyed without faults."""
     drawing, vocabulary = found.drawing, found.drawing.vocabulary
     pose = pose_of(drawing)
-    reference = None
-    if not (found.generic or found.special):
-        reference = reference_of(drawing, found.drawn, pose)
+    reference, warnings = None, list(found.warnings)
+    if found.special:
+        warnings.append(SPECIAL)
+    elif not found.generic:
+        touched = _touched(found.constraints)
+        reference = reference_of(drawing, found.drawn, pose, touched)
+        level = _level(drawing, touched)
+        if reference is not None and level:
+            reference = None
+            warnings.append(LEVEL.format(", ".join(level)))
+        warnings += _partly(found, undrawn(drawing, found.drawn, pose, touched))
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,
@@ -54,8 +75,33 @@ def system_of(scene: Scene, found: Survey) -> System:
         starts={name: frame.start for name, frame in drawing.frames.items()},
         tolerance=scene.tolerance or None,
         size=found.size,
-        warnings=(*found.warnings, SPECIAL) if found.special else found.warnings,
+        warnings=tuple(warnings),
+        left_out=scene.left_out,
     )
+
+
+def _touched(constraints: Iterable[Constraint]) -> frozenset[str]:
+    """The coordinates that relations mention, by their values, velocities or differentials."""
+    symbols = frozenset[Expr]().union(*(r.expr.symbols for c in constraints for r in c.relations))
+    return frozenset(str(s.args[1]) for s in symbols if s.args[0] not in ("parameter", "time", "dt"))
+
+
+def _partly(found: Survey, missing: Sequence[str]) -> Iterator[str]:
+    """A line where bodies are drawn and something else that is constrained is not."""
+    if missing and found.drawn:
+        shown = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
+        yield f"There is no reference configuration: {shown} {verb(len(missing))} not drawn."
+
+
+def _level(drawing: Drawing, touched: frozenset[str]) -> list[str]:
+    """The bodies with Euler angles in texts that are drawn where these are singular: sin(theta) = 0."""
+    found = []
+    for frame in drawing.frames.values():
+        if frame.chart == "euler" and not touched.isdisjoint(frame.angles):
+            tilt = approximate(call("sin", [frame.initial[1]]))
+            if tilt is None or abs(tilt) < SINGULAR:
+                found.append(frame.name)
+    return found
 
 
 def _rotations(drawing: Drawing) -> tuple[Rotation, ...]:
