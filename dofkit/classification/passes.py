@@ -15,6 +15,7 @@ from dofkit.classification.claims import claims
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.told import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.singular_angles import without_singular_angles
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
@@ -174,7 +175,7 @@ def report_of(study: Study, passes: Iterable[Pass] = PASSES) -> Report:
     told: dict[str, Any] = {}
     for row in passes:
         told.update(row.fill(study, told))
-    return _report(agreed(told))
+    return _report(agreed(without_singular_angles(study, told)))
 
 
 def _report(told: Values) -> Report:
