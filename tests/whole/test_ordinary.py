@@ -92,3 +92,62 @@ def test_pick_and_place() -> None:
     lying = arm("block")
     lying["constraints"].append({"type": "equation", "text": "z_block = 1/2"})
     assert told(lying) == moves(14, None, None)
+
+
+ISOLATED = [
+    ("x y", ["y^2 = x^3", "y = 0"], 0, "x^3 = 0"),
+    ("x y", ["exp(x) = 1 + x"], 1, "the exponential is convex and touches its tangent at 0 only"),
+    ("x y", ["x = sin(x)"], 1, "abs(sin(x)) < abs(x) but at 0"),
+    ("x y z", ["x = sin(x)", "y = x + z"], 1, "x = 0 and y = z"),
+    ("x y", ["exp(x) = 1 + x", "exp(y) = 1 + y"], 0, "the origin"),
+    ("x y", ["exp(x) = 1 + x", "exp(x) + x = 1 + y"], 0, "x = 0 and then y = 0"),
+    ("x y", ["cos(x) = 1 - x^2/2", "y = x"], 0, "cos(x) >= 1 - x^2/2, and equal at 0 only"),
+    ("x y", ["exp(x - 1/3) = x + 2/3"], 1, "the tangent at 1/3"),
+    ("x y", ["cos(x - pi/4) = 1 + (x - pi/4)^2"], 1, "1 at most, and 1 at least"),
+    ("x y z", ["x^2 = y^3", "x = z", "z = 0"], 0, "y^3 = 0"),
+]
+
+
+@pytest.mark.parametrize(("names", "written", "dof", "why"), ISOLATED, ids=[w for *_, w in ISOLATED])
+def test_functions_of_one_coordinate_hold_it_where_they_vanish(
+    names: str, written: Sequence[str], dof: int, why: str
+) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": names.split(), "constraints": list(written)}))
+    assert (report.consistent, report.dof, report.velocity_dof, report.redundant) == (True, dof, dof, []), why
+    assert report.verdicts["dof"].verdict in ("proved", "numeric")
+
+
+@pytest.mark.parametrize(
+    "written",
+    [["x = sin(x)", "y = log(x)"], ["exp(x) = 1 + x", "x = 1"], ["exp(x) = x"], ["x^2 + exp(x) = 1 + x", "x y = 1"]],
+)
+def test_what_holds_nowhere_is_not_told_to_hold(written: Sequence[str]) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": ["x", "y"], "constraints": list(written)}))
+    assert report.consistent is not True
+
+
+#: Pairs of forms, or forms that vanish together, told as one relation.
+RATES = [
+    ("x y", "abs(xdot) = abs(ydot)", (1, 1, True), "xdot = ydot or xdot = -ydot, whole lines"),
+    ("x y z", "abs(xdot) = abs(ydot + zdot)", (2, 2, True), "two planes"),
+    ("x y z", "abs(xdot) = abs(ydot - x zdot)", (3, 2, False), "dx = +-(dy - x dz) are contact forms"),
+    ("x y", "abs(xdot - 1) = abs(ydot)", (1, 1, True), "y = +-(x - t) + C"),
+    ("x y z", "xdot^2 - 2 cos(z) xdot ydot + ydot^2 = 0", (1, 1, True), "(dx - cos(z) dy)^2 + sin(z)^2 dy^2 = 0"),
+    ("x y z", "xdot^2 - 2 cosh(z) xdot ydot + ydot^2 = 0", (3, 2, False), "dx = exp(+-z) dy"),
+]
+
+
+@pytest.mark.parametrize(("names", "text", "expected", "why"), RATES, ids=[text for _, text, *_ in RATES])
+def test_relations_between_velocities_that_are_forms(
+    names: str, text: str, expected: tuple[int, int, bool], why: str
+) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": names.split(), "constraints": [text]}))
+    (entry,) = report.constraints
+    assert (report.dof, report.velocity_dof, entry.holonomic) == expected, why
+    assert entry.form == "pfaffian"
+
+
+@pytest.mark.parametrize("text", ["abs(xdot) = ydot", "x abs(xdot) = abs(ydot)", "abs(xdot) = xdot"])
+def test_half_lines_of_velocities_are_no_lines(text: str) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": ["x", "y"], "constraints": [text]}))
+    assert report.constraints[0].holonomic is not True
