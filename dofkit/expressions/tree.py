@@ -48,7 +48,7 @@ FOLD_BITS = 4096
 class Expr:
     """One node of an expression; see the module's table for ``op`` and ``args``."""
 
-    __slots__ = ("_hash", "_symbols", "args", "op")
+    __slots__ = ("_functions", "_hash", "_symbols", "args", "op")
 
     op: str
     args: tuple[Any, ...]
@@ -58,6 +58,7 @@ class Expr:
         self.args = args
         self._hash = hash((op, args))
         self._symbols: frozenset[Expr] | None = None
+        self._functions: frozenset[str] | None = None
 
     def __hash__(self) -> int:
         return self._hash
@@ -116,12 +117,29 @@ class Expr:
         return self._symbols
 
     @property
+    def functions(self) -> frozenset[str]:
+        """The names of the functions that occur; ``pow`` for powers but whole ones, ``call`` for unknown functions."""
+        if self._functions is None:
+            own = [] if self.op in ("num", "sym", "const", "add", "mul") else [_function_of(self)]
+            below = (child.functions for child in children(self))
+            self._functions = _NONE.union([name for name in own if name], *below)
+        return self._functions
+
+    @property
     def is_zero(self) -> bool:
         """True for the number 0 as written; says nothing of hidden zeros."""
         return self.op == "num" and not self.args[0]
 
 
 ExprLike = Expr | int | Fraction
+_NONE: frozenset[str] = frozenset()
+
+
+def _function_of(e: Expr) -> str:
+    if e.op == "fn":
+        return str(e.args[0])
+    whole = e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1
+    return "" if whole else e.op
 
 
 def num(value: int | Fraction) -> Expr:

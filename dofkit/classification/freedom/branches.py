@@ -222,9 +222,7 @@ def _answered(
     names: Sequence[str], rows: list[Row], impossible: list[int], setting: Setting, known: AnsweredBlocks
 ) -> Outcome:
     blocks, untouched = blocks_of(names, rows, setting.reductions)
-    compared = len(blocks) > 1 and "twins" in setting.reductions
-    answers = [known.answer(block, setting, compared) for block in blocks]
-    return Outcome(rows, blocks, answers, untouched, impossible)
+    return Outcome(rows, blocks, known.answers(blocks, setting), untouched, impossible)
 
 
 class AnsweredBlocks:
@@ -237,12 +235,19 @@ class AnsweredBlocks:
         self._roles = {c.name: (c.owner, c.role) for c in system.coordinates}
         self._answers: dict[tuple[int, ...], tuple[Block, Answer]] = {}
         self._alike: dict[Hashable, tuple[tuple[str, ...], Answer]] = {}
+        self._shapes: set[Hashable] = set()
 
-    def answer(self, block: Block, setting: Setting, many: bool) -> Answer:
-        """The block's answer; of ``many`` blocks those that were answered are looked through for a twin."""
+    def answers(self, blocks: Sequence[Block], setting: Setting) -> list[Answer]:
+        """The blocks' answers; those that may be twins are looked through for one that was answered."""
+        shapes = Counter(map(_shape, blocks)) if len(blocks) > 1 and "twins" in setting.reductions else Counter()
+        self._shapes |= {shape for shape, times in shapes.items() if times > 1}
+        return [self._answer(block, setting) for block in blocks]
+
+    def _answer(self, block: Block, setting: Setting) -> Answer:
         same = tuple(id(p) for p in (*(row.piece for row in block.rows), *block.conditions))
         if same not in self._answers:
-            self._answers[same] = block, self._twin(block, setting) if many else in_time(block, setting)
+            twins = _shape(block) in self._shapes
+            self._answers[same] = block, self._twin(block, setting) if twins else in_time(block, setting)
         return self._answers[same][1]
 
     def _twin(self, block: Block, setting: Setting) -> Answer:
@@ -253,6 +258,11 @@ class AnsweredBlocks:
         found = in_time(block, setting)
         self._alike[key] = (block.coordinates, found)
         return found
+
+
+def _shape(block: Block) -> Hashable:
+    """Equal for blocks that differ in names only, and soon told."""
+    return len(block.coordinates), tuple(type(row.piece) for row in block.rows), len(block.conditions)
 
 
 def in_time(block: Block, setting: Setting) -> Answer:
