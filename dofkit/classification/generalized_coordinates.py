@@ -51,7 +51,8 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return None
     if a.dof == 0:
         return []
-    turning = [r for r in rotations if r.chart == "gibbs" and set(r.names) & set(block.coordinates)]
+    own = frozenset(block.coordinates)
+    turning = [r for r in rotations if r.chart == "gibbs" and not own.isdisjoint(r.names)]
     dependent = set(a.dependent)
     direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:

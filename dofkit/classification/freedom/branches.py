@@ -191,13 +191,13 @@ def _first_order(
 
 def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original."""
-    seen: dict[tuple[object, ...], int] = {}
+    seen: dict[Hashable, int] = {}
     found = {}
     for i, r in enumerate(reduced):
         check()
         if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
             continue
-        key = tuple(sorted(repr(_up_to_a_number(normal)) for normal in r.normals))
+        key = frozenset(Counter(_up_to_a_number(normal) for normal in r.normals).items())
         if key in seen:
             found[i] = seen[key]
         else:
@@ -205,17 +205,17 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     return found
 
 
-def _up_to_a_number(normal: Normal) -> list[list[object]]:
-    return [[_scaled(p) for p in branch] for branch in normal.branches]
+def _up_to_a_number(normal: Normal) -> Hashable:
+    return tuple(tuple(_scaled(p) for p in branch) for branch in normal.branches)
 
 
-def _scaled(piece: object) -> object:
+def _scaled(piece: object) -> Hashable:
     """A piece with the first coefficient made 1."""
     if isinstance(piece, Finite):
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
         return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
-    return piece
+    return repr(piece)
 
 
 def _answered(
