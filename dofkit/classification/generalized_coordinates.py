@@ -132,7 +132,10 @@ def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation
         tangent = _tangent(chart, symbols, turning, setting, dof)
         if tangent.shape[0] == dof:
             chosen = None if drawn is None else _regular_columns(chart, tangent, drawn, turning)
-            return _columns(chart, tangent) if chosen is None else chosen
+            chosen = _columns(chart, tangent) if chosen is None else chosen
+            if len(chosen) == dof:
+                return chosen
+            continue
         regular = len(chart.nodes) == len(block.coordinates) - dof
         secants = None if regular or tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
         if secants is not None:
