@@ -22,6 +22,7 @@ from dofkit.scene.fields import Text, Vector
 from dofkit.scene.frames import Frame, between, relative
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
+from dofkit.scene.variation import NamesAtHand, Replacement, Variation
 from dofkit.scene.world import Direction, World
 from dofkit.system import Kinematics, Relation, VelocityRow
 
@@ -32,6 +33,8 @@ class Joint(ConstraintBase):
     """Two bodies, or a body and the ground, joined together."""
 
     between: tuple[str, str] = Field(description="the two bodies; one may be ground")
+
+    variation: ClassVar[Variation] = Variation(places=("at",), directions=("axis", "axes"))
 
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
 
@@ -94,6 +97,17 @@ class Driven(Axial):
     """A joint whose angle or displacement may be prescribed."""
 
     drive: Text | None = Field(None, description="the prescribed angle or displacement from the reference, in t")
+
+    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
+        """Driven at a steady rate, or free where it is driven."""
+        written = self.written()
+        if self.drive is not None:
+            free = {key: value for key, value in written.items() if key != "drive"}
+            yield Replacement("supports", free, {}, "it is not driven")
+            return
+        rate = names.fresh("omega")
+        told = f"it is driven by {rate} t"
+        yield Replacement("supports", {**written, "drive": f"{rate}*t"}, {rate: "positive"}, told)
 
     def driven(self, world: World) -> Iterator[Expr]:
         """The law of the drive, if there is one."""
