@@ -145,12 +145,14 @@ def grade(
     scheduler: options.Scheduler = None,
     check_only: options.CheckOnly = False,
     certificates: options.CertificateFolder = None,
+    reviewed: options.ReviewTable = None,
 ) -> None:
     """Grade submissions: a result for each, in the order given."""
     from dofkit.homework.runs.run import GradingOptions, run
 
+    chosen = GradingOptions(form, out, workers, scheduler, check_only, certificates, reviewed)
     with failures_of(assignment):
-        clean = run(assignment, submissions, GradingOptions(form, out, workers, scheduler, check_only, certificates))
+        clean = run(assignment, submissions, chosen)
     if not clean:
         raise typer.Exit(UNREADABLE)
 

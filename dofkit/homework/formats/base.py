@@ -25,12 +25,14 @@ class Format:
     """``write(results, prepared, target)`` writes results, which come one by one in the order of the submissions.
 
     ``write`` keeps no more than one result in memory where the format allows it, and raises FormatError for what the
-    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do.
+    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do. ``folder``:
+    does it write a folder at this path, not one file?
     """
 
     name: str
     write: Callable[[Iterator[Result], Prepared, Target], None]
     needs_path: bool = False
+    folder: Callable[[Path], bool] = lambda path: path.is_dir() or path.suffix.lower() != ".json"
 
 
 @contextmanager

@@ -34,4 +34,4 @@ def _grade(result: Result) -> str:
     return number(result.score) if decided(result) and result.score is not None else ""
 
 
-CANVAS = Format("canvas", write)
+CANVAS = Format("canvas", write, folder=lambda path: False)

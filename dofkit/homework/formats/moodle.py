@@ -38,4 +38,4 @@ def _grade(result: Result) -> str:
     return number(result.score) if decided(result) and result.score is not None else ""
 
 
-MOODLE = Format("moodle", write)
+MOODLE = Format("moodle", write, folder=lambda path: False)

@@ -30,6 +30,7 @@ if sys.platform != "win32":
 def fingerprint(prepared: Prepared, check_only: bool) -> str:
     """What tells a run from others: the assignment with its scenes, and who grades it how."""
     parts = [__version__, str(check_only), prepared.assignment.model_dump_json()]
+    parts += [f"{identity} {decision}" for identity, decision in sorted(prepared.decisions.items())]
     parts += [f"{name} {key.convention} {key.scene.model_dump_json()}" for name, key in prepared.keys.items()]
     return hashlib.blake2b("\0".join(parts).encode("utf-8", "replace"), digest_size=16).hexdigest()
 

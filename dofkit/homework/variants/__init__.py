@@ -1,1 +1,1 @@
-"""A sheet for each student, from a seed: other numbers, names and constraints, of the same difficulty, its key proved."""
+"""A sheet for each student, from a seed: other numbers, names and constraints, as hard as the others, its key proved."""

@@ -50,17 +50,10 @@ def new_names(scene: Scene, problem: Problem, stream: Stream) -> dict[str, str]:
     """Name -> another name, of what may be renamed: never what the problem's own words mention."""
     known = declared(scene)
     counts = Counter(map(spelled, known))
-    fixed = set(map(spelled, words_of(problem.text or ""))) | {other for other in problem.other_names}
+    fixed = set(map(spelled, words_of(problem.text or ""))) | set(problem.other_names)
     arguments = {argument for given in scene.functions.values() for argument in given}
-    taken = {
-        *map(spelled, known),
-        "t",
-        "e",
-        "E",
-        "pi",
-        *problem.other_names,
-        *(c.name or "" for c in scene.constraints),
-    }
+    taken = {*map(spelled, known), "t", "e", "E", "pi", *problem.other_names}
+    taken |= {c.name for c in scene.constraints if c.name is not None}
     found: dict[str, str] = {}
     for name in _renameable(scene):
         if counts[spelled(name)] > 1 or spelled(name) in fixed or name in arguments:
