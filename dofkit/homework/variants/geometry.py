@@ -104,7 +104,8 @@ def _placed(value: Any, along: Sequence[Fraction]) -> Any:
 def _scaled(value: Any, factor: Fraction) -> Any:
     """A number by a factor; a text with letters of the scene stays, as a symbol is any length."""
     try:
-        return as_written(exact(value) * factor)
+        found = exact(value) * factor
+        return int(found) if found.denominator == 1 else as_written(found)
     except PydanticCustomError:
         pass
     known = re.sub(r"sqrt|sin|cos|tan|pi", "", str(value))

@@ -52,7 +52,7 @@ def new_names(scene: Scene, problem: Problem, stream: Stream) -> dict[str, str]:
     counts = Counter(map(spelled, known))
     fixed = set(map(spelled, words_of(problem.text or ""))) | set(problem.other_names)
     arguments = {argument for given in scene.functions.values() for argument in given}
-    taken = {*map(spelled, known), "t", "e", "E", "pi", *problem.other_names}
+    taken = {*map(spelled, known), "t", "e", "E", "pi", *problem.other_names, *problem.also}
     taken |= {c.name for c in scene.constraints if c.name is not None}
     found: dict[str, str] = {}
     for name in _renameable(scene):

@@ -58,10 +58,11 @@ def aspects_of(problem: Problem) -> tuple[Aspect, ...]:
     return ("names",)
 
 
-def structures(problem: Problem, key: Key, as_it_is: Mapping[str, Any]) -> list[Structure]:
+def structures(problem: Problem, key: Key) -> list[Structure]:
     """The problem as it is, then every other structure that is fit to hand out, in an order that never changes."""
+    as_it_is = written_scene(key.scene) | {"name": problem.id}
     found = [Structure(as_it_is, key, difficulty_of(problem, key))]
-    if key.scene.energies is not None:
+    if key.scene.energies is not None or fit(key, key) is not None:
         return found
     for aspect, written, told in islice(_ways(problem, key, as_it_is), MOST_WAYS):
         try:
