@@ -145,12 +145,14 @@ def grade(
     scheduler: options.Scheduler = None,
     check_only: options.CheckOnly = False,
     certificates: options.CertificateFolder = None,
+    roster: options.RosterPath = None,
 ) -> None:
     """Grade submissions: a result for each, in the order given."""
     from dofkit.homework.runs.run import GradingOptions, run
 
     with failures_of(assignment):
-        clean = run(assignment, submissions, GradingOptions(form, out, workers, scheduler, check_only, certificates))
+        given = GradingOptions(form, out, workers, scheduler, check_only, certificates, roster)
+        clean = run(assignment, submissions, given)
     if not clean:
         raise typer.Exit(UNREADABLE)
 

@@ -100,3 +100,17 @@ def test_a_fault_in_the_file_of_a_scene_says_where_it_is(tmp_path: Path) -> None
 def test_a_missing_file_beside_the_assignment(tmp_path: Path) -> None:
     with pytest.raises(AssignmentError, match="there is no file"):
         load_assignment(tmp_path / "none.yaml")
+
+
+@pytest.mark.parametrize("points", ["1e400", "1e7", "1e-400", "0.0001", '"2/3000"', "-1"])
+def test_points_that_nobody_can_give(points: str, tmp_path: Path) -> None:
+    path = tmp_path / "sheet.yaml"
+    path.write_text(
+        "title: x\nproblems:\n- id: p\n  scene: spherical-pendulum\n  questions:\n"
+        f"  - {{id: a, ask: dof}}\n  - {{id: b, ask: dof, points: {points}}}\n"
+    )
+    with pytest.raises(AssignmentError) as found:
+        load_assignment(path)
+    (fault,) = found.value.faults
+    assert (fault.line, fault.column) == (7, 31)
+    assert "points" in fault.message

@@ -13,9 +13,11 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base.workers.pool import cores
+from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
+from dofkit.homework.formats.apart import apart_path
 from dofkit.homework.result import Result
 from dofkit.homework.runs.appeals import write_certificates
 from dofkit.homework.runs.batch import Orders, ResultLine
@@ -23,6 +25,7 @@ from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
 from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
 from dofkit.homework.runs.journal import Journal, fingerprint, ledger
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.rostered import rostered
 
 NATIVE = "native"
 
@@ -31,7 +34,7 @@ NATIVE = "native"
 class GradingOptions:
     """What the command line says besides the files. ``out``: where results go, None for standard output.
 
-    ``certificates``: the folder of what the keys rest on, for appeals.
+    ``certificates``: the folder of what the keys rest on, for appeals. ``roster``: the table of who is in the course.
     """
 
     form: str = NATIVE
@@ -40,6 +43,7 @@ class GradingOptions:
     scheduler: str | None = None
     check_only: bool = False
     certificates: Path | None = None
+    roster: Path | None = None
 
     @property
     def format(self) -> Format:
@@ -58,7 +62,7 @@ class GradingOptions:
         if self.out is None:
             return []
         path = _native(self.format, self.out)
-        return [self.out, path, ledger(path)]
+        return [self.out, apart_path(self.out), path, ledger(path)]
 
 
 def _native(form: Format, out: Path) -> Path:
@@ -76,10 +80,12 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         if path.resolve() in [Path(given).resolve() for given in (assignment, *sources)]:
             raise FormatError(f"--out would overwrite {path}, which is read")
     prepared = load_assignment(assignment)
+    roster = None if options.roster is None else load_roster(options.roster)
     orders = Orders.of(prepared, options.check_only)
-    stream = hand_ins(sources, prepared.columns(), [assignment, *options.written])
+    others = [assignment, *options.written, *([] if options.roster is None else [options.roster])]
+    stream = hand_ins(sources, prepared.columns(), others)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
-        one = _Run(form, prepared, orders, crew, seen)
+        one = _Run(form, prepared, orders, crew, seen, roster)
         if options.out is None:
             one.to_stdout(stream)
         else:
@@ -111,13 +117,14 @@ class _Run:
     orders: Orders
     crew: GradingCrew
     seen: HandedIn
+    roster: Roster | None = None
     failed: int = 0
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
         """Print results as they come."""
         lines = (line.text for _, found in self._with_lines(stream, sys.stdout.isatty()) for line in found)
         if self.form.name != NATIVE:
-            self.form.write(map(Result.model_validate_json, lines), self.prepared, sys.stdout)
+            self.form.written(map(Result.model_validate_json, lines), self.prepared, sys.stdout, self.roster)
             return
         utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
         for text in lines:
@@ -126,13 +133,13 @@ class _Run:
     def to_path(self, stream: Iterator[Handed], out: Path) -> None:
         """Write to a path what is not there yet; a format other than our own is made of our own at the end."""
         path = _native(self.form, out)
-        with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only))) as journal:
+        with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only, self.roster))) as journal:
             left = journal.remaining(stream, self.seen)
             self.failed += journal.failed
             for one, lines in self._with_lines(left, False):
                 journal.write(one, lines)
         if self.form.name != NATIVE:
-            self.form.write(_results(path), self.prepared, out)
+            self.form.written(_results(path), self.prepared, out, self.roster)
             path.unlink()
         journal.finish()
 
@@ -140,7 +147,8 @@ class _Run:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            for one, lines in without_repeats(self.orders, in_order(self.crew, stream), self.seen):
+            graded = rostered(self.roster, in_order(self.crew, stream))
+            for one, lines in without_repeats(self.orders, graded, self.seen):
                 self.failed += sum(line.failed for line in lines)
                 yield one, lines
                 bar.update(task, advance=len(lines))
