@@ -24,6 +24,8 @@ from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene
 from dofkit.scene.tagged_union import TaggedUnion
 
+#: A scene of more constraints is refused: grading starts with working out all that may be asked of it.
+MOST_CONSTRAINTS = 5000
 FeedbackLevel = Literal["hint", "full"]
 
 
@@ -157,10 +159,20 @@ def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
 
 
 def _scene(problem: Problem, base: Path) -> Scene:
+    """The scene of a problem. Raises SceneError, for one of too many constraints before it is read whole, too."""
     if isinstance(problem.scene, dict):
+        _bounded(problem.scene.get("constraints"))
         return load(problem.scene, name=problem.id)
     path = base / problem.scene
-    return load(path if path.is_file() else problem.scene)
+    scene = load(path if path.is_file() else problem.scene)
+    _bounded(scene.constraints)
+    return scene
+
+
+def _bounded(constraints: object) -> None:
+    if isinstance(constraints, Sequence) and not isinstance(constraints, str) and len(constraints) > MOST_CONSTRAINTS:
+        message = f"the scene has {len(constraints)} constraints, more than an assignment takes ({MOST_CONSTRAINTS})"
+        raise SceneError((Fault(message, ("constraints",), hint="ask about a part of it; `dofkit classify` takes it"),))
 
 
 def _within(fault: Fault, i: int, problem: Problem) -> Fault:

@@ -82,7 +82,8 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     prepared = load_assignment(assignment)
     roster = None if options.roster is None else load_roster(options.roster)
     orders = Orders.of(prepared, options.check_only)
-    others = [assignment, *options.written, *([] if options.roster is None else [options.roster])]
+    read = [] if options.roster is None else [options.roster]
+    others: list[str | Path] = [assignment, *options.written, *read]
     stream = hand_ins(sources, prepared.columns(), others)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
         one = _Run(form, prepared, orders, crew, seen, roster)
