@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError, WrapValidator
+from pydantic import BeforeValidator, Field, ValidationError, WrapValidator
 
 from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
@@ -17,7 +17,7 @@ from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.key.own_coordinates import faults_of_own
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
 from dofkit.homework.sentences.said import Language
-from dofkit.scene.fields import WrittenModel, faults_of
+from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
 from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
 from dofkit.scene.reading import load
@@ -27,6 +27,7 @@ from dofkit.scene.tagged_union import TaggedUnion
 #: A scene of more constraints is refused: grading starts with working out all that may be asked of it.
 MOST_CONSTRAINTS = 5000
 FeedbackLevel = Literal["hint", "full"]
+Visibility = Literal["visible", "after_due_date", "after_published", "hidden"]
 
 
 class AssignmentError(DofkitError):
@@ -67,6 +68,16 @@ class Problem(WrittenModel):
     ] = Field(description="what is asked")
 
 
+def _attempts(value: object) -> object:
+    """A number of attempts, 1 or more; without it they are unlimited."""
+    found = exact(value)
+    if found.denominator != 1 or found < 1:
+        raise fault_error(
+            f"attempts are a whole number, 1 or more, not {value}", "leave it out where they are unlimited"
+        )
+    return int(found)
+
+
 class Assignment(WrittenModel):
     """What a lecturer hands out."""
 
@@ -74,7 +85,20 @@ class Assignment(WrittenModel):
     convention: Convention = Field("configuration", description='which freedom a bare "degrees of freedom" means')
     feedback: FeedbackLevel = Field("hint", description="`hint` says what went wrong, `full` also what is right")
     language: Language = Field("en", description="the language of the feedback: `en`, `de`, `fr` or `es`")
+    attempts: Annotated[int, BeforeValidator(_attempts)] | None = Field(
+        None, description="how often a student may hand in; without it as often as they like"
+    )
+    visibility: Visibility | None = Field(
+        None,
+        description="when students see points on Gradescope: `visible` (at once), `after_due_date`, `after_published`, "
+        "`hidden`; by default `after_due_date` where attempts are unlimited",
+    )
     problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
+
+    @property
+    def shown(self) -> Visibility:
+        """When students see what their answers are worth."""
+        return self.visibility or ("after_due_date" if self.attempts is None else "visible")
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,9 @@ def prepared() -> Prepared:
         {"id": "f", "ask": "dof", "points": 2},
         {"id": "rod", "ask": "equation", "constraint": "rod", "points": 8},
     ]
-    return load_assignment({"title": "Sheet 1", "problems": [{"id": "p", "scene": ROD, "questions": questions}]})
+    return load_assignment(
+        {"title": "Sheet 1", "visibility": "visible", "problems": [{"id": "p", "scene": ROD, "questions": questions}]}
+    )
 
 
 def item(status: Status, question: str, score: float | None, most: float, **more: Any) -> Item:
@@ -90,7 +92,7 @@ def test_gradescope(prepared: Prepared) -> None:
         "output": "Points: 6 of 10.",
         "output_format": "text",
         "visibility": "visible",
-        "extra_data": {"student": "ada", "needs_review": 0, "open_points": 0, "error": None},
+        "extra_data": {"student": "ada", "needs_review": 0, "open_points": 0, "error": None, "doubt": None},
         "tests": [
             {
                 "name": "p.f", "number": "1.1", "score": 2.0, "max_score": 2.0, "status": "passed",
@@ -147,7 +149,9 @@ def test_prairielearn_takes_no_attempt(second: Item, error: str, prepared: Prepa
     assert found["gradable"] is False
     assert "score" not in found
     assert found["format_errors"] == [error]
-    assert all("points" in test and "max_points" in test for test in found["tests"])
+    assert found["tests"] == []
+    assert "2" not in found["message"]
+    assert found["message"].startswith("This was not graded and cost no attempt.")
 
 
 def test_prairielearn_takes_no_attempt_for_a_refused_submission(prepared: Prepared) -> None:
