@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -16,6 +17,7 @@ from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.key.own_coordinates import faults_of_own
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
+from dofkit.homework.review.rows import Decisions
 from dofkit.homework.sentences.said import Language
 from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
 from dofkit.scene.found_files import find
@@ -28,6 +30,7 @@ from dofkit.scene.tagged_union import TaggedUnion
 MOST_CONSTRAINTS = 5000
 FeedbackLevel = Literal["hint", "full"]
 Visibility = Literal["visible", "after_due_date", "after_published", "hidden"]
+UnreadablePolicy = Literal["review", "zero"]
 
 
 class AssignmentError(DofkitError):
@@ -84,6 +87,9 @@ class Assignment(WrittenModel):
     title: str = Field(description="its title")
     convention: Convention = Field("configuration", description='which freedom a bare "degrees of freedom" means')
     feedback: FeedbackLevel = Field("hint", description="`hint` says what went wrong, `full` also what is right")
+    unreadable: UnreadablePolicy = Field(
+        "review", description="what cannot be read: `review`, a person looks at it, or `zero`, students hand in again"
+    )
     language: Language = Field("en", description="the language of the feedback: `en`, `de`, `fr` or `es`")
     attempts: Annotated[int, BeforeValidator(_attempts)] | None = Field(
         None, description="how often a student may hand in; without it as often as they like"
@@ -103,16 +109,24 @@ class Assignment(WrittenModel):
 
 @dataclass(frozen=True)
 class Prepared:
-    """An assignment with its scenes: everything that grading needs. ``keys`` by problem."""
+    """An assignment with its scenes: everything that grading needs. ``keys`` by problem.
+
+    ``decisions``: what a person decided of answers, which goes before all that dofkit finds.
+    """
 
     assignment: Assignment
     keys: Mapping[str, Key]
+    decisions: Decisions = field(default_factory=dict)
 
     def questions(self) -> Iterator[tuple[Problem, QuestionBase]]:
         """Every question with its problem, in order."""
         for problem in self.assignment.problems:
             for question in problem.questions:
                 yield problem, question
+
+    def most_points(self) -> dict[tuple[str, str], Fraction]:
+        """How many points each question is worth."""
+        return {(problem.id, question.id): question.points for problem, question in self.questions()}
 
     def columns(self) -> dict[str, tuple[str, str]]:
         """The problem and the question of every column ``PROBLEM.QUESTION`` of a table of answers."""

@@ -20,8 +20,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from dofkit.homework.formats.wording import OPEN_SHARE, remark, title
 from dofkit.homework.formats.wording import points as told_points
+from dofkit.homework.formats.wording import remark, stand_in, title
 from dofkit.homework.notebooks import Source, item_of
 
 
@@ -37,7 +37,7 @@ def points(
     """
     item = item_of(assignment, problem, question, answer, others or {})
     print(f"{title(item)}: {told_points(item)}. {remark(item)}")
-    score = OPEN_SHARE * item.max_score if item.score is None else item.score
-    if item.score is None:
+    score = stand_in(item)
+    if item.score is None and score:
         print("Half of the points stand in until a person has looked.")
     return min(max(float(score), 0.0), float(item.max_score))

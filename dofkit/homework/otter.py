@@ -15,7 +15,7 @@ from pathlib import Path
 from dofkit.base.errors import DofkitError
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.export.inline import exact_json, inlined
-from dofkit.homework.formats.wording import OPEN_SHARE, remark
+from dofkit.homework.formats.wording import remark, stand_in
 from dofkit.homework.notebooks import Source, item_of
 from dofkit.homework.questions import QuestionBase
 
@@ -52,7 +52,7 @@ def check(assignment: Source, answers: object, problem: str, question: str, numb
     found = dict(given) if isinstance(given, Mapping) else {}
     answer = found.pop(question, None)
     item = item_of(assignment, problem, question, answer, found)
-    share = OPEN_SHARE if item.score is None else item.score / item.max_score if item.max_score else 1.0
+    share = stand_in(item) / item.max_score if item.max_score else 1.0
     if share * parts < number - 1e-9:
         raise AssertionError(remark(item))
 

@@ -145,14 +145,15 @@ def grade(
     scheduler: options.Scheduler = None,
     check_only: options.CheckOnly = False,
     certificates: options.CertificateFolder = None,
+    reviewed: options.ReviewTable = None,
     roster: options.RosterPath = None,
 ) -> None:
     """Grade submissions: a result for each, in the order given."""
     from dofkit.homework.runs.run import GradingOptions, run
 
+    chosen = GradingOptions(form, out, workers, scheduler, check_only, certificates, reviewed, roster)
     with failures_of(assignment):
-        given = GradingOptions(form, out, workers, scheduler, check_only, certificates, roster)
-        clean = run(assignment, submissions, given)
+        clean = run(assignment, submissions, chosen)
     if not clean:
         raise typer.Exit(UNREADABLE)
 

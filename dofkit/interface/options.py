@@ -177,6 +177,10 @@ ResultPath = Annotated[
     Path | None,
     typer.Option("--out", metavar="PATH", help="Where to write; an interrupted run goes on where it stopped."),
 ]
+ReviewTable = Annotated[
+    Path | None,
+    typer.Option("--reviewed", metavar="CSV", help="A review.csv with points that a person filled in."),
+]
 CheckOnly = Annotated[bool, typer.Option("--check-only", help="Tell how every answer is read, and grade none.")]
 
 RosterPath = Annotated[

@@ -26,13 +26,15 @@ class Format:
     """``write(results, prepared, target)`` writes results, which come one by one in the order of the submissions.
 
     ``write`` keeps no more than one result in memory where the format allows it, and raises FormatError for what the
-    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do. ``write_known``: the
-    same of a gradebook, which has rows for those in a roster only.
+    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do. ``folder``:
+    does it write a folder at this path, not one file? ``write_known``: the same of a gradebook, which has rows for
+    those in a roster only.
     """
 
     name: str
     write: Callable[[Iterator[Result], Prepared, Target], None]
     needs_path: bool = False
+    folder: Callable[[Path], bool] = lambda path: path.is_dir() or path.suffix.lower() != ".json"
     write_known: Callable[[Iterator[Result], Prepared, Target, Roster], None] | None = None
 
     def written(self, results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None) -> None:

@@ -14,6 +14,7 @@ from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_
 from dofkit.homework.key.compared_equations import EquationComparison
 from dofkit.homework.key.compared_integrals import integral_judgement
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.stated_equations import equations_of
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences.said import say
 from dofkit.scene.fields import Listed, suggestion
@@ -41,7 +42,7 @@ class EquationQuestion(QuestionBase):
         return readings_of(answer, AnswerNames(key.names, free=True, accelerations=True))
 
     def solution(self, key: Key) -> Sentence:
-        return say("For example: {text}.", text="; ".join(key.constraints[name].text for name in self.constraint))
+        return say("For example: {text}.", text=equations_of(key, self.constraint))
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier

@@ -30,12 +30,9 @@ if sys.platform != "win32":
 
 def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = None) -> str:
     """What tells a run from others: the assignment with its scenes, who is in the course, and who grades it how."""
-    parts = [
-        __version__,
-        str(check_only),
-        "" if roster is None else roster.digest,
-        prepared.assignment.model_dump_json(),
-    ]
+    course = "" if roster is None else roster.digest
+    parts = [__version__, str(check_only), course, prepared.assignment.model_dump_json()]
+    parts += [f"{identity} {decision}" for identity, decision in sorted(prepared.decisions.items())]
     parts += [f"{name} {key.convention} {key.scene.model_dump_json()}" for name, key in prepared.keys.items()]
     return hashlib.blake2b("\0".join(parts).encode("utf-8", "replace"), digest_size=16).hexdigest()
 

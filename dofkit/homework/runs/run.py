@@ -25,16 +25,20 @@ from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
 from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
 from dofkit.homework.runs.journal import Journal, fingerprint, ledger
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.review_files import ReviewPaths, RunReview
 from dofkit.homework.runs.rostered import rostered
 
 NATIVE = "native"
+#: What results in our own format are called in a folder.
+RESULTS = "results.jsonl"
 
 
 @dataclass(frozen=True)
 class GradingOptions:
     """What the command line says besides the files. ``out``: where results go, None for standard output.
 
-    ``certificates``: the folder of what the keys rest on, for appeals. ``roster``: the table of who is in the course.
+    ``certificates``: the folder of what the keys rest on, for appeals. ``reviewed``: a table that a person filled in.
+    ``roster``: the table of who is in the course.
     """
 
     form: str = NATIVE
@@ -43,6 +47,7 @@ class GradingOptions:
     scheduler: str | None = None
     check_only: bool = False
     certificates: Path | None = None
+    reviewed: Path | None = None
     roster: Path | None = None
 
     @property
@@ -57,17 +62,32 @@ class GradingOptions:
         return FORMATS[self.form]
 
     @property
+    def in_folder(self) -> bool:
+        """Does the format write a folder there?"""
+        return self.out is not None and self.format.folder(self.out)
+
+    @property
+    def native(self) -> Path | None:
+        """Where results stand in our own format, before they are written in another. Raises FormatError."""
+        if self.out is None:
+            return None
+        if self.format.name != NATIVE:
+            return self.out.with_name(self.out.name + ".results.jsonl")
+        return self.out / RESULTS if self.in_folder else self.out
+
+    @property
+    def review(self) -> ReviewPaths | None:
+        """Where the review stands. Raises FormatError."""
+        return None if self.out is None or self.check_only else ReviewPaths.beside(self.out, self.in_folder)
+
+    @property
     def written(self) -> list[Path]:
         """The paths that are written to. Raises FormatError."""
-        if self.out is None:
+        path, review = self.native, self.review
+        if self.out is None or path is None:
             return []
-        path = _native(self.format, self.out)
-        return [self.out, apart_path(self.out), path, ledger(path)]
-
-
-def _native(form: Format, out: Path) -> Path:
-    """Where results stand in our own format, before they are written in another."""
-    return out if form.name == NATIVE else out.with_name(out.name + ".results.jsonl")
+        beside = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
+        return [self.out, path, ledger(path), *beside]
 
 
 def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
@@ -81,16 +101,17 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
             raise FormatError(f"--out would overwrite {path}, which is read")
     prepared = load_assignment(assignment)
     roster = None if options.roster is None else load_roster(options.roster)
+    review = RunReview.read(prepared, options.reviewed, options.review)
+    prepared = review.applied(prepared)
     orders = Orders.of(prepared, options.check_only)
-    read = [] if options.roster is None else [options.roster]
-    others: list[str | Path] = [assignment, *options.written, *read]
+    others = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
         one = _Run(form, prepared, orders, crew, seen, roster)
-        if options.out is None:
+        if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
-            one.to_path(stream, options.out)
+            one.to_path(stream, options.out, options.native, review)
     if options.certificates is not None:
         write_certificates(prepared, options.certificates)
     return one.failed == 0
@@ -131,9 +152,11 @@ class _Run:
         for text in lines:
             print(text if utf8 else json.dumps(json.loads(text)), flush=True)
 
-    def to_path(self, stream: Iterator[Handed], out: Path) -> None:
-        """Write to a path what is not there yet; a format other than our own is made of our own at the end."""
-        path = _native(self.form, out)
+    def to_path(self, stream: Iterator[Handed], out: Path, path: Path, review: RunReview) -> None:
+        """Write to a path what is not there yet; a format other than our own is made of our own at the end.
+
+        ``path``: where results stand in our own.
+        """
         with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only, self.roster))) as journal:
             left = journal.remaining(stream, self.seen)
             self.failed += journal.failed
@@ -141,6 +164,8 @@ class _Run:
                 journal.write(one, lines)
         if self.form.name != NATIVE:
             self.form.written(_results(path), self.prepared, out, self.roster)
+        review.write(path, self.prepared)
+        if self.form.name != NATIVE:
             path.unlink()
         journal.finish()
 
