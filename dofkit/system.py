@@ -69,6 +69,7 @@ class Kinematics(Protocol):
 
     Columns are the velocity v, then the angular velocity w, of every member; a vector of velocities is a row a
     component. ``points``: (what carries it, its place); ``number``: the screw's advance by radian, or a ratio of gears.
+    ``parts``: of a coupling the rate of each joint, its factor, and the joint alone.
     """
 
     @property
@@ -81,6 +82,8 @@ class Kinematics(Protocol):
     def directions(self) -> Sequence[Sequence[Any]]: ...
     @property
     def number(self) -> Any: ...
+    @property
+    def parts(self) -> Sequence[tuple[Callable[[Any], VelocityRow], Any, Any]]: ...
 
     def shift(self) -> list[VelocityRow]:
         """How the second body's point at the first place moves against the first body's."""
@@ -194,13 +197,28 @@ class DrawnPoint:
     particle: bool = False
 
 
+class JointRate(NamedTuple):
+    """How the rate of a joint's angle or displacement enters a coupling: ``factor`` times ``rate`` of two members.
+
+    ``slides``: it is a displacement.
+    """
+
+    rate: Callable[[Kinematics], VelocityRow]
+    members: tuple[str, str]
+    place: tuple[Expr, ...]
+    direction: tuple[Expr, ...]
+    factor: Expr
+    slides: bool = False
+
+
 @dataclass(frozen=True)
 class Connection:
     """What the constraint number ``constraint`` connects, as given by its geometry and not by a text.
 
     ``facts``: of its type. ``members``: bodies (``ground`` too) and particles, in the order mentioned. ``points``
     belong to members, ``places`` and ``directions`` to the drawing; what is in general position is None. ``number``:
-    the screw's pitch, or the ratio of gears. ``driven``: one more relation prescribes the motion.
+    the screw's pitch, or the ratio of gears. ``driven``: one more relation prescribes the motion. ``rates``: of the
+    joints that are coupled.
     """
 
     constraint: int
@@ -211,6 +229,7 @@ class Connection:
     directions: tuple[tuple[Expr, ...] | None, ...] = ()
     number: Expr | None = None
     driven: bool = False
+    rates: tuple[JointRate, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -236,6 +255,7 @@ class System:
     (constraint index, particle, particle), ``distances`` those between points of any kind that constraints
     hold, by constraint index; ``connections`` what each constraint of given or generic geometry
     connects, ``starts`` where the bodies' origins stand. ``size``: the largest distance between given points.
+    ``left_out``: what the scene says that it leaves out.
     """
 
     name: str
@@ -258,6 +278,7 @@ class System:
     tolerance: Fraction | None = None
     size: float = 1.0
     warnings: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
 
     @property
     def numbers(self) -> Iterator[Fraction]:

@@ -41,8 +41,7 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     else:
         point, found = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
-    evidence.is_about(claim["about"], point)
-    verified[f"{path} at"] = "reference" if claim["about"] == "reference" else point.name
+    verified[f"{path} at"] = evidence.is_about(claim["about"], point)
     return found
 
 
@@ -82,11 +81,15 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
 
 
 def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
-    """What depends on what: nothing, one constraint alone, or a circuit where one equation is too many."""
+    """What depends on what: nothing; a circuit where one equation is too many; all, where without any one nothing.
+
+    So it is where what can be dropped was verified at the same point: there the dependent equation is a regular one.
+    """
     surplus, known = verified["/redundant_equations"], [one for one in owners(evidence) if evidence.owned(one)]
-    around = [{one, *verified[key]} for one in known if (key := f"circuit {one}") in verified]
-    around = [set(known)] if len(known) == 1 else around
-    refuse(surplus and (len(around) != 1 or (surplus != 1 and len(known) > 1)), "several groups, or none that is shown")
+    place, whole = verified.get("at /redundant", object()), len(known) == 1 or "apart" in verified
+    around = [{one, *verified[f"circuit {one}"]} for one in known if verified.get(f"at circuit {one}") == place]
+    around = [set(known)] if whole else around
+    refuse(surplus and (len(around) != 1 or (surplus > 1 and not whole)), "several groups, or none that is shown")
     return [{"nullity": surplus, "members": [one for one in known if one in around[0]]}] if surplus else []
 
 
@@ -113,7 +116,7 @@ def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]
     names, point, own = names_told(claim), evidence.point(claim["at"]), evidence.owned(claim["owner"])
     before = owners(evidence)[: owners(evidence).index(claim["owner"])]
     refuse(not own or not set(names) <= set(before), "a circuit holds constraints that were written before")
-    evidence.is_about("here", point)
+    verified[f"at circuit {claim['owner']}"] = evidence.is_about("here", point)
     evidence.on_set(point, [*relations_of(evidence, names), *own])
     evidence.follow(own, relations_of(evidence, names), point, "the circuit")
     for name in names:
@@ -162,13 +165,14 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
             whole = set(other.rows) == every.difference(evidence.owned(name))
             larger = whole and same_place(evidence, other.point, verified) > len(other.rows)
             refuse(not larger, f"without `{name}` the others are no manifold, or as large")
+        verified["apart"] = True
         return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
-    evidence.is_about("here", minor.point)
     refuse(not set(dropped) <= set(order) or not set(minor.rows) <= every, "no constraints, or rows of no relations")
     kept = relations_of(evidence, [owner for owner in order if owner not in dropped])
     evidence.follow(relations_of(evidence, dropped), kept, minor.point, "what is kept")
     _depend_plainly(evidence, minor, every - set(minor.rows))
+    verified["at /redundant"] = evidence.is_about("here", minor.point)
     sizes, spared = sorted(len(evidence.owned(owner)) for owner in order), len(every) - len(minor.rows)
     most = sum(1 for i in range(len(sizes)) if sum(sizes[: i + 1]) <= spared)
     refuse(len(dropped) != most, f"{len(dropped)} constraints are named, and {most} might be dropped")
@@ -183,8 +187,9 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
     if not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite):
         return
     for name in others:
-        ways = [one for one in evidence.consequences if one.target == name and set(one.sources) <= set(minor.rows)]
-        used = [(*one.defined, *one.nonzero) for one in ways if one.defined]
+        ways = [(i, one) for i, one in enumerate(evidence.consequences) if one.target == name and one.defined]
+        ways = [(i, one) for i, one in ways if {*one.sources} <= {*minor.rows} and evidence.applies(i, minor.point)]
+        used = [(*one.defined, *one.nonzero) for _, one in ways]
         plain = any(not any(map(symbols_in, trees)) for trees in used)
         single = len(others) == 1 and any(all(excludes_zero(minor.point.value(t)) for t in trees) for trees in used)
         refuse(not plain and not single, f"`{name}` does not depend on the rows by numbers")
@@ -197,8 +202,7 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
 
 def same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
     """n less the dof that was verified near the point."""
-    evidence.is_about("here", point)
-    refuse(verified.get("/dof at") not in (None, "reference", point.name), "dof was verified at another point")
+    refuse(verified.get("/dof at") not in (None, evidence.is_about("here", point)), "dof was verified at another point")
     return len(evidence.problem.coordinates) - int(verified["/dof"])
 
 
@@ -268,7 +272,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     beside = any(q == "t" for _, q in order) and (blocks or generic or evidence.moving or not minor)
     refuse(beside or (not minor and (blocks or generic)), "t is given beside others, or a point is needed")
     if minor:
-        evidence.is_about("here", minor.point)
+        verified[f"{claim['path']} at"] = evidence.is_about("here", minor.point)
     if rank < len(names):
         rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
         refuse(blocks or order or sorted(rows) != sorted(names), "one cover of all finite relations is needed")

@@ -138,8 +138,8 @@ class CheckedEvidence(CheckedRelations):
         """A tree at the scene's configuration, parameters and functions left open."""
         return substituted(tree, {**self.problem.reference, "t": ZERO, "tdot": ONE})
 
-    def is_about(self, about: Any, point: CheckedPoint) -> None:
-        """`CheckError` unless a point is one of those that a claim is about.
+    def is_about(self, about: Any, point: CheckedPoint) -> Any:
+        """The point's name, or ``reference``; `CheckError` unless it is one of those that a claim is about.
 
         ``reference``: the scene's configuration, which meets the relations for all values that a point chooses;
         ``component``: any point, where no configuration is given; ``here``: whichever of both is so.
@@ -147,10 +147,11 @@ class CheckedEvidence(CheckedRelations):
         fits = about in ("here", "reference" if self.problem.reference else "component")
         refuse(not fits, "the claim has to be about the scene's configuration, if it has one")
         if not self.problem.reference:
-            return
+            return point.name
         for name, tree in {**self.problem.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():
             told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
         for left in (self.relation(name).left for name in self.finite):
             if self.is_open(left):
                 self.identity(self.at_reference(left), ZERO, "a relation at the configuration")
+        return "reference"

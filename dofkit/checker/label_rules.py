@@ -182,15 +182,18 @@ def factor(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
 def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     """The constraint says that a function keeps its value, as a step does: it follows from its rate.
 
-    Where it takes further integrals: a minor of these, of finite relations and a relation of the constraint shows that
-    they do not do alone.
+    The step follows from the constraint and finite relations. Where it takes further integrals: a minor of these, of
+    finite relations and a relation of the constraint shows that they do not do alone.
     """
     point, function = evidence.point(claim["at"]), evidence.text(told_integral(evidence, claim["value"]))
     moves = any(excludes_zero(point.value(derivative(function, v))) for v in evidence.variables)
     refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
     evidence.identity(evidence.relation(claim["step"]).left, function, "the integral of the step")
     others, whole = [*claim.get("integrals", [])], own(evidence, claim)
-    if others:
+    refuse(set(whole) <= set(evidence.finite), "a finite relation has no integral")
+    if not others:
+        evidence.follow([claim["step"]], {*evidence.finite, *whole}, point, "the constraint")
+    else:
         minor = evidence.minor(claim["minor"], {*others, *evidence.finite, *whole})
         rest = set(minor.rows).difference(whole)
         refuse(minor.point is not point or len(rest) == len(minor.rows), "the minor is not of the constraint")

@@ -32,7 +32,7 @@ MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 8_
 _NULLS = (None, "", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
 #: Keys that say nothing of the mathematics, and values that are as good as left out.
-_SILENT, _DEFAULTS = ("name", "title", "source", "notes", "expect"), {"dimension": 3, "tolerance": 0}
+_SILENT, _DEFAULTS = ("name", "title", "source", "notes", "left_out", "expect"), {"dimension": 3, "tolerance": 0}
 #: What a text alone stands for in these lists.
 _SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")
@@ -138,7 +138,7 @@ def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset
         known_fields(scene, KEYS)
         world, coordinates, given = _surroundings(scene, cayley)
         relations = tuple(_relations(world, scene, coordinates))
-        reference = {} if world.generic else _reference(world, coordinates, given)
+        reference = {} if world.generic else _reference(world, coordinates, given, relations)
     except (LookupError, TypeError, AttributeError, ValueError, RecursionError) as error:
         raise CheckError(f"the scene cannot be read: {type(error).__name__} {str(error)[:200]}") from None
     names = [*coordinates, *world.names.values, *world.names.functions, *world.generic]
@@ -216,8 +216,13 @@ def _relations(world: Surroundings, scene: Entry, coordinates: Sequence[str]) ->
             yield CheckedRelation(name, owner, kind, one.tree, one.strict)
 
 
-def _reference(world: Surroundings, coordinates: Sequence[str], given: Mapping[str, Tree]) -> dict[str, Tree]:
-    """The drawing, where it places every body and gives every other coordinate; else nothing."""
+def _reference(
+    world: Surroundings, coordinates: Sequence[str], given: Mapping[str, Tree], relations: Sequence[CheckedRelation]
+) -> dict[str, Tree]:
+    """The drawing, where it places every body and gives every other coordinate that a relation holds; else nothing.
+
+    Where no relation holds any, it has to give all. What none holds may stand anywhere.
+    """
     drawn = world.drawn | {"ground"}
     for _ in world.welded:
         drawn |= {name for pair in world.welded for name in pair if not drawn.isdisjoint(pair)}
@@ -226,5 +231,7 @@ def _reference(world: Surroundings, coordinates: Sequence[str], given: Mapping[s
         found |= {str(q.value): part for q, part in zip(point.over, point.start or (), strict=False)}
     for frame in world.frames.values():
         found |= frame.reference
-    complete = drawn.issuperset(world.frames) and found.keys() >= {*coordinates}
-    return {q: found[q] for q in coordinates} if complete else {}
+    symbols = frozenset[str]().union(*(symbols_in(one.left) for one in relations))
+    held = {q for q in coordinates if not symbols.isdisjoint((q, f"{q}dot"))} or {*coordinates}
+    placed = all(name in drawn or held.isdisjoint(frame.reference) for name, frame in world.frames.items())
+    return {q: found.get(q, ZERO) for q in coordinates} if placed and found.keys() >= held else {}

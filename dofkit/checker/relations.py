@@ -19,7 +19,7 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, heads_in, symbols_in
+from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, heads_in, put_in, symbols_in
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -185,20 +185,27 @@ class CheckedRelations(CheckedTexts):
     def _implied(self, step: dict[str, Any]) -> Made:
         """h g = sum c_i r_i: g is 0 where all r_i are and h is not; a function with the rate g keeps its value.
 
-        Integrals: along every motion near a point where h is not 0.
+        ``g`` is a relation, or a new function. Where finite relations give coordinates, and these are put in, the two
+        sides need to be the same only then. Integrals: along every motion near a point where h is not 0.
         """
         leaf = step["by"] == "integral"
-        left = self.text(step["function"]) if leaf else self.relation(step["of"]).left
-        sources = [self.relation(name) for name in step["c"]]
+        new = leaf or "function" in step
+        left = self.text(step["function"]) if new else self.relation(step["of"]).left
+        sources, given = [self.relation(name) for name in step["c"]], step.get("put", [])
         refuse(any(one.leaf or one.kind == "inequality" for one in sources), "an inequality or integral to start from")
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
         refuse(self.met_by(h) or (leaf and self.met_by(left)), "the factor or integral holds velocities")
         change = total_derivative(left, self.variables) if leaf else left
-        total = add(*(times(c, one.left) for c, one in zip(cofactors, sources, strict=True)))
-        self.identity(times(h, change), total, "the cofactors")
-        needs, target = () if self.is_nowhere_zero(h) else (h,), step["id" if leaf else "of"]
-        defined = (h, *cofactors, left) if leaf else (h, *cofactors)
-        return {target: left} if leaf else {}, [Consequence(target, tuple(step["c"]), needs, defined)]
+        rest = add(*(times(c, one.left) for c, one in zip(cofactors, sources, strict=True)))
+        total = add(times(h, change), negative(rest))
+        for name, q in given:
+            one, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).left)
+            refuse(one.kind != "finite" or one.leaf or not self.is_nowhere_zero(slope), f"`{name}` does not give `{q}`")
+        refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
+        needs, target = () if self.is_nowhere_zero(h) else (h,), step["id" if new else "of"]
+        defined = (h, *cofactors, left) if new or given else (h, *cofactors)
+        sources = *step["c"], *(name for name, _ in given)
+        return {target: left} if new else {}, [Consequence(target, sources, needs, defined)]
 
     def _rate(self, step: dict[str, Any]) -> Made:
         """What is constantly 0, or keeps its value, has the derivative 0."""
@@ -228,7 +235,7 @@ class CheckedRelations(CheckedTexts):
         while len(found) > size:
             size = len(found)
             for i, one in enumerate(self.consequences):
-                if one.target not in found and found.issuperset(one.sources) and self._met(i, point):
+                if one.target not in found and found.issuperset(one.sources) and self.applies(i, point):
                     found.add(one.target)
             self.effort.spend(len(self.consequences) + 1)
         return found
@@ -239,11 +246,12 @@ class CheckedRelations(CheckedTexts):
         left = left and left - self.closure(start, point)
         refuse(left, f"`{min(left, default='')}` is not shown to follow from {what}")
 
-    def _met(self, place: int, point: CheckedPoint | None) -> bool:
+    def applies(self, place: int, point: CheckedPoint | None) -> bool:
+        """Whether what a consequence needs is so near a point, at all velocities; without a point, everywhere."""
         one = self.consequences[place]
         if point is None:
             return one.at is None and not one.nonzero and all(map(self.has_value_everywhere, one.defined))
-        wide = {v: arb(0, 10**30) for v in self.velocities - point.balls.keys()}
+        wide = {v: arb(0, 10**30) for v in self.velocities}
 
         def look() -> bool:
             try:

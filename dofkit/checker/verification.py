@@ -18,11 +18,15 @@ branch      of, factors [TEXT], chosen (place), power,      of = product of fact
                                                             number ``plus`` squares, with coefficients c > 0
 sos         of, terms [[c, a]]                              of = sum c a^2 or its negative, all c > 0; ids ``id.1``,
                                                             ``id.2``, ... are the a, which have a value everywhere
-implied     of, h, c {ID: TEXT}                             h * of = sum c[i] * i: ``of`` follows from the i.
-                                                            Needs h not 0, the c defined. The c of a velocity
-                                                            relation may hold velocities
+implied     of (or function), h, c {ID: TEXT}, put          h * of = sum c[i] * i: ``of`` follows from the i; so does
+            [[ID, coordinate]]                              ``function``, as a relation of its own. Needs h not 0, the
+                                                            c defined. The c of a velocity relation may hold
+                                                            velocities. Where finite relations ``put`` give a coordinate
+                                                            (with a factor not 0 by itself), the sides are compared
+                                                            after it is put in, one after the other: ``of`` follows from
+                                                            these as well
 rate        of (finite, or an integral)                                     its time derivative, with qdot and tdot
-integral    function (f), h, c {ID: TEXT}                   h * (df/dt) = sum c[i] * i: f keeps its value. Needs
+integral    function (f), h, c {ID: TEXT}, put              h * (df/dt) = sum c[i] * i: f keeps its value. Needs
                                                             h not 0, the c defined. A finite relation of the leaf
 =========== =============================================== ==================================================
 
@@ -117,7 +121,9 @@ path                                    rule           fields
 /holonomic, /scleronomic                count          (of the verified entries)
 /redundant_equations                    count          (of verified /velocity_dof)
 /redundancies                           count          (of verified /redundant_equations: 0, or all equations are of
-                                                       one constraint, or 1 and one verified circuit)
+                                                       one constraint, or 1 and one verified circuit, at the
+                                                       point of a verified /redundant; or all are of one group
+                                                       where that was verified by ``without``)
 /feasible true                          point, regular at, or minor: equations as for /consistent; all inequalities
                                                        hold at that point
 /integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of

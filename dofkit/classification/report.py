@@ -154,6 +154,7 @@ def modelled(system: System, outcome: Outcome) -> str:
     parts += _looked_at(outcome)
     if system.forces:
         parts.append("forces are left out: they do not constrain")
+    parts += [f"left out: {told}" for told in system.left_out]
     return "; ".join(parts) or "nothing constrains anything"
 
 

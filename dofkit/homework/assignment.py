@@ -9,22 +9,23 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, ValidationError, WrapValidator
+from pydantic import BeforeValidator, Field, ValidationError
 
 from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.key.own_coordinates import faults_of_own
-from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
+from dofkit.homework.problem import Problem, faults_of_names, weighted
+from dofkit.homework.questions import QuestionBase
 from dofkit.homework.review.rows import Decisions
 from dofkit.homework.sentences.said import Language
+from dofkit.homework.statement import faults_of_places
 from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
 from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
 from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene
-from dofkit.scene.tagged_union import TaggedUnion
 
 #: A scene of more constraints is refused: grading starts with working out all that may be asked of it.
 MOST_CONSTRAINTS = 5000
@@ -45,39 +46,12 @@ class AssignmentError(DofkitError):
         return (AssignmentError, (self.faults, self.source))
 
 
-_QUESTION = TaggedUnion(
-    base=QuestionBase,
-    called="a question",
-    key="ask",
-    known=KINDS,
-    names="questions",
-    listing="what can be asked: ",
-    unknown="'{}' cannot be asked",
-    otherwise=("a question is a mapping with `id` and `ask`", "write {id: f, ask: dof} or the like"),
-)
-
-
-class Problem(WrittenModel):
-    """A scene and what is asked of it."""
-
-    id: Identifier = Field(description="its name, unique within the assignment")
-    title: str | None = Field(None, description="one line about it")
-    scene: str | dict[str, Any] = Field(description="a catalog name, a path beside the assignment, or a scene in place")
-    also: dict[str, str] = Field(
-        default_factory=dict, description="further coordinates that answers may use, by name: `theta: atan2(x, -y)`"
-    )
-    questions: Annotated[
-        tuple[Annotated[AnyQuestion, WrapValidator(_QUESTION.validated)], ...], Field(min_length=1)
-    ] = Field(description="what is asked")
-
-
 def _attempts(value: object) -> object:
     """A number of attempts, 1 or more; without it they are unlimited."""
     found = exact(value)
     if found.denominator != 1 or found < 1:
-        raise fault_error(
-            f"attempts are a whole number, 1 or more, not {value}", "leave it out where they are unlimited"
-        )
+        hint = "leave it out where they are unlimited"
+        raise fault_error(f"attempts are a whole number, 1 or more, not {value}", hint)
     return int(found)
 
 
@@ -109,13 +83,14 @@ class Assignment(WrittenModel):
 
 @dataclass(frozen=True)
 class Prepared:
-    """An assignment with its scenes: everything that grading needs. ``keys`` by problem.
+    """An assignment with its scenes: everything that grading needs. ``keys`` by problem; ``base``: its folder.
 
     ``decisions``: what a person decided of answers, which goes before all that dofkit finds.
     """
 
     assignment: Assignment
     keys: Mapping[str, Key]
+    base: Path = Path()
     decisions: Decisions = field(default_factory=dict)
 
     def questions(self) -> Iterator[tuple[Problem, QuestionBase]]:
@@ -173,13 +148,14 @@ def _as_file(fault: Fault) -> Fault:
 def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -> Prepared:
     try:
         assignment = Assignment.model_validate(value)
+        assignment = assignment.model_copy(update={"problems": tuple(map(weighted, assignment.problems))})
     except ValidationError as error:
         raise _error(_without_shortness(without_echoes(faults_of(error))), document) from None
     faults: list[Fault] = list(_repeats(assignment))
     keys: dict[str, Key] = {}
     for i, problem in enumerate(assignment.problems):
         try:
-            key = Key(_scene(problem, base), assignment.convention, problem.also)
+            key = Key(_scene(problem, base), assignment.convention, problem.also, problem.other_names)
         except SceneError as error:
             faults += [_within(fault, i, problem) for fault in error.faults]
             continue
@@ -187,7 +163,7 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
         faults += _scene_faults(i, problem, key)
     if faults:
         raise _error(tuple(faults), document)
-    return Prepared(assignment, keys)
+    return Prepared(assignment, keys, base)
 
 
 def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
@@ -229,6 +205,10 @@ def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
         return
     for fault in faults_of_own(key):
         yield replace(fault, where=("problems", i, "also", *fault.where))
+    for fault in faults_of_places(problem.text or "", key.scene):
+        yield replace(fault, where=("problems", i, "text"))
+    for fault in faults_of_names(problem, key):
+        yield replace(fault, where=("problems", i, *fault.where))
     for j, question in enumerate(problem.questions):
         for fault in question.faults(key):
             yield replace(fault, where=("problems", i, "questions", j, *fault.where))

@@ -15,6 +15,7 @@ import typer
 
 from dofkit.base.version import __version__
 from dofkit.interface import options
+from dofkit.interface.assignment_commands import assignment_app
 from dofkit.interface.catalog_commands import catalog_app
 from dofkit.interface.failures import INTERRUPTED, UNREADABLE, failures_of, print_json
 from dofkit.interface.presentation import Telling
@@ -31,7 +32,6 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-assignment_app = typer.Typer(help="Write assignments.", no_args_is_help=True, rich_markup_mode=None)
 export_app = typer.Typer(
     help="Write what a course platform needs to grade an assignment.", no_args_is_help=True, rich_markup_mode=None
 )
@@ -180,17 +180,6 @@ def chart(
         whole = chart(ChartOptions(selection, out, source, scheduler, workers, timeout))
     if not whole:
         raise typer.Exit(INTERRUPTED)
-
-
-@assignment_app.command("new")
-def assignment_new(
-    scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Paths or catalog names.")],
-) -> None:
-    """Print a starting assignment: all the questions that the scenes can be asked."""
-    from dofkit.homework.starting import starting
-
-    with failures_of(None):
-        typer.echo(starting(scenes), nl=False)
 
 
 @export_app.command("gradescope")

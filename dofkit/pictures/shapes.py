@@ -78,7 +78,7 @@ class Sketch:
 
     ``dimension`` of the world drawn; ``poses`` of what carries its shapes; ``size``: how far it reaches; ``notes`` are
     told below it, ``alternative`` to who cannot see it. ``axes``: names of the three directions; ``units``: of lengths,
-    empty where lengths mean nothing.
+    empty where lengths mean nothing; ``legend``: is it told what colours mean?
     """
 
     title: str
@@ -92,6 +92,7 @@ class Sketch:
     axes: tuple[str, ...] = ("x", "y", "z")
     units: str = ""
     clips: tuple[Clip, ...] = field(default=())
+    legend: bool = True
 
     def at(self, vertex: Vertex, poses: Poses | None = None) -> Array:
         """Where a vertex is."""

@@ -34,7 +34,7 @@ LINES: dict[str, str | tuple[str, str, str]] = {
     "axes": "axes: [[1, 0, 0], [0, 1, 0]]", "between": "between: [A, B]", "members": "members: [A, B, C]",
     "along": ("along: [A, [0], B]", "along: [A, [0, 0], B]", "along: [A, [0, 0, 0], B]"),
     "length": "length: 2", "radius": "radius: 1", "ratio": "ratio: -2", "pitch": "pitch: 2", "drive": 'drive: "2 t"',
-    "carrier": "carrier: arm", "point": "point: A", "body": "body: crank",
+    "joints": "joints: [shoulder, elbow]", "carrier": "carrier: arm", "point": "point: A", "body": "body: crank",
     "text": 'text: "x^2 + y^2 = 4"', "surface": 'surface: "y - x^2"', "curve": 'curve: ["y - x^2"]',
     "coordinates": "coordinates: [x, y]", "particles": "particles: [A, B]", "bodies": "bodies: [crank]",
     "parameters": "parameters: {l: positive, b: 3/2}", "functions": "functions: {f: [t]}",

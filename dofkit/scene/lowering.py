@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
+
 from dofkit.base.errors import SceneError
-from dofkit.expressions.tree import parameter
+from dofkit.base.wording import verb
+from dofkit.expressions.tree import Expr, parameter
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.elaboration import names_by_position
-from dofkit.scene.reference import pose_of, reference_of
+from dofkit.scene.reference import pose_of, reference_of, undrawn
 from dofkit.scene.scene import Scene, survey_of
 from dofkit.scene.survey import Survey
-from dofkit.system import ListedForce, Rotation, System
+from dofkit.system import Constraint, ListedForce, Rotation, System
 
 #: Said where the drawing is not used.
 SPECIAL = (
@@ -30,9 +33,13 @@ def system_of(scene: Scene, found: Survey) -> System:
     """The mathematics of a scene that was surveyed without faults."""
     drawing, vocabulary = found.drawing, found.drawing.vocabulary
     pose = pose_of(drawing)
-    reference = None
-    if not (found.generic or found.special):
-        reference = reference_of(drawing, found.drawn, pose)
+    reference, warnings = None, list(found.warnings)
+    if found.special:
+        warnings.append(SPECIAL)
+    elif not found.generic:
+        touched = _touched(found.constraints)
+        reference = reference_of(drawing, found.drawn, pose, touched)
+        warnings += _partly(found, undrawn(drawing, found.drawn, pose, touched))
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,
@@ -54,8 +61,22 @@ def system_of(scene: Scene, found: Survey) -> System:
         starts={name: frame.start for name, frame in drawing.frames.items()},
         tolerance=scene.tolerance or None,
         size=found.size,
-        warnings=(*found.warnings, SPECIAL) if found.special else found.warnings,
+        warnings=tuple(warnings),
+        left_out=scene.left_out,
     )
+
+
+def _touched(constraints: Iterable[Constraint]) -> frozenset[str]:
+    """The coordinates that relations mention, by their values, velocities or differentials."""
+    symbols = frozenset[Expr]().union(*(r.expr.symbols for c in constraints for r in c.relations))
+    return frozenset(str(s.args[1]) for s in symbols if s.args[0] not in ("parameter", "time", "dt"))
+
+
+def _partly(found: Survey, missing: Sequence[str]) -> Iterator[str]:
+    """A line where bodies are drawn and something else that is constrained is not."""
+    if missing and found.drawn:
+        shown = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
+        yield f"There is no reference configuration: {shown} {verb(len(missing))} not drawn."
 
 
 def _rotations(drawing: Drawing) -> tuple[Rotation, ...]:

@@ -26,7 +26,7 @@ __all__ = ["SceneFile", "SceneLike", "load", "loads", "scene_or_system"]
 #: More faults than this are counted, not listed.
 MOST_FAULTS = 200
 #: Parts of a scene without which its other parts can still be checked.
-_DROPPED_WHOLE = frozenset({"name", "title", "source", "notes", "expect", "energies", "configuration"})
+_DROPPED_WHOLE = frozenset({"name", "title", "source", "notes", "left_out", "expect", "energies", "configuration"})
 _DROPPED_BY_ENTRY = ("constraints", "forces")
 _TAKEN = "a Scene, a path, a catalog name or a mapping"
 

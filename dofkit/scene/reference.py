@@ -89,11 +89,22 @@ def pose_of(drawing: Drawing) -> dict[Expr, Expr]:
     return found
 
 
-def reference_of(drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr]) -> dict[Expr, Expr] | None:
-    """The pose, where it is one of everything: every body is ``drawn``, and nothing is left to guess."""
-    if any(name not in drawn for name in drawing.frames):
+def reference_of(
+    drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Set[str]
+) -> dict[Expr, Expr] | None:
+    """The pose, where it is one of every coordinate that a constraint has ``touched``; of all where none has any.
+
+    Its bodies are ``drawn``, and nothing is left to guess. What nothing constrains may stand anywhere.
+    """
+    names = [q.name for q in drawing.vocabulary.table.coordinates]
+    if undrawn(drawing, drawn, pose, touched or frozenset(names)):
         return None
-    symbols = [coordinate(q.name) for q in drawing.vocabulary.table.coordinates]
-    if any(symbol not in pose for symbol in symbols):
-        return None
-    return {symbol: pose[symbol] for symbol in symbols}
+    return {s: pose.get(s, ZERO) for s in map(coordinate, names)}
+
+
+def undrawn(drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Set[str]) -> tuple[str, ...]:
+    """The bodies, particles and coordinates that a constraint has ``touched`` and that are not drawn."""
+    table = drawing.vocabulary.table
+    found = [b for b, names in table.bodies.items() if b not in drawn and not touched.isdisjoint(names)]
+    bare = (q for q in table.coordinates if q.name in touched and coordinate(q.name) not in pose)
+    return tuple(dict.fromkeys([*found, *(q.owner or q.name for q in bare)]))

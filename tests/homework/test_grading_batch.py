@@ -376,7 +376,7 @@ def test_a_starting_assignment_asks_all_there_is(tmp_path: Path, capsys: pytest.
         "name: skate\ncoordinates: [x, y, theta]\nconstraints:\n"
         "- {name: blade, type: equation, text: xdot sin(theta) = ydot cos(theta)}\n- x^2 <= 4\n"
     )
-    cli.app(["assignment", "new", str(scene), str(scene)], standalone_mode=False)
+    cli.app(["assignment", "new", "--all", str(scene), str(scene)], standalone_mode=False)
     made = tmp_path / "made.yaml"
     made.write_text(capsys.readouterr().out)
     prepared = dofkit.load_assignment(made)

@@ -148,17 +148,21 @@ def test_a_scene_survives_json() -> None:
 # The drawing
 
 
-def test_reference_needs_a_drawing_of_everything() -> None:
+def test_reference_needs_a_drawing_of_everything_that_is_constrained() -> None:
     pin = {"type": "revolute", "between": ["ground", "a"], "at": [1, 2]}
     found = system(dimension=2, bodies=["a"], constraints=[pin])
     assert found.reference == dict.fromkeys(map(coordinate, ["x_a", "y_a", "theta_a"]), ZERO)
     assert found.pose == found.reference
-    assert system(dimension=2, bodies=["a", "b"], constraints=[pin]).reference is None
+    beside = system(dimension=2, bodies=["a", "b"], particles=["P"], constraints=[pin]).reference
+    assert beside is not None
+    assert {str(s.args[1]): value for s, value in beside.items()}["x_P"] == ZERO
     weld = {"type": "weld", "between": ["a", "b"]}
     assert system(dimension=2, bodies=["a", "b"], constraints=[pin, weld]).reference is not None
     bare = {"type": "revolute", "between": ["ground", "a"]}
     assert system(dimension=2, bodies=["a"], constraints=[bare]).reference is None
-    assert system(dimension=2, bodies=["a"], particles=["P"], constraints=[pin]).reference is None
+    low = "y_P = 1"
+    assert system(dimension=2, bodies=["a"], particles=["P"], constraints=[pin, low]).reference is None
+    assert system(dimension=2, bodies=["a", "b"], constraints=[pin, "dx_b = 0"]).reference is None
     placed = [{"name": "P", "at": ["sqrt(3)/2", 1]}]
     found = system(dimension=2, bodies=["a"], particles=placed, constraints=[pin])
     assert found.reference is not None

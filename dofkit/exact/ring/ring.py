@@ -15,7 +15,7 @@ from fractions import Fraction
 from math import gcd
 
 from dofkit.exact.ring.angles import MAX_MULTIPLE, exact_turn, multiple, of_inverse, rotated, turn_of_twelfths
-from dofkit.exact.ring.instructions import ADD, MUL, NUM, Instructions, Var
+from dofkit.exact.ring.instructions import ADD, MUL, NUM, VAR, Instructions, Var
 from dofkit.exact.ring.inverses import inverse_function, log, over_primes, split_logs
 from dofkit.exact.ring.radicals import root, sign
 from dofkit.expressions import tree as ex
@@ -100,6 +100,19 @@ class Ring(Instructions):
         if found is None:
             found = self._memo[e] = self._building[e.op](e)
         return found
+
+    def forget(self, size: int) -> None:
+        """Instructions from number ``size`` on are dropped, as if they had never been emitted, if none is a generator.
+
+        What divides by 0 would leave the whole program without a value.
+        """
+        if any(op == VAR for op, _ in self.code[size:]):
+            return
+        for key in self.code[size:]:
+            del self._interned[key]
+        del self.code[size:]
+        self._memo = {e: node for e, node in self._memo.items() if node < size}
+        self._orders = {roots: order for roots, order in self._orders.items() if all(i < size for i in roots)}
 
     def _constant(self, e: Expr) -> int:
         if e.args[0] == "E":

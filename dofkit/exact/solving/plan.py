@@ -104,12 +104,16 @@ class Planner:
         self.plan = Plan()
 
     def plan_for(self, relations: Sequence[int]) -> Plan:
-        """The plan for relations, those of the roots among them."""
+        """The plan for relations, those of the roots among them; stuck where an elimination divides by 0 everywhere."""
         if self.degrees.probe is None:
             self.plan.stuck = True
             return self.plan
         everything = {u for node in relations for u in units_in(self.ring, node)}
-        solved_last = self._solved_last(list(relations))
+        try:
+            solved_last = self._solved_last(list(relations))
+        except NoValueError:
+            self.plan = Plan(stuck=True)
+            return self.plan
         self.plan.steps = solved_last[::-1]
         self.plan.free = sorted(everything - {unit for _, unit in solved_last} - self.fixed)
         return self.plan
@@ -286,7 +290,14 @@ class Planner:
 
 
 def plan_for(ring: Ring, relations: Sequence[int], fixed: frozenset[Unit], seed: int) -> tuple[Plan, Degrees]:
-    """The plan for relations and for those of the roots in them, and the degrees by which it was found."""
+    """The plan for relations and for those of the roots in them, and the degrees by which it was found.
+
+    What was emitted for a plan that is stuck leaves the ring.
+    """
+    size = len(ring.code)
     whole = [*relations, *root_relations(ring, list(relations))]
     degrees = Degrees(ring, seed)
-    return Planner(degrees, fixed, seed).plan_for(whole), degrees
+    plan = Planner(degrees, fixed, seed).plan_for(whole)
+    if plan.stuck:
+        ring.forget(size)
+    return plan, degrees

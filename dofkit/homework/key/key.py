@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.text import Names
+from dofkit.expressions.tree import coordinate
 from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
 from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
@@ -30,12 +31,13 @@ Convention = Literal["configuration", "velocity"]
 class Key:
     """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means.
 
-    ``also``: further coordinates that an answer may use, and what they are.
+    ``also``: further coordinates that an answer may use, and what they are. ``others``: other name -> declared name.
     """
 
     scene: Scene
     convention: Convention = "configuration"
     also: Mapping[str, str] = field(default_factory=dict)
+    others: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def report(self) -> Report:
@@ -59,7 +61,10 @@ class Key:
     @cached_property
     def names(self) -> Names:
         """What an answer's texts may mention."""
-        return vocabulary_of(self.scene).names
+        names = vocabulary_of(self.scene).names
+        moving = {other: coordinate(name) for other, name in self.others.items() if name in names.coordinates}
+        still = {o: names.parameters[name] for o, name in self.others.items() if name in names.parameters}
+        return replace(names, parameters={**names.parameters, **moving, **still}) if moving or still else names
 
     @cached_property
     def coordinates(self) -> list[str]:
@@ -82,14 +87,14 @@ class Key:
                 }
             )
             if len(self._extended) == MOST_EXTENDED:
-                return Key(scene, self.convention)
-            self._extended[names, texts] = Key(scene, self.convention)
+                return Key(scene, self.convention, others=self.others)
+            self._extended[names, texts] = Key(scene, self.convention, others=self.others)
         return self._extended[names, texts]
 
     @cached_property
     def constants(self) -> list[str]:
         """The names of the scene's parameters without a value."""
-        return [n for n, e in self.names.parameters.items() if e.op == "sym"]
+        return [n for n, e in self.names.parameters.items() if e.op == "sym" and n not in self.others]
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates.elimination import echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.scenery import Scenery
+from dofkit.methods.certificates.substitutions import needed_puts, puts, solved_pairs, with_puts
 from dofkit.methods.certificates.texts import number_text
 
 
@@ -24,13 +26,23 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
         return True
     try:
         factors = constant_cofactors(scenery, name, kinds, point)
-        if factors is not None:
-            found = {row: number_text(value) for row, value in factors.items()}
-            scenery.add_step({"id": step, "by": "implied", "of": name, "c": found})
-            return True
+        found = None if factors is None else {"c": {row: number_text(value) for row, value in factors.items()}}
+        if found is None and own.kind == "finite":
+            found = _put(scenery, name, kinds, point)
+        if found is not None:
+            scenery.add_step({"id": step, "by": "implied", "of": name, **found})
     except (CheckError, NoEstimateError):
         return False
-    return False
+    return found is not None
+
+
+def _put(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint) -> dict[str, Any] | None:
+    """That nothing of a relation is left once coordinates that others give are put in; None where something is."""
+    left = scenery.evidence.relation(name).left
+    order = puts(scenery, [*solved_pairs(scenery, rows, point), *rows])
+    if not scenery.evidence.ring.vanishes(with_puts(scenery, left, order)):
+        return None
+    return {"c": {}, "put": needed_puts(scenery, [left], order)}
 
 
 def rate_of(scenery: Scenery, name: str) -> str:

@@ -96,7 +96,7 @@ def redundant(room: Room) -> Iterator[Told]:
     standing = room.accounted(names)
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "cofactors", "minor": room.minor(standing), **backed}
-    elif not dropped:
+    if not dropped:
         yield from _needed(room)
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
@@ -18,7 +17,6 @@ from dofkit.exact.zero.identity import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
-from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
@@ -30,6 +28,8 @@ from dofkit.relations.normal.signs import (
     by_signs,
     holds_on_a_region,
     squared,
+    up_to_a_number,
+    whole_zero_sets,
     with_absolute_values,
 )
 from dofkit.relations.normal.velocity_roots import in_one_rate, velocity_branches
@@ -219,19 +219,12 @@ def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
             regions.append(conditions)
         else:
             others += [(g, conditions) for g in zero_set(signed, positive, _moving(signed))[0]]
-    edges = [_up_to_a_number(c.expr) for region in regions if len(region) == 1 for c in region]
+    edges = [up_to_a_number(c.expr) for region in regions if len(region) == 1 for c in region]
     branches: list[tuple[Piece, ...]] = [(*region, *always) for region in regions]
     for conjunction, conditions in others:
-        if not any(_up_to_a_number(g) in edges for g in conjunction):
+        if not any(up_to_a_number(g) in edges for g in conjunction):
             branches.append((*map(Finite, conjunction), *conditions, *always))
     return Normal(tuple(branches), (REGION_NOTE,))
-
-
-def _up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
-    """Equal for expressions that are multiples of each other."""
-    terms = linear_terms(e)
-    first = terms[min(terms, key=repr)] if terms else 1
-    return frozenset((s, c / first) for s, c in terms.items())
 
 
 def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
@@ -263,11 +256,16 @@ def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
 def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]) -> Normal:
     """The only choice of signs of what stands in abs() and holds velocities that does not contradict itself.
 
-    Where there are several, a motion may pass from one to the other: the relation stays as it is.
+    Or all of them, where they are whole sets together. Where there are several otherwise, a motion may pass from one to the other: the relation stays as it is.
     """
     branches: list[tuple[Piece, ...]] = []
     notes: list[str] = [SIGNS_NOTE]
-    for signed, conditions in by_signs(e, folds, positive):
+    choices = list(by_signs(e, folds, positive))
+    whole = whole_zero_sets(choices, positive)
+    if whole is not None:
+        normals = [normalise(g, positive, True) for g in whole]
+        return Normal(tuple(b for n in normals for b in n.branches), (SIGNS_NOTE, *([PRODUCT_NOTE] * (len(whole) > 1))))
+    for signed, conditions in choices:
         if no_solution([signed], positive, [c.expr for c in conditions]):
             continue
         if is_zero(signed, positive) or branches:

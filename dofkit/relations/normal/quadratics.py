@@ -19,7 +19,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.elimination import by_velocities
-from dofkit.relations.normal.semidefinite import Signs, sum_of_even
+from dofkit.relations.normal.semidefinite import Signs, weak_sign
 
 Matrix = list[list[Expr]]
 
@@ -119,18 +119,14 @@ def _zero(e: Expr) -> bool:
 
 
 def _sign(e: Expr, positive: frozenset[Expr]) -> int:
-    """1 where all terms of the canonical form, or one that outweighs the others, are >= 0, -1 where <= 0, else 0."""
+    """1 for what is proved to be >= 0 everywhere, -1 for <= 0, else 0."""
     ring = Ring([e], positive)
     node = ring.node(e)
     try:
         canon = Canon(ring)
         top, bottom = canon.quotient(node)
+        if not bottom.is_constant():
+            return 0
+        return weak_sign(canon, Signs(canon, positive), top) * (1 if bottom.leading_coefficient() > 0 else -1)
     except NoValueError:
         return 0
-    signs = Signs(canon, positive)
-    if not bottom.is_constant() or sum_of_even(top, signs) is None:
-        return 0
-    terms = top.to_dict()
-    constant = terms.get((0,) * len(ring.vars)) if signs.bounded_away(top) else None
-    value = next(iter(terms.values())) if constant is None else constant
-    return 1 if (value > 0) == (bottom.leading_coefficient() > 0) else -1

@@ -31,16 +31,26 @@ class Signs:
 
     def bounded_away(self, poly: Any) -> bool:
         """True for a polynomial in sines and cosines whose constant outweighs the rest."""
+        constant, rest = self._weights(poly)
+        return constant > rest
+
+    def bounded(self, poly: Any) -> bool:
+        """True for one whose constant weighs as much as the rest, or more: it does not change its sign."""
+        constant, rest = self._weights(poly)
+        return constant >= rest and constant > 0
+
+    def _weights(self, poly: Any) -> tuple[Fraction, Fraction]:
+        """The sizes of the constant, and of the other terms together; 0 and 1 for what is unbounded."""
         constant = rest = Fraction(0)
         for exponents, coefficient in poly.to_dict().items():
             present = {self.n - 1 - i for i, k in enumerate(exponents) if k}
             if not present <= self.circular:
-                return False
+                return Fraction(0), Fraction(1)
             if present:
                 rest += abs(fraction(coefficient))
             else:
                 constant += abs(fraction(coefficient))
-        return constant > rest
+        return constant, rest
 
     def monomial(self, exponents: tuple[int, ...]) -> tuple[bool, list[int]]:
         """(is it >= 0 everywhere, the generators of which one must vanish where it is 0)."""
@@ -74,8 +84,34 @@ def sum_of_even(poly: Any, signs: Signs) -> list[list[int]] | None:
     return found
 
 
+def weak_sign(canon: Canon, signs: Signs, poly: Any) -> int:
+    """1 for a polynomial that is proved to be >= 0 everywhere, -1 for <= 0, else 0; by its terms, else its factors.
+
+    1 - cos(z)^2 = (1 - cos z)(1 + cos z) is a product of what is not negative. Raises TooLargeError.
+    """
+    whole = _sign_of_terms(signs, poly)
+    if whole or poly.is_constant():
+        return whole
+    sign = 1 if poly.factor()[0] > 0 else -1
+    for factor, multiplicity in canon.factors(poly):
+        sign *= _sign_of_terms(signs, factor) ** multiplicity if multiplicity % 2 else 1
+    return sign
+
+
+def _sign_of_terms(signs: Signs, poly: Any) -> int:
+    """The sign of a polynomial whose terms all have it, or whose constant outweighs sines and cosines; else 0."""
+    if signs.bounded(poly):
+        return 1 if next(c for exponents, c in poly.to_dict().items() if not any(exponents)) > 0 else -1
+    if sum_of_even(poly, signs) is None:
+        return 0
+    return 1 if _some_positive(poly) else -1
+
+
 def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
-    """True where ``e >= 0`` (or > 0) is proved to hold nowhere: -e is a sum of terms that are >= 0, one of them > 0."""
+    """True where ``e >= 0`` (or > 0) is proved to hold nowhere: -e is a sum of terms that are >= 0, one of them > 0.
+
+    For > 0 it is enough that no term, or a product with only such factors, is > 0.
+    """
     try:
         ring = Ring([e], positive)
         node = ring.node(e)
@@ -89,10 +125,20 @@ def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
         return False
     if bottom.leading_coefficient() < 0:
         top = -top
-    even = sum_of_even(top, Signs(canon, positive))
+    signs = Signs(canon, positive)
+    even = sum_of_even(top, signs)
+    if even is None and strict:
+        return _never_positive(canon, signs, top)
     if even is None or _some_positive(top):
         return False
     return strict or any(not zeros for zeros in even)
+
+
+def _never_positive(canon: Canon, signs: Signs, poly: Any) -> bool:
+    try:
+        return weak_sign(canon, signs, poly) == -1
+    except NoValueError:
+        return False
 
 
 def _some_positive(poly: Any) -> bool:

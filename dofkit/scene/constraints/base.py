@@ -28,6 +28,8 @@ class ConstraintBase(WrittenModel):
     #: A line of a scene by its dimension (0: in any): it loads where the bodies crank and rod, the particles A, B and C
     #: and the coordinates x and y are declared.
     examples: ClassVar[Mapping[int, str]] = {}
+    #: Lines of joints that the example names, by dimension.
+    beside: ClassVar[Mapping[int, tuple[str, ...]]] = {}
     #: Other words for the type that are read; words that are understood, and only lead to a hint.
     synonyms: ClassVar[tuple[str, ...]] = ()
     understood: ClassVar[tuple[str, ...]] = ()

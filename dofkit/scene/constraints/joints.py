@@ -8,13 +8,13 @@ two ways to keep the lines parallel this leaves out the one with the axis turned
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import ClassVar
+from collections.abc import Callable, Iterator, Mapping
+from typing import ClassVar, NamedTuple
 
 from pydantic import Field
 
 from dofkit.exact.matrices import rows
-from dofkit.expressions.tree import HALF, MINUS_ONE, Expr, fn, mul
+from dofkit.expressions.tree import HALF, MINUS_ONE, ONE, ZERO, Expr, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
 from dofkit.scene.constraints.base import ConstraintBase, component_relations
 from dofkit.scene.constraints.places import along
@@ -28,10 +28,25 @@ from dofkit.system import Kinematics, Relation, VelocityRow
 _UP = {2: "[1, 0]", 3: "[0, 0, 1]"}
 
 
+class Measure(NamedTuple):
+    """An angle or displacement of a joint: its ``value`` by the two frames, the place and the axis, and its ``rate``.
+
+    ``turns``: it is an angle; ``placed``: it depends on the joint's place. In the plane an angle needs no axis.
+    """
+
+    value: Callable[[Frame, Frame, Vec, Direction | None], Expr]
+    rate: Callable[[Kinematics], VelocityRow]
+    turns: bool = False
+    placed: bool = False
+
+
 class Joint(ConstraintBase):
     """Two bodies, or a body and the ground, joined together."""
 
     between: tuple[str, str] = Field(description="the two bodies; one may be ground")
+
+    #: What a coupling may mention of it.
+    measures: ClassVar[Mapping[str, Measure]] = {}
 
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
 
@@ -110,6 +125,28 @@ def turn_rate(at: Kinematics) -> VelocityRow:
 def slide_rate(at: Kinematics) -> VelocityRow:
     """How fast the second body moves along the axis against the first."""
     return rows.along(at.directions[0], at.shift())
+
+
+def _angle(first: Frame, second: Frame, place: Vec, axis: Direction | None) -> Expr:
+    del place
+    return difference(second.angle, first.angle) if axis is None else angle_of(first, second, axis)
+
+
+def _shifted(first: Frame, second: Frame, place: Vec, axis: Direction | None) -> Expr:
+    del place
+    moved, under = shift(first, second, axis.vector) if axis is not None else (ZERO, ONE)
+    return moved if axis is None else moved / mul(under, length(axis.vector))
+
+
+def _slid(first: Frame, second: Frame, place: Vec, axis: Direction | None) -> Expr:
+    moved, under = slide(first, second, place, axis.vector) if axis is not None else (ZERO, ONE)
+    return moved if axis is None else moved / mul(under, length(axis.vector))
+
+
+#: An angle about the axis; a displacement along it of bodies that do not turn against each other, and of others.
+ANGLE = Measure(_angle, turn_rate, turns=True)
+SHIFT = Measure(_shifted, slide_rate)
+SLIDE = Measure(_slid, slide_rate, placed=True)
 
 
 def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:

@@ -12,9 +12,12 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import PI, add, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, length, plus, scaled
 from dofkit.scene.constraints.joints import (
+    ANGLE,
+    SLIDE,
     Axial,
     Driven,
     LocatedJoint,
+    Measure,
     aligned,
     angle_law,
     angle_of,
@@ -57,6 +60,7 @@ class Cylindrical(Driven):
     }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(_cylindrical_rows, slide_rate, axial=True, half_turns=True, joint=True)
+    measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
     symbol: ClassVar[Symbol] = Symbol(space=(*cylinder(0.3, 2.4, 1), *cylinder(0.6, 1.0)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
@@ -88,6 +92,7 @@ class Screw(Driven):
     facts: ClassVar[TypeFacts] = TypeFacts(
         _screw_rows, turn_rate, by_turn=True, axial=True, half_turns=True, joint=True
     )
+    measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
     symbol: ClassVar[Symbol] = Symbol(space=(helix(0.4, 2.4, 6, 1), axle(2.4, 1), *prism(0.65, 0.6)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
