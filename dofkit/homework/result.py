@@ -49,7 +49,8 @@ class Result(Displayed, ToldModel):
     """One student's submission. ``score`` is the sum of what is decided; ``needs_review`` answers are open beside it:
     those that could not be decided, and those that could not be read unless the assignment gives them zero points.
 
-    ``error``: why the submission could not be graded; then there are no items and ``score`` is None.
+    ``error``: why the submission could not be graded; then there are no items and ``score`` is None. ``doubt``: why a
+    person has to say whose it is, where its file and the ``student`` in it, or the platform's user, are not the same.
     """
 
     student: str
@@ -58,3 +59,4 @@ class Result(Displayed, ToldModel):
     items: list[Item]
     needs_review: int = 0
     error: str | None = None
+    doubt: str | None = None

@@ -13,7 +13,7 @@ from typing import Any, Literal, NamedTuple
 Replaced = Literal["supports", "rolling"]
 
 
-class Variation(NamedTuple):
+class TypeVariation(NamedTuple):
     """Fields of a type that hold ``places``, ``directions``, ``lengths``, other ``numbers``, or ``texts`` with numbers.
 
     A field that holds points or lists of them is one of places. Numbers keep their signs.

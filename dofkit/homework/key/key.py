@@ -25,8 +25,6 @@ MOST_KNOWN = 4096
 MOST_EXTENDED = 256
 
 Convention = Literal["configuration", "velocity"]
-#: Seconds for what dofkit says of an assignment's scene.
-SCENE_SECONDS = 60.0
 
 
 @dataclass(frozen=True)

@@ -1,1 +1,1 @@
-"""A sheet for each student, from a seed: other numbers, names and constraints, as hard as the others, its key proved."""
+"""Sheets for students, from a seed: other numbers, names and constraints, as hard as the others, with its key proved."""

@@ -14,7 +14,7 @@ from dofkit.expressions.vectors import Vec, minus, square
 from dofkit.scene.fields import WrittenModel
 from dofkit.scene.frames import Placed
 from dofkit.scene.symbols import Symbol
-from dofkit.scene.variation import NamesAtHand, Replacement, Variation
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
 from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
@@ -39,7 +39,7 @@ class ConstraintBase(WrittenModel):
     #: What everyone else may know of the type.
     facts: ClassVar[TypeFacts] = TypeFacts()
     #: What of it may differ between the sheets of students.
-    variation: ClassVar[Variation] = Variation()
+    variation: ClassVar[TypeVariation] = TypeVariation()
     #: How the type is drawn.
     symbol: ClassVar[Symbol]
 

@@ -20,7 +20,7 @@ from dofkit.scene.frames import Placed, between
 from dofkit.scene.ledger import symbols_of
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point
 from dofkit.scene.symbols import Symbol
-from dofkit.scene.variation import NamesAtHand, Replacement, Variation, length_in_motion
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation, length_in_motion
 from dofkit.scene.world import World
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -47,7 +47,7 @@ class Link(ConstraintBase):
     length: Value | None = Field(None, description="their distance; may hold t; by default that of the drawing")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="bar")
-    variation: ClassVar[Variation] = Variation(places=("between",), lengths=("length",))
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("between",), lengths=("length",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         if _told_to_move(self, world):
@@ -239,7 +239,7 @@ class String(ConstraintBase):
     length: Value | None = Field(None, description="its length; may hold t; by default that of the drawing")
     facts: ClassVar[TypeFacts] = TypeFacts(string=True)
     symbol: ClassVar[Symbol] = Symbol(run="rope")
-    variation: ClassVar[Variation] = Variation(places=("along",), lengths=("length",))
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("along",), lengths=("length",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         points = [world.point(point, "along", i) for i, point in enumerate(self.along)]

@@ -18,7 +18,7 @@ from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point
 from dofkit.scene.symbols import Symbol
-from dofkit.scene.variation import NamesAtHand, Replacement, Variation, angle_for_turning
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation, angle_for_turning
 from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
@@ -38,7 +38,7 @@ class Equation(ConstraintBase):
     text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
-    variation: ClassVar[Variation] = Variation(texts=("text",))
+    variation: ClassVar[TypeVariation] = TypeVariation(texts=("text",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         for e, sense in world.relations(self.text, "text"):
@@ -94,7 +94,7 @@ class On(ConstraintBase):
     ] = Field(None, description="equations in x, y, z: a curve in space is where two surfaces meet")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, lettered=True, surface=True, shared=True)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
-    variation: ClassVar[Variation] = Variation(places=("members",), texts=("surface", "curve"))
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("members",), texts=("surface", "curve"))
 
     def texts(self) -> Iterator[str]:
         yield from () if self.surface is None else (self.surface,)

@@ -22,7 +22,7 @@ from dofkit.scene.fields import Text, Vector
 from dofkit.scene.frames import Frame, between, relative
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
-from dofkit.scene.variation import NamesAtHand, Replacement, Variation
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
 from dofkit.scene.world import Direction, World
 from dofkit.system import Kinematics, Relation, VelocityRow
 
@@ -46,7 +46,7 @@ class Joint(ConstraintBase):
 
     between: tuple[str, str] = Field(description="the two bodies; one may be ground")
 
-    variation: ClassVar[Variation] = Variation(places=("at",), directions=("axis", "axes"))
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("at",), directions=("axis", "axes"))
     #: What a coupling may mention of it.
     measures: ClassVar[Mapping[str, Measure]] = {}
 

@@ -16,7 +16,7 @@ from dofkit.scene.constraints.joints import Joint
 from dofkit.scene.fields import Value, as_written
 from dofkit.scene.frames import Frame
 from dofkit.scene.symbols import Symbol
-from dofkit.scene.variation import NamesAtHand, Replacement, Variation
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
 from dofkit.scene.world import World
 from dofkit.system import GROUND, Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -36,7 +36,7 @@ class Roll(ConstraintBase):
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
     facts: ClassVar[TypeFacts] = TypeFacts(joint=True)
     symbol: ClassVar[Symbol] = Symbol(run="wheel", size="radius")
-    variation: ClassVar[Variation] = Variation(lengths=("radius",))
+    variation: ClassVar[TypeVariation] = TypeVariation(lengths=("radius",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         radius = world.fixed(self.radius, "radius")
@@ -102,7 +102,7 @@ class Gear(Joint):
     dimensions: ClassVar[tuple[int, ...]] = (2,)
     facts: ClassVar[TypeFacts] = TypeFacts(_gear_rows, joint=True, geared=True)
     symbol: ClassVar[Symbol] = Symbol(run="teeth")
-    variation: ClassVar[Variation] = Variation(numbers=("ratio",))
+    variation: ClassVar[TypeVariation] = TypeVariation(numbers=("ratio",))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
         ratio = world.mentioned.number = world.fixed(self.ratio, "ratio")
