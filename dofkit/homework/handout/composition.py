@@ -64,7 +64,7 @@ class SheetComposer:
         whole = sum((q.points for q in problem.questions), Fraction(0))
         yield f"## {n}. {marked(problem.title or problem.id)} ({self._points(whole)})"
         if problem.text is not None:
-            yield filled(problem.text, key.scene).strip()
+            yield filled(problem.text, key.scene, asked_equations(problem)).strip()
         figure = self.figures.get(problem.id)
         if figure is not None:
             yield f"![{self.told('Figure {number}', number=n)}]({figure.path})"
@@ -103,9 +103,8 @@ class SheetComposer:
             yield f"${name}$: {self.told(sign)}" if sign else f"${name} = {as_written(value)}$"
         for name, arguments in key.scene.functions.items():
             yield self.told("{names}: an unknown smooth function", names=f"${name}({', '.join(arguments)})$")
-        hidden = {name for q in problem.questions if isinstance(q, EquationQuestion) for name in q.constraint}
         if (ALL, None) not in places(problem.text or ""):
-            yield from self._constraints(key, hidden)
+            yield from self._constraints(key, asked_equations(problem))
             yield from map(_of_force, key.scene.forces)
         yield from self._further(problem, key)
 
@@ -135,6 +134,11 @@ class SheetComposer:
             yield self.told(cls.how) + more
         yield self.told("Greek letters may be typed as such or as words: theta, omega. LaTeX is read as well.")
         yield self.told("A decimal number has a point or a comma; exact numbers, such as 1/3 or sqrt(2), are better.")
+
+
+def asked_equations(problem: Problem) -> set[str]:
+    """The constraints whose equations are asked for."""
+    return {name for q in problem.questions if isinstance(q, EquationQuestion) for name in q.constraint}
 
 
 def safe_example(prepared: Prepared, kind: type[QuestionBase]) -> str | None:

@@ -1,1 +1,1 @@
-"""Sheets for students, from a seed: other numbers, names and constraints, as hard as the others, with its key proved."""
+"""Sheets of students, made from a seed: other numbers, names and constraints, as hard as each other, keys proved."""

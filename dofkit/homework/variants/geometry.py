@@ -63,7 +63,8 @@ def _texts(written: Mapping[str, Any]) -> list[str]:
 def stretched(scene: Scene, written: Mapping[str, Any], stretch: Stretch) -> dict[str, Any]:
     """What is written of a scene, with other numbers."""
     changed = dict(written)
-    changed["constraints"] = [_constraint(c, stretch) for c in written.get("constraints", ())]
+    if "constraints" in written:
+        changed["constraints"] = [_constraint(c, stretch) for c in written["constraints"]]
     for kind in ("particles", "bodies"):
         if kind in written:
             changed[kind] = [{**one, **_with(one, ("at",), stretch.along)} for one in written[kind]]
