@@ -1,4 +1,4 @@
-"""A sheet for each student of a roster, written to a folder with what grades them and a table of what each one tests."""
+"""A sheet for each student of a roster, in a folder with what grades them and a table of what each one tests."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ruamel.yaml import YAML
 from dofkit.base.errors import DofkitError
 from dofkit.base.wording import many
 from dofkit.homework.answers.label_words import word_of
-from dofkit.homework.answers.roster import Roster
+from dofkit.homework.answers.roster import Participant, Roster
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats.cells import cell
 from dofkit.homework.formats.html.rendering import rendered
@@ -117,8 +117,7 @@ def class_sheets(source: str, roster: Roster, seed: str, out: Path) -> ClassShee
     if not roster.members:
         raise VaryError("there is nobody in the roster: a row for each student is needed")
     students = tuple(
-        StudentSheet(student=one.student, known_as=tuple(dict.fromkeys(n for n in one.called() if n != one.student)))
-        for one in roster.members
+        StudentSheet.model_validate({"student": one.student, "known_as": _others(one)}) for one in roster.members
     )
     value = _standing_alone(given, out)
     prepared = load_assignment({**value, "variants": Variants(seed=seed, students=students).model_dump()}, base=out)
@@ -130,6 +129,11 @@ def class_sheets(source: str, roster: Roster, seed: str, out: Path) -> ClassShee
         found.append(drawn)
     final = Variants(seed=seed, students=tuple(whose for whose, _ in found)).model_dump(exclude_defaults=True)
     return ClassSheets(load_assignment({**value, "variants": final}, base=out), tuple(found))
+
+
+def _others(one: Participant) -> list[str]:
+    """What else a participant goes by."""
+    return list(dict.fromkeys(name for name in one.called() if name != one.student))
 
 
 def _different(

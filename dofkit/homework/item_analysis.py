@@ -5,8 +5,8 @@ correlation, for partial points Pearson's, of a question's share of its points w
 
     r = (n sum(x y) - sum(x) sum(y)) / sqrt((n sum(x^2) - sum(x)^2) (n sum(y^2) - sum(y)^2)),
 
-over all submissions, as far as their answers are decided. From 0.3 on a question is good; about 0 it tells nothing; below 0
-those who know more get it less: the key or the text should be looked at.
+over all submissions, as far as their answers are decided. From 0.3 on a question is good; about 0 it tells
+nothing; below 0 those who know more get it less: the key or the text should be looked at.
 """
 
 from __future__ import annotations
@@ -33,16 +33,16 @@ class GroupFigures(NamedTuple):
     """One class, or one variant: how many answers are decided, and the share of the points that they got."""
 
     name: str
-    count: int
+    answers: int
     share: float
 
 
 class QuestionFigures(NamedTuple):
-    """``right``: the share of decided answers that are wholly right; ``points``: the share of the points they got;
+    """``right``: the share of the ``decided`` answers that are wholly right; ``points``: that of the points they got;
     ``discrimination``: as above, None where too few are decided or all are alike. ``codes``: (count, code, meaning).
     """
 
-    count: int
+    decided: int
     right: float | None
     points: float | None
     discrimination: float | None

@@ -75,7 +75,7 @@ def own(prepared: Prepared, student: str) -> Prepared:
     found = variants.find(student)
     if found is None:
         raise NobodysSheetError(
-            f"'{student[:200]}' is not among the students of this assignment, or is the name of two: which sheet is theirs?"
+            f"'{student[:200]}' is not among the students of this assignment, or is the name of two: whose sheet is it?"
         )
     return own_sheet(prepared, variants.seed, found).prepared
 
@@ -123,7 +123,7 @@ def _variant(problem: Problem, structure: Structure, stream: Stream) -> Variant:
         if "geometry" in aspects and attempt < MOST_STRETCHES:
             stretch = new_stretch(written, structure.key.scene.dimension, stream)
             written = stretched(structure.key.scene, structure.written, stretch)
-            numbers = stretch.told if written != structure.written else ""
+            numbers = stretch.told(structure.key.scene, structure.written)
         names = new_names(structure.key.scene, problem, stream) if "names" in aspects else {}
         found = _accepted(problem, structure, written, names)
         if found is not None:

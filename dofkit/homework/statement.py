@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
+from typing import Any
 
 from dofkit.base.errors import Fault
 from dofkit.expressions.text.typesetting import typeset
@@ -59,7 +60,7 @@ def _told(name: str, field: str | None, scene: Scene, hidden: Collection[str] = 
     return f"${name}$" if name in known else None
 
 
-def _value(value: object) -> str:
+def _value(value: Any) -> str:
     if isinstance(value, tuple):
         numbers = all(not isinstance(part, (tuple, BodyPoint)) for part in value)
         return f"${show_vector(value)}$" if numbers else ", ".join(_value(part) for part in value)

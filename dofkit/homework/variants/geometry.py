@@ -32,12 +32,12 @@ class Stretch(NamedTuple):
     length: Fraction
     others: Mapping[int, int]
 
-    @property
-    def told(self) -> str:
-        """What it does, in a few words."""
+    def told(self, scene: Scene, written: Mapping[str, Any]) -> str:
+        """What it does to a scene, in a few words."""
+        moved = stretched(scene, written, self._replace(others={})) != dict(written)
         factors = ", ".join(map(as_written, self.along))
         exchanged = ", ".join(f"{a} for {b}" for b, a in sorted(self.others.items()) if a != b)
-        return "; ".join(filter(None, [f"drawing x ({factors})" if set(self.along) != {1} else "", exchanged]))
+        return "; ".join(filter(None, [f"drawing x ({factors})" if moved else "", exchanged]))
 
 
 def new_stretch(written: Mapping[str, Any], dimension: int, stream: Stream) -> Stretch:

@@ -81,7 +81,7 @@ Way = tuple[Aspect, dict[str, Any], str]
 
 def _ways(problem: Problem, key: Key, written: Mapping[str, Any]) -> Iterator[Way]:
     aspects = aspects_of(problem)
-    varying = problem.vary or Varying()
+    varying = problem.vary or Varying.model_validate({})
     if "supports" in aspects or "rolling" in aspects:
         yield from (way for way in _replaced(problem, key, written) if way[0] in aspects)
     if "constraints" in aspects:
