@@ -153,11 +153,12 @@ def grade(
     check_only: options.CheckOnly = False,
     certificates: options.CertificateFolder = None,
     reviewed: options.ReviewTable = None,
+    roster: options.RosterPath = None,
 ) -> None:
     """Grade submissions: a result for each, in the order given."""
     from dofkit.homework.runs.run import GradingOptions, run
 
-    chosen = GradingOptions(form, out, workers, scheduler, check_only, certificates, reviewed)
+    chosen = GradingOptions(form, out, workers, scheduler, check_only, certificates, reviewed, roster)
     with failures_of(assignment):
         clean = run(assignment, submissions, chosen)
     if not clean:

@@ -38,6 +38,7 @@ from dofkit.interface.cli import app
 MEMORY = 2 << 30
 ASSIGNMENT = """\
 title: Sheet 1
+visibility: visible
 problems:
 - id: pendulum
   scene: pendulum.yaml
@@ -91,12 +92,78 @@ def test_gradescope(sheet: Path, tmp_path: Path) -> None:
     found = written(root, "gradescope")
     assert found["score"] == 6.0
     assert found["extra_data"]["student"] == "ada@uni.example"
+    assert "ada@uni.example's, and names 'somebody else'" in found["extra_data"]["doubt"]
+    assert found["output"].startswith("This is not final, for it was handed in as ada@uni.example's")
     assert [(t["number"], t["score"], t["max_score"], t["status"]) for t in found["tests"]] == [
         ("1.1", 2.0, 2.0, "passed"),
         ("1.2", 4.0, 8.0, "failed"),
         ("2.1", 0.0, 0.5, "failed"),
     ]
     assert sorted(path.name for path in (root / "results").iterdir()) == ["results.json"]
+
+
+@pytest.mark.parametrize("student", ["Ada", "ada@UNI.example", "1", "Lovelace, Ada"])
+def test_gradescope_knows_its_user(student: str, sheet: Path, tmp_path: Path) -> None:
+    root = hand_in(tmp_path / "autograder" / "submission", anything__json=submission(student=student))
+    users = [{"email": "ada@uni.example", "name": "Ada Lovelace", "id": 1}]
+    (root / "submission_metadata.json").write_text(json.dumps({"users": users}))
+    assert grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY).doubt is None
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("answers.csv", "pendulum.f,disc.f\n1,4\n"),
+        ("x.csv", "disc.f;pendulum.f\n4;1\n"),
+        ("hw.yaml", "pendulum: {f: 1}\ndisc: {f: 4}\n"),
+        ("hw.yml", "pendulum.f: 1\ndisc.f: 4\n"),
+        ("folder/within/answers.json", '{"pendulum": {"f": 1}, "disc": {"f": 4}}'),
+    ],
+)
+def test_what_says_nothing_of_its_student_is_the_submitters(name: str, text: str, sheet: Path, tmp_path: Path) -> None:
+    path = tmp_path / "autograder" / "submission" / name
+    path.parent.mkdir(parents=True)
+    path.write_text(text)
+    for left in (".git/config.yaml", "__MACOSX/folder/._answers.json"):
+        other = tmp_path / "autograder" / "submission" / left
+        other.parent.mkdir(parents=True)
+        other.write_text("a: 1")
+    root = tmp_path / "autograder"
+    (root / "submission_metadata.json").write_text('{"users": [{"email": "ada@uni.example", "name": "Ada", "id": 1}]}')
+    found = grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY)
+    assert (found.student, found.score, found.doubt, found.error) == ("ada@uni.example", 2.5, None, None)
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [("", "after_due_date"), ("attempts: 2\n", "visible"), ("visibility: after_published\n", "after_published"),
+     ("attempts: 2\nvisibility: hidden\n", "hidden")],
+)  # fmt: skip
+def test_when_points_are_shown(line: str, expected: str, sheet: Path, tmp_path: Path) -> None:
+    sheet.write_text(line + ASSIGNMENT.replace("visibility: visible\n", ""))
+    given = {"pendulum": {"f": 1, "rod": "x_A + ("}}
+    root = hand_in(tmp_path / "root" / "submission", answers__json=json.dumps({"answers": given}))
+    grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY)
+    found = written(root, "gradescope")
+    judged = [test for test in found["tests"] if "number" in test]
+    read = [test for test in found["tests"] if "number" not in test]
+    assert {found["visibility"], *(test["visibility"] for test in judged)} == {expected}
+    if expected == "visible":
+        assert read == []
+        return
+    assert all(test["visibility"] == "visible" and not {"score", "status"} & set(test) for test in read)
+    outputs = {test["name"]: test["output"] for test in read}
+    assert outputs["pendulum.f: how it was read"] == "Read as: 1"
+    assert outputs["pendulum.rod: how it was read"].startswith("Could not be read (column ")
+    assert outputs["disc.f: how it was read"] == "There is no answer."
+    assert "point" not in found["output"].lower()
+
+
+@pytest.mark.parametrize("attempts", ["0", "1.5", "-3", "many"])
+def test_attempts_are_counted(attempts: str, sheet: Path) -> None:
+    sheet.write_text(f"attempts: {attempts}\n{ASSIGNMENT}")
+    with pytest.raises(AssignmentError, match=r"attempts|number"):
+        load_assignment(sheet)
 
 
 @pytest.mark.parametrize("sign", [".", "_", "-"])

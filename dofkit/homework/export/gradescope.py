@@ -14,7 +14,7 @@ from dofkit.homework.autograder import undecided
 from dofkit.homework.export.inline import exact_json, inlined
 from dofkit.homework.export.wheels import download, own_wheel, requirements
 from dofkit.homework.formats.documents import text
-from dofkit.homework.formats.gradescope import document
+from dofkit.homework.formats.gradescope import document, visibility_of
 
 #: The Python of Ubuntu 24.04, which Gradescope offers.
 PYTHON = "3.12"
@@ -39,7 +39,8 @@ def export_gradescope(
     prepared = load_assignment(assignment)
     files = {path.name: path.read_bytes() for path in sorted(SCRIPTS.iterdir()) if path.is_file()}
     files["assignment.json"] = f"{exact_json(inlined(assignment))}\n".encode()
-    files["fallback.json"] = text(document(undecided(prepared, "", "grading was cut short."))).encode()
+    cut_short = undecided(prepared, "", "grading was cut short.")
+    files["fallback.json"] = text(document(cut_short, visibility_of(prepared))).encode()
     files["pythons"] = "".join(f"{python}\n" for python in pythons).encode()
     with tempfile.TemporaryDirectory() as folder:
         notes = _wheels(Path(folder), pythons) if wheels else ["dofkit comes without wheels: it is installed by pip"]
