@@ -30,6 +30,7 @@ from dofkit.homework.judgement import needs_review
 from dofkit.homework.result import Item, Result
 from dofkit.homework.runs.batch import Orders
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.stand_ins import list_open
 
 #: A longer file of a platform is not read.
 MOST_BYTES = 8_000_000
@@ -44,7 +45,8 @@ class Site:
     """A platform: where things are, below ``root``, and what its result looks like.
 
     ``seconds``: after which a submission needs a review, within what the platform gives. ``excuses``: a result may say
-    that there is none, so that a grader that cannot work costs nobody points.
+    that there is none, so that a grader that cannot work costs nobody points. ``listed``: the table of answers that
+    count by a stand-in, where the platform takes nothing but a number.
     """
 
     root: Path
@@ -55,6 +57,7 @@ class Site:
     users: Callable[[Path], list[Participant]] = lambda root: []
     form: Callable[[Path, Prepared], Handed | None] = lambda root, prepared: None
     excuses: bool = True
+    listed: str | None = None
 
 
 def _gradescope_users(root: Path) -> list[Participant]:
@@ -95,7 +98,7 @@ SITES: dict[str, Site] = {
     ),
     "coursera": Site(
         Path("/shared"), "submission", "feedback.json", 120.0, lambda result, _: coursera.document(result),
-        excuses=False,
+        excuses=False, listed="open.csv",
     ),
 }  # fmt: skip
 
@@ -127,6 +130,8 @@ def grade_at(site: Site, assignment: Path, memory: int) -> Result:
     doubt = by_platform(users, result.student) if named else None
     result = result.model_copy(update={"student": student, "doubt": doubt})
     _write(site, result, prepared)
+    if site.listed is not None:
+        list_open(result.items, site.root / site.listed, "")
     return result
 
 

@@ -206,13 +206,13 @@ def export_gradescope(
 @export_app.command("otter")
 def export_otter(
     assignment: options.Assignment,
-    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where the test files go.")] = Path("tests"),
+    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where the notebook goes.")] = Path("otter"),
 ) -> None:
-    """Write otter-grader's test files for an assignment, and assignment.json beside their folder."""
-    from dofkit.homework import otter
+    """Write an assignment's master notebook for `otter assign`, and the two files that its tests read."""
+    from dofkit.homework import export
 
     with failures_of(assignment):
-        for path in otter.write_tests(assignment, out):
+        for path in export.export_otter(assignment, out):
             typer.echo(path)
 
 

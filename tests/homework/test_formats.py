@@ -175,7 +175,11 @@ def test_prairielearn_stays_below_a_megabyte(status: Status, prepared: Prepared)
         ((RIGHT, PARTLY), 0.6, "Points: 6 of 10."),
         ((RIGHT, OPEN), 0.6, "Provisional: 4 points stand in for answers worth 8 that could not be decided."),
         ((OPEN,), 0.4, "Provisional: "),
-        ((RIGHT, UNREADABLE), 0.2, "Points: 2 of 10."),
+        (
+            (RIGHT, UNREADABLE),
+            0.2,
+            "Answers worth 8 points could not be read. Write them in another way, and hand in again.",
+        ),
         ((), 0.0, "Points: 0 of 10."),
     ],
 )
