@@ -188,17 +188,21 @@ def export_gradescope(
     out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The zip to upload.")] = Path("autograder.zip"),
     python: Annotated[
         list[str] | None,
-        typer.Option("--python", metavar="VERSION", help="The Python there; may be given again. By default 3.12."),
+        typer.Option(
+            "--python", metavar="VERSION", help="A Python there; may be given again. By default 3.11 to 3.13."
+        ),
     ] = None,
     wheels: Annotated[
         bool, typer.Option(help="Put in dofkit and all it needs, so that no network is needed there.")
     ] = True,
+    reviewed: options.ReviewTable = None,
 ) -> None:
     """Write the autograder of an assignment for Gradescope, as one zip to upload."""
     from dofkit.homework import export
 
     with failures_of(assignment):
-        notes = export.export_gradescope(assignment, out, python or (export.PYTHON,), wheels=wheels)
+        pythons = python or export.PYTHONS
+        notes = export.export_gradescope(assignment, out, pythons, wheels=wheels, reviewed=reviewed)
     for note in notes:
         typer.echo(f"{out}: {note}", err=True)
 

@@ -10,6 +10,7 @@ import importlib
 import io
 import json
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -23,7 +24,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from dofkit.homework import notebooks, otter, stand_ins
+from dofkit.homework import export, notebooks, otter, stand_ins
 from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.autograder import SITES, grade_at, main, undecided
 from dofkit.homework.export import ExportError, OtterError, export_gradescope, export_otter, wheels
@@ -362,8 +363,8 @@ def test_the_zip(sheet: Path, tmp_path: Path) -> None:
 
 def test_wheels_that_cannot_be_had_are_no_failure(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "executable", "/bin/false")
-    (note,) = export_gradescope(sheet, tmp_path / "a.zip")
-    assert note.startswith("wheels for Python 3.12 could not be had")
+    notes = export_gradescope(sheet, tmp_path / "a.zip")
+    assert [note.split(" could")[0] for note in notes] == [f"wheels for Python {version}" for version in PYTHONS]
     with zipfile.ZipFile(tmp_path / "a.zip") as packed:
         assert [name for name in packed.namelist() if name.endswith(".whl")] == ["wheels/dofkit-0.1.0-py3-none-any.whl"]
 
@@ -646,3 +647,70 @@ def test_parts_of_questions() -> None:
     prepared = load_assignment({"title": "x", "problems": [{"id": "p", "scene": scene, "questions": asked}]})
     assert [otter.parts_of(question) for _, question in prepared.questions()] == [6, 2, 2]
     assert standing(undecided(prepared, "a", "b")).startswith("So far 0 of 3")
+
+
+PYTHONS = {version: shutil.which(f"python{version}") for version in export.PYTHONS}
+
+
+def runs(python: str | None) -> bool:
+    """Is there such a Python, and not a stand-in for one?"""
+    if python is None:
+        return False
+    return subprocess.run([python, "-c", ""], capture_output=True, check=False).returncode == 0
+
+
+@pytest.mark.sweep
+def test_the_zip_installs_on_every_python_without_a_network(sheet: Path, tmp_path: Path) -> None:
+    found = {version: python for version, python in PYTHONS.items() if python is not None and runs(python)}
+    if len(found) < 2:
+        pytest.skip("there are no other Pythons: python3.11, python3.12 and python3.13")
+    notes = export_gradescope(sheet, tmp_path / "a.zip", list(found))
+    if notes:
+        pytest.skip(f"pip finds no wheels here: {notes[0]}")
+    for version, python in found.items():
+        root = hand_in(tmp_path / version / "submission", answers__json=submission())
+        with zipfile.ZipFile(tmp_path / "a.zip") as packed:
+            packed.extractall(root / "source")
+        offline = {
+            **os.environ,
+            "DOFKIT_PYTHON": python,
+            "DOFKIT_AUTOGRADER": str(root),
+            "PIP_INDEX_URL": "file:///none",
+        }
+        offline.pop("PYTHONPATH", None)
+        for script in ("setup.sh", "run_autograder"):
+            done = subprocess.run(
+                ["bash", str(root / "source" / script)], cwd=root, env=offline, capture_output=True, text=True,
+                timeout=300, check=False,
+            )  # fmt: skip
+            assert done.returncode == 0, (version, done.stderr[-2000:])
+        assert written(root, "gradescope")["score"] == 6.0, version
+
+
+def test_what_a_person_decided_comes_back(sheet: Path, tmp_path: Path) -> None:
+    given = json.dumps({"answers": {"pendulum": {"f": "$$((", "rod": "x_A^2 + y_A^2 = 0.01"}, "disc": {"f": 4}}})
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "ada.json").write_text(given)
+    ran = CliRunner().invoke(app, ["grade", str(sheet), str(tmp_path / "in"), "--out", str(tmp_path / "out.jsonl")])
+    assert ran.exit_code == 0
+    table = tmp_path / "out.review.csv"
+    rows = list(csv.reader(io.StringIO(table.read_text(encoding="utf-8-sig"), newline="")))
+    place = rows[0].index("points")
+    rows[1][place] = "1.5"
+    with (sheet.parent / "review.csv").open("w", newline="") as stream:
+        csv.writer(stream).writerows(rows)
+    root = hand_in(tmp_path / "grade" / "student", answers__json=given)
+    assert main(["prairielearn", str(sheet), "--root", str(root)]) == 0
+    found = written(root, "prairielearn")
+    assert (found["gradable"], found["score"]) == (True, pytest.approx(10 / 10.5))
+    assert [test["points"] for test in found["tests"]] == [1.5, 8.0, 0.5]
+    archive = tmp_path / "a.zip"
+    export_gradescope(sheet, archive, wheels=False, reviewed=sheet.parent / "review.csv")
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(tmp_path / "source")
+    root = hand_in(tmp_path / "autograder" / "submission", answers__json=given)
+    assert main(["gradescope", str(tmp_path / "source" / "assignment.json"), "--root", str(root)]) == 0
+    assert written(root, "gradescope")["score"] == 10.0
+    (sheet.parent / "review.csv").write_text("no table")
+    assert main(["gradescope", str(sheet), "--root", str(root)]) == 2
+    assert "not your fault" in written(root, "gradescope")["output"]
