@@ -17,7 +17,7 @@ from dofkit.homework.answers.typed import in_whole, shown_text
 from dofkit.homework.assignment import Assignment, Prepared
 from dofkit.homework.formats.wording import line, plain, remark
 from dofkit.homework.grading import ANSWER_SECONDS
-from dofkit.homework.judgement import Given, Judgement, needs_review, unreadable
+from dofkit.homework.judgement import DoubtError, Given, Judgement, needs_review, unreadable
 from dofkit.homework.key.key import Key
 from dofkit.homework.notebooks import QuestionError
 from dofkit.homework.questions import QuestionBase
@@ -36,7 +36,8 @@ class Understood(NamedTuple):
 def reading_of(names: str | os.PathLike[str], problem: str, question: str, answer: object) -> Understood:
     """Whether an answer can be read; ``names``: the file that `names_only` made of an assignment.
 
-    Raises QuestionError for a question that is not asked.
+    One that reads in several ways, or by what only the whole scene says (a student's own coordinates), can be read, and
+    it is told what is open. Raises QuestionError for a question that is not asked.
     """
     path = Path(names)
     prepared = _prepared(str(path), path.stat().st_mtime_ns)
@@ -52,6 +53,8 @@ def reading_of(names: str | os.PathLike[str], problem: str, question: str, answe
     try:
         with by_processor(ANSWER_SECONDS):
             return Understood(True, f"{where} is read as: {plain(asked.read(given, key))}")
+    except DoubtError as error:
+        return Understood(True, f"{where} can be read; left open here: {plain(error.message)}")
     except TextError as error:
         return Understood(False, f"{where}: {_stopped(error, problem, asked, given, key)}")
 
