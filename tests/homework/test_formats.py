@@ -385,6 +385,16 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
     assert "p.rod 8 points The time was not enough. d Points" in shown
 
 
+def test_whose_it_is_stands_on_the_pages(prepared: Prepared, tmp_path: Path) -> None:
+    given = [result("ada", RIGHT), result("bob", RIGHT).model_copy(update={"doubt": f"it names {MARKUP}"})]
+    found = pages(prepared, tmp_path, given)
+    shown = " ".join(found["index.html"].shown.split())
+    assert f"Submissions of which a person has to say whose they are Student Why bob it names {MARKUP}" in shown
+    assert "1 submission by points" in shown
+    assert f"It is not certain whose this is. it names {MARKUP}" in " ".join(found["students/bob.html"].shown.split())
+    assert "whose" not in found["students/ada.html"].shown
+
+
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 FRAME = """<iframe id=f src="{page}" width={width} height=900></iframe><p id=o></p><script>
 onload = () => {{
