@@ -292,6 +292,10 @@ class System:
         return tuple(i for name in names for i, c in enumerate(self.constraints) if c.name == name)
 
 
+#: How an entry of what is left out begins that is a constraint: it would take freedom away.
+BINDING = "constraint "
+
+
 #: The fixed world, always there.
 GROUND = "ground"
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import pytest
-from checker.certified import faults
+from checker.certified import branch, faults, squares
 
 #: A scene, its claims, the parts of the certificate, and what is told of the last claim.
 False_ = tuple[Mapping[str, Any], list[dict[str, Any]], dict[str, Any], str]
@@ -77,7 +77,7 @@ DEPENDENCE: dict[str, False_] = {
         ],
         {
             "relations": [
-                {"id": "s", "by": "sos", "of": "c1", "terms": [["1", "x"], ["1", "y"]]},
+                *squares("s", "c1", [["1", "x"], ["1", "y"]]),
                 implied("i", "c1", c2="x", c3="y"),
                 implied("j", "c3", **{"s.2": "1"}),
             ],
@@ -97,8 +97,8 @@ PLACES: dict[str, False_] = {
         ],
         {
             "relations": [
-                {"id": "b", "by": "branch", "of": "c1", "factors": ["z", BALL], "chosen": 1},
-                {"id": "s", "by": "sos", "of": "b", "terms": [["1", f"{q} - 5"] for q in "xyz"]},
+                *branch("b", "c1", ["z", BALL], 1),
+                *squares("s", "b", [["1", f"{q} - 5"] for q in "xyz"]),
             ],
             "points": [
                 {"id": "O", "values": {"x": "0", "y": "0", "z": "0"}},
