@@ -10,7 +10,7 @@ from typing import Any
 from flint import fmpq_mat
 
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.fields import Told, admissible, independent, involutive, isolated, of_word, pinned, span
+from dofkit.checker.fields import Told, admissible, independent, involutive, isolated, of_word, span
 from dofkit.checker.trees import refuse
 from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
 
@@ -215,9 +215,8 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     follow from the rows, is no less in coordinates with the second angle (``beside``: another minor of these rows). Or
     relations of one coordinate each keep all three.
     """
-    minor = {**MOST, "isolated": pinned}[claim["rule"]](evidence, claim)
-    columns = {*minor.columns, *(claim["speeds"] if claim["rule"] == "isolated" else ())}
-    whole = sorted((*columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
+    minor = MOST[claim["rule"]](evidence, claim)
+    whole = sorted((*minor.columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
     refuse(not whole, "the columns of the minor are not all the other coordinates")
     other = evidence.minor(claim.get("beside", claim["minor"]))
     refuse(other.point is not minor.point or set(other.rows) != set(minor.rows), "another minor is of other rows")
@@ -226,7 +225,7 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     turned = [angles for angles in evidence.problem.turns if angles[1] not in other.columns or {*angles} <= still]
     if turned:
         evidence.accounts(minor, evidence.finite)
-    refuse(same_place(evidence, minor.point, verified, turned) != len(columns), "their number is not a verified dof")
+    refuse(same_place(evidence, minor.point, verified, turned) != len(minor.rows), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names_told(claim)
 

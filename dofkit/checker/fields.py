@@ -167,42 +167,19 @@ def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tr
     return minor.point.value_with(lefts[-1], rates)
 
 
-def _stationary(evidence: CheckedEvidence, given: Told) -> tuple[CheckedMinor, Tree, tuple[str, ...]]:
-    """A minor of finite relations of the scene, and another finite one, all analytic and without time."""
-    minor, name = evidence.minor(given["minor"]), given["zero"]
-    names = (*minor.rows, name)
-    trees = [evidence.relation(one).left for one in names]
-    unfit = evidence.moving or evidence.problem.functions or any("t" in symbols_in(tree) for tree in trees)
-    refuse(unfit or not set(names) <= set(evidence.finite), "finite relations of the scene are needed, without time")
-    evidence.on_set(minor.point, names)
-    return minor, trees[-1], names
-
-
 def isolated(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
     """A minor whose rows leave a dimension more than there is: another relation is not 0 on all that they leave.
 
     It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only.
     """
-    minor, zero, _ = _stationary(evidence, given)
+    minor, name = evidence.minor(given["minor"]), given["zero"]
+    unfit = evidence.moving or evidence.problem.functions or evidence.holds_time((*minor.rows, name))
+    refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "finite relations of the scene, without time")
+    evidence.on_set(minor.point, (*minor.rows, name))
     numbers = {q: evidence.text(text) for q, text in given["speeds"].items()}
     free = set(evidence.problem.coordinates) - set(minor.columns)
     refuse(not numbers.keys() <= free or any(map(symbols_in, numbers.values())), "numbers for free coordinates")
     balls = {q: minor.point.value(tree) for q, tree in numbers.items()}
-    value = along_curve(evidence, minor, balls, zero, given["order"])
+    value = along_curve(evidence, minor, balls, evidence.relation(name).left, given["order"])
     refuse(not excludes_zero(value), "the zero on the curve is not shown to be isolated")
-    return minor
-
-
-def pinned(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
-    """An `isolated` zero where the coordinates (``pins``) of fields rest, which keep all: the set is their orbit there.
-
-    Every point near it is moved to one where the pins rest; these are on a curve, with an isolated zero.
-    """
-    minor, (_, _, names), pins = isolated(evidence, given), _stationary(evidence, given), given["pins"]
-    fields = [field_named(evidence, name) for name in given["fields"]]
-    whole = len(given["speeds"]) == 1 and sorted((*minor.columns, *pins, *given["speeds"]))
-    apart = whole != sorted(evidence.problem.coordinates)
-    refuse(apart or any("t" in field for field in fields), "columns, pins and one more are the coordinates")
-    tangent(evidence, fields, names)
-    independent(evidence, fields, pins, minor.point)
     return minor

@@ -277,7 +277,8 @@ def refuted(evidence: CheckedEvidence, given: Told, verified: Told, names: Seque
     sided = {name: evidence.squares(terms) for name, terms in given.get("inequality", {}).items()}
     factors = {name: evidence.text(text) for name, text in given.get("c", {}).items()}
     together = names is None and given["path"] == "/feasible"
-    refuse(len(sided) + bool(factors) > 1 and sided and not together, "an inequality is refuted by itself")
+    several = len(sided) + bool(factors) > 1 and sided
+    refuse((several and not together) or {*sided} & {*factors}, "an inequality is refuted by itself")
     strict = [s for name, s in sided.items() if together and evidence.relation(name).strict]
     positive = evidence.is_nowhere_zero(total[0], True)
     positive |= total[0] == ZERO and any(evidence.is_nowhere_zero(s, True) for s in strict)

@@ -15,8 +15,7 @@ from flint import arb
 
 from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.grammar import KnownNames, parse
-from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import CheckedRelation
+from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
 from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, put_in, symbols_in
@@ -31,7 +30,7 @@ _PLAIN = frozenset(("symbol", "sum", "product", "sin", "cos", "exp", "apply"))
 class CheckedTexts:
     """The texts that a certificate may write about a problem, their signs, and where they have a value."""
 
-    def __init__(self, problem: Problem, effort: Effort) -> None:
+    def __init__(self, problem: CheckedProblem, effort: Effort) -> None:
         self.problem, self.effort = problem, effort
         count = 2 * len(problem.coordinates) + len(problem.parameters) + len(problem.generic)
         self.ring = CheckedRing(effort, min(count, MOST_SYMBOLS))
@@ -128,7 +127,7 @@ def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
 class CheckedRelations(CheckedTexts):
     """The relations of the scene and of the steps, each step looked at once."""
 
-    def __init__(self, problem: Problem, parts: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
+    def __init__(self, problem: CheckedProblem, parts: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
         super().__init__(problem, effort)
         self.parts = parts
         self.known = {one.name: one for one in problem.relations}

@@ -126,11 +126,9 @@ path                                    rule           fields
 /integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of
                                                        the texts of the basis, in order; /dof verified before at the
                                                        same point. Nothing more where the basis is null
-/generalized_coordinates                minor,         as above, minor: rows finite or integrals; the columns (and
-                                        frobenius,     the only one of speeds) are all the other coordinates; /dof
-                                        isolated       verified before, at the same point. isolated: fields [id] and
-                                                       pins [coordinate] besides: the fields are tangent to rows and
-                                                       zero, the pins, which are the value, a minor of them
+/generalized_coordinates                minor,         as above, minor: rows finite or integrals; the columns are
+                                        frobenius      all the other coordinates; /dof verified before, at the same
+                                                       point
 /growth_vector                          span           spans: for each entry {"words", "columns"}; at, fields, rows,
                                                        minor (regular: all rows). Upper bounds: their number, and /dof
                                                        verified before, at the same point
@@ -206,7 +204,7 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/redundant", "cofactors", numbers.redundant),
     ("independent", "independent", numbers.independence),
     ("/integrable_part", "integrals", labels.integrable_part),
-    ("/generalized_coordinates", "minor, frobenius, isolated", numbers.generalized_coordinates),
+    ("/generalized_coordinates", "minor, frobenius", numbers.generalized_coordinates),
     ("/growth_vector", "span", numbers.growth),
     ("circuit", "cofactors", numbers.circuit),
     ("holonomic, holonomic_alone", "finite", labels.finite),

@@ -108,12 +108,16 @@ PLACES: dict[str, False_] = {
         "dof was verified at another point",
     ),
 }
-ACROSS = {"rule": "crossing", "minor": minor("", ""), "zero": "c1", "speeds": [{"x": "1"}, {"y": "1"}]}
+ACROSS = {"rule": "isolated", "minor": minor("", ""), "zero": "c1", "speeds": {"x": "1"}, "order": 2}
 NAMES: dict[str, False_] = {
     # at xdotdot = -1 it says -x^2 - y^2 = 0
     "a coordinate with the name of a second derivative": (
         {"coordinates": ["x", "y", "xdotdot"], "constraints": ["x^2*(1 + 2*xdotdot) = y^2"]},
-        [claim("/dof", 2, "squeeze", about="component", most=ACROSS, least=ACROSS)],
+        [
+            claim(
+                "/dof", 2, "squeeze", about="component", most=ACROSS, least={"rule": "regular", "minor": minor("", "")}
+            )
+        ],
         {"points": [{"id": "P", "values": {"x": "0", "y": "0", "xdotdot": "-1"}}]},
         "has the name of a derivative",
     ),
