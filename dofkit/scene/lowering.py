@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 
 from dofkit.base.errors import SceneError
 from dofkit.base.wording import verb
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import Expr, call, parameter
+from dofkit.expressions.tree import Expr, parameter
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.reference import pose_of, reference_of, undrawn
@@ -98,8 +99,8 @@ def _level(drawing: Drawing, touched: frozenset[str]) -> list[str]:
     found = []
     for frame in drawing.frames.values():
         if frame.chart == "euler" and not touched.isdisjoint(frame.angles):
-            tilt = approximate(call("sin", [frame.initial[1]]))
-            if tilt is None or abs(tilt) < SINGULAR:
+            tilt = approximate(frame.initial[1])
+            if tilt is None or abs(math.sin(tilt)) < SINGULAR:
                 found.append(frame.name)
     return found
 
