@@ -183,6 +183,11 @@ ReviewTable = Annotated[
 ]
 CheckOnly = Annotated[bool, typer.Option("--check-only", help="Tell how every answer is read, and grade none.")]
 
+RosterPath = Annotated[
+    Path | None,
+    typer.Option("--roster", metavar="TABLE.csv", help="Who is in the course: names, addresses, ids."),
+]
+
 # of `chart`
 
 Questions = Annotated[

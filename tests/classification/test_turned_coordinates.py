@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from shared.known_scenes import ROOT
 
 import dofkit
 
@@ -33,7 +34,7 @@ def test_a_door_on_a_slanted_hinge_has_one_coordinate() -> None:
 
 
 def test_bodies_that_turn_together_have_their_own_angles() -> None:
-    report = dofkit.classify("car-differential")
+    report = dofkit.classify(ROOT / "tests/scenes/textbook/car-differential.yaml")
     assert report.generalized_coordinates == ["theta_ring", "theta_left"]
 
 

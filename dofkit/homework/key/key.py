@@ -28,8 +28,6 @@ MOST_EXTENDED = 256
 #: Names of constraints, the equations beside them, and their constants.
 ComparedTexts = tuple[tuple[str, ...], tuple[str, ...], frozenset[str]]
 Convention = Literal["configuration", "velocity"]
-#: Seconds for what dofkit says of an assignment's scene.
-SCENE_SECONDS = 60.0
 
 
 @dataclass(frozen=True)
