@@ -76,6 +76,11 @@ FailOn = Annotated[
     list[str] | None,
     typer.Option("--fail-on", metavar="WHAT,...", help=f"Exit status 1 where a scene is {', '.join(FAILURES)}."),
 ]
+Limits = Annotated[bool, typer.Option("--limits", help="Of models: ranges of joints as inequalities.")]
+ModelPath = Annotated[str, typer.Argument(metavar="FILE", help="MJCF, URDF, or a SolveSpace sketch.")]
+ScenePath = Annotated[
+    Path | None, typer.Option("--out", metavar="SCENE.yaml", help="Where to write; else it is printed.")
+]
 Watch = Annotated[bool, typer.Option("--watch", help="Again whenever a file changes, until Ctrl-C.")]
 
 
@@ -177,6 +182,11 @@ ReviewTable = Annotated[
     typer.Option("--reviewed", metavar="CSV", help="A review.csv with points that a person filled in."),
 ]
 CheckOnly = Annotated[bool, typer.Option("--check-only", help="Tell how every answer is read, and grade none.")]
+
+RosterPath = Annotated[
+    Path | None,
+    typer.Option("--roster", metavar="TABLE.csv", help="Who is in the course: names, addresses, ids."),
+]
 
 # of `chart`
 
