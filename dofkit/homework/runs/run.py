@@ -104,12 +104,8 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     review = RunReview.read(prepared, options.reviewed, options.review)
     prepared = review.applied(prepared)
     orders = Orders.of(prepared, options.check_only)
-<<<<<<< HEAD
     tables = [path for path in (options.reviewed, options.roster) if path is not None]
     others: list[str | Path] = [assignment, *options.written, *tables]
-=======
-    others: list[str | Path] = [assignment, *options.written, *([] if options.reviewed is None else [options.reviewed])]
->>>>>>> main
     stream = hand_ins(sources, prepared.columns(), others)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
         one = _Run(form, prepared, orders, crew, seen, roster)
