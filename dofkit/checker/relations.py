@@ -181,8 +181,8 @@ class CheckedRelations(CheckedTexts):
         refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
         needs, target = () if self.is_nowhere_zero(h) else (h,), step["id" if new else "of"]
         defined = (h, *cofactors, left) if new or given else (h, *cofactors)
-        sources = *step["c"], *(name for name, _ in given)
-        return {target: left} if new else {}, [Consequence(target, sources, needs, defined)]
+        used = *step["c"], *(name for name, _ in given)
+        return {target: left} if new else {}, [Consequence(target, used, needs, defined)]
 
     def _rate(self, step: dict[str, Any]) -> Made:
         """What is constantly 0, or keeps its value, has the derivative 0."""

@@ -165,6 +165,7 @@ path                                    rule           fields
                                                        it has equations. last: of the last one, /dof before
 ======================================= ============== ==========================================================
 
+Euler angles are read at a point only where the sine of the second is not 0: else they are no chart of the poses.
 Local claims (holonomic, circuit, independent, ...) are made at the scene's configuration (with t = 0), where one is
 given that meets the relations; else at any point. Claims are verified in their order.
 """
@@ -244,12 +245,12 @@ def verify(scene: Mapping[str, Any] | str | None, certificate: Mapping[str, Any]
 
 def certificate_of(given: Any) -> dict[str, Any]:
     """A certificate from its text or mapping: of the right form, and not too large."""
-    if isinstance(given, (str, bytes)):
-        refuse(len(given) > LARGEST_TEXT, "the certificate is too long")
-        try:
-            given = json.loads(given)
-        except (ValueError, RecursionError) as error:
-            raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
+    told_in_text = isinstance(given, (str, bytes))
+    refuse(told_in_text and len(given) > LARGEST_TEXT, "the certificate is too long")
+    try:
+        given = json.loads(given if told_in_text else json.dumps(given))
+    except (TypeError, ValueError, RecursionError) as error:
+        raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
     form = isinstance(given, Mapping) and isinstance(given.get("scene"), Mapping) and given.get("certificate")
     refuse(type(form) is not int or form != 1, "a certificate is an object of version 1, with a scene")
     found: dict[str, Any] = {**{name: [] for name in LISTS}, **given}

@@ -54,7 +54,8 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return None
     if a.dof == 0:
         return []
-    turning = [r for r in rotations if r.chart == "gibbs" and set(r.names) & set(block.coordinates)]
+    own = frozenset(block.coordinates)
+    turning = [r for r in rotations if r.chart == "gibbs" and not own.isdisjoint(r.names)]
     dependent = set(a.dependent)
     direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
@@ -140,7 +141,10 @@ def _nearby(
         tangent = _tangent(chart, symbols, turning, setting, dof)
         if tangent.shape[0] == dof:
             chosen = None if drawn is None else _regular_columns(chart, tangent, drawn, turning)
-            return _columns(chart, tangent) if chosen is None else chosen
+            chosen = _columns(chart, tangent) if chosen is None else chosen
+            if len(chosen) == dof:
+                return chosen
+            continue
         regular = len(chart.nodes) == len(block.coordinates) - dof
         secants = None if regular or tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
         if secants is not None:

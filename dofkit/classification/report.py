@@ -142,7 +142,8 @@ def witness(study: Study) -> dict[str, str] | None:
         return None
     found = {str(s.args[1]): text for a in outcome.answers for s, text in (a.witness or {}).items()}
     names = [c.name for c in study.system.coordinates]
-    others = {name: text for name, text in found.items() if name not in names}
+    own = frozenset(names)
+    others = {name: text for name, text in found.items() if name not in own}
     return {name: found.get(name, "0") for name in names} | others
 
 

@@ -68,7 +68,7 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         found.consistent, found.dimension, found.dimension, found.verdict, found.about, found.argument, gap=found.gap
     )
     result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
-    result.witness = of_real_point(chart, found.real)
+    result.witness = found.witness or of_real_point(chart, found.real)
     if found.argument in ("cases", "regular point"):
         result.real = _real_rows(chart, found.real)
     result.reasons = list(found.reasons)

@@ -16,11 +16,12 @@ from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.key.own_coordinates import faults_of_own
-from dofkit.homework.problem import Problem, faults_of_names, weighted
+from dofkit.homework.problem import Problem, Variants, faults_of_names, weighted
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.review.rows import Decisions
 from dofkit.homework.sentences.said import Language
 from dofkit.homework.statement import faults_of_places
+from dofkit.homework.variants.structure import Structure, structures
 from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
 from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
@@ -74,6 +75,7 @@ class Assignment(WrittenModel):
         "`hidden`; by default `after_due_date` where attempts are unlimited",
     )
     problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
+    variants: Variants | None = Field(None, description="written by `dofkit assignment vary`: a sheet for each student")
 
     @property
     def shown(self) -> Visibility:
@@ -85,13 +87,16 @@ class Assignment(WrittenModel):
 class Prepared:
     """An assignment with its scenes: everything that grading needs. ``keys`` by problem; ``base``: its folder.
 
-    ``decisions``: what a person decided of answers, which goes before all that dofkit finds.
+    ``decisions``: what a person decided of answers, which goes before all that dofkit finds. ``structures``: of a sheet
+    with variants what each problem's may be; ``marks``: of one student's sheet what tells each problem from others'.
     """
 
     assignment: Assignment
     keys: Mapping[str, Key]
     base: Path = Path()
     decisions: Decisions = field(default_factory=dict)
+    structures: Mapping[str, Sequence[Structure]] = field(default_factory=dict)
+    marks: Mapping[str, str] = field(default_factory=dict)
 
     def questions(self) -> Iterator[tuple[Problem, QuestionBase]]:
         """Every question with its problem, in order."""
@@ -163,7 +168,13 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
         faults += _scene_faults(i, problem, key)
     if faults:
         raise _error(tuple(faults), document)
-    return Prepared(assignment, keys, base)
+    return Prepared(assignment, keys, base, structures=_structures(assignment, keys))
+
+
+def _structures(assignment: Assignment, keys: Mapping[str, Key]) -> dict[str, list[Structure]]:
+    if assignment.variants is None:
+        return {}
+    return {problem.id: structures(problem, keys[problem.id]) for problem in assignment.problems}
 
 
 def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:

@@ -19,7 +19,7 @@ from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.answers.typed import in_whole, shown_text
-from dofkit.homework.assignment import Prepared, Problem, load_assignment
+from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.judgement import (
     FULL,
     NOTHING,
@@ -32,6 +32,8 @@ from dofkit.homework.judgement import (
     unreadable,
 )
 from dofkit.homework.key.key import Key
+from dofkit.homework.own_sheets import NobodysSheetError, own
+from dofkit.homework.problem import Problem
 from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.repairs import nearest_reading, parts_read
 from dofkit.homework.result import Item, PossibleReading, Result
@@ -78,11 +80,22 @@ class Grader:
         """The same, telling of every answer that takes work that it comes next."""
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
+        try:
+            own_one = self._of(submission.student)
+        except NobodysSheetError as error:
+            return self.refused(submission.student, str(error))
+        if own_one is not self:
+            return (yield from own_one.steps(submission))
         items: list[Item] = []
         for problem in self.prepared.assignment.problems:
             items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
         items += unasked(self.prepared, submission)
         return self._total(submission.student, items)
+
+    def _of(self, student: str) -> Grader:
+        """The grader of the student's own sheet, where everyone has another. Raises NobodysSheetError."""
+        sheet = own(self.prepared, student)
+        return self if sheet is self.prepared else Grader(sheet, self.seconds, self.condemned)
 
     def refused(self, student: str, error: str) -> Result:
         """The result of a submission that cannot be graded."""
@@ -109,7 +122,7 @@ class Grader:
                 if (number := _number(question, answer)) is not None:
                     earlier.setdefault(question.kind(), number)
                 continue
-            spot = _spot(problem, question, answer, earlier)
+            spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get(problem.id, "")
             if spot not in self._known and spot not in self.condemned:
                 yield spot
             found, number = self.judge(spot, problem, question, answer, earlier)
@@ -122,7 +135,8 @@ class Grader:
         """What a person decided of this answer, whoever gave it."""
         if not self.prepared.decisions:
             return None
-        return self.prepared.decisions.get(answer_id(problem.id, question.id, shown_text(answer)))
+        variant = self.prepared.marks.get(problem.id, "")
+        return self.prepared.decisions.get(answer_id(problem.id, question.id, shown_text(answer), variant))
 
     def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
         """An answer with the points that a person gave it."""
@@ -196,6 +210,7 @@ class Grader:
             column=found.column,
             answer=None if answer is None else shown_text(answer),
             would_read=found.ways[0].read_as if found.status == "unreadable" and len(found.ways) == 1 else None,
+            variant=self.prepared.marks.get(problem.id),
             readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in found.ways],
         )
 

@@ -26,6 +26,7 @@ class Item(ToldModel):
     2 000 characters of it, and ``read_as`` the answer as it was understood. ``column`` is where an unreadable answer
     could not be read further, from 1, and ``would_read`` what would be read, where that is known. ``readings``: the
     ways to read an open answer, and what each would earn. ``decided_by``: the person who gave the points.
+    ``variant``: of the problem, where every student has another: its structure and a mark.
     """
 
     problem: str
@@ -41,6 +42,7 @@ class Item(ToldModel):
     would_read: str | None = None
     readings: list[PossibleReading] = Field(default_factory=list)
     decided_by: str | None = None
+    variant: str | None = None
 
 
 class Result(Displayed, ToldModel):

@@ -51,7 +51,7 @@ IRREGULAR = (
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block, and how large the model was."""
     found = _engines(block, setting)
-    level = None if found.dof is None else level_angle(block, setting)
+    level = None if found.dof is None or setting.reference is not None else level_angle(block, setting)
     if level is not None:
         reasons = [*found.reasons, LEVEL.format(level)]
         found = replace(found, dof=None, velocity_dof=None, growth=None, verdict="undecided", reasons=reasons)

@@ -27,8 +27,8 @@ class Format:
 
     ``write`` keeps no more than one result in memory where the format allows it, and raises FormatError for what the
     format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do. ``folder``:
-    does it write a folder at this path, not one file? ``write_known``: the same of a gradebook, which has rows for
-    those in a roster only.
+    does it write a folder at this path, not one file? ``write_known``: the same with a roster: a gradebook has
+    rows for those in it only, and pages tell of each class.
     """
 
     name: str

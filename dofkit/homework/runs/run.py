@@ -104,8 +104,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     review = RunReview.read(prepared, options.reviewed, options.review)
     prepared = review.applied(prepared)
     orders = Orders.of(prepared, options.check_only)
-    tables = [path for path in (options.reviewed, options.roster) if path is not None]
-    others: list[str | Path] = [assignment, *options.written, *tables]
+    others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
         one = _Run(form, prepared, orders, crew, seen, roster)
@@ -113,8 +112,6 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
             one.to_stdout(stream)
         else:
             one.to_path(stream, options.out, options.native, review)
-    if one.doubted:
-        print(f"a person has to say whose {one.doubted} of the submissions are: see 'doubt'", file=sys.stderr)
     if options.certificates is not None:
         write_certificates(prepared, options.certificates)
     return one.failed == 0
@@ -135,7 +132,7 @@ def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
 
 @dataclass
 class _Run:
-    """One run; ``failed`` counts the submissions that could not be graded, ``doubted`` those that may be another's."""
+    """One run; ``failed`` counts the submissions that could not be graded."""
 
     form: Format
     prepared: Prepared
@@ -144,7 +141,6 @@ class _Run:
     seen: HandedIn
     roster: Roster | None = None
     failed: int = 0
-    doubted: int = 0
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
         """Print results as they come."""
@@ -180,7 +176,6 @@ class _Run:
             graded = rostered(self.roster, in_order(self.crew, stream))
             for one, lines in without_repeats(self.orders, graded, self.seen):
                 self.failed += sum(line.failed for line in lines)
-                self.doubted += sum(line.doubted for line in lines)
                 yield one, lines
                 bar.update(task, advance=len(lines))
 

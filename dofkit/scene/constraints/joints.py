@@ -22,6 +22,7 @@ from dofkit.scene.fields import Text, Vector
 from dofkit.scene.frames import Frame, between, relative
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
 from dofkit.scene.world import Direction, World
 from dofkit.system import Kinematics, Relation, VelocityRow
 
@@ -45,6 +46,7 @@ class Joint(ConstraintBase):
 
     between: tuple[str, str] = Field(description="the two bodies; one may be ground")
 
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("at",), directions=("axis", "axes"))
     #: What a coupling may mention of it.
     measures: ClassVar[Mapping[str, Measure]] = {}
 
@@ -109,6 +111,17 @@ class Driven(Axial):
     """A joint whose angle or displacement may be prescribed."""
 
     drive: Text | None = Field(None, description="the prescribed angle or displacement from the reference, in t")
+
+    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
+        """Driven at a steady rate, or free where it is driven."""
+        written = self.written()
+        if self.drive is not None:
+            free = {key: value for key, value in written.items() if key != "drive"}
+            yield Replacement("supports", free, {}, "it is not driven")
+            return
+        rate = names.fresh("omega")
+        told = f"it is driven by {rate} t"
+        yield Replacement("supports", {**written, "drive": f"{rate}*t"}, {rate: "positive"}, told)
 
     def driven(self, world: World) -> Iterator[Expr]:
         """The law of the drive, if there is one."""
