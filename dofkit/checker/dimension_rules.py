@@ -200,19 +200,32 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
-def same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
-    """n less the dof that was verified near the point."""
-    refuse(verified.get("/dof at") not in (None, evidence.is_about("here", point)), "dof was verified at another point")
+def same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, beside: Any = ()) -> int:
+    """n less the dof that was verified near the point; of angles ``beside`` it is told beside the point."""
+    place = evidence.is_about("here", point, beside)
+    refuse(verified.get("/dof at") not in (None, place), "dof was verified at another point")
     return len(evidence.problem.coordinates) - int(verified["/dof"])
 
 
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
-    """All other coordinates are functions of these near the point, whose number is dof there."""
+    """All other coordinates are functions of these near the point, whose number is dof there.
+
+    Where angles are no chart of poses at the point, they are beside it: what is left over by all relations, which
+    follow from the rows, is no less in coordinates with the second angle (``beside``: another minor of these rows). Or
+    relations of one coordinate each keep all three.
+    """
     minor = MOST[claim["rule"]](evidence, claim)
     columns = {*minor.columns, *([claim["free"]] if claim["rule"] == "isolated" else [])}
     whole = sorted((*columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
     refuse(not whole, "the columns of the minor are not all the other coordinates")
-    refuse(same_place(evidence, minor.point, verified) != len(columns), "their number is not a verified dof")
+    other = evidence.minor(claim.get("beside", claim["minor"]))
+    refuse(other.point is not minor.point or set(other.rows) != set(minor.rows), "another minor is of other rows")
+    held = (symbols_in(evidence.relation(name).left) for name in evidence.finite)
+    still = {q for names in held for q in names if names <= {q}}
+    turned = [angles for angles in evidence.problem.turns if angles[1] not in other.columns or {*angles} <= still]
+    if turned:
+        evidence.accounts(minor, evidence.finite)
+    refuse(same_place(evidence, minor.point, verified, turned) != len(columns), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names_told(claim)
 

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable
 from typing import Any, NamedTuple
 
 from dofkit.checker.relations import CheckedRelations, total_derivative
-from dofkit.checker.trees import ONE, ZERO, Tree, refuse, symbol
+from dofkit.checker.trees import ONE, ZERO, Tree, call, refuse, symbol
 from dofkit.checker.values import CheckedPoint, derivative, evaluated, excludes_zero, linear_in, substituted, symbols_in
 
 LARGEST_MINOR = 250
@@ -138,14 +138,18 @@ class CheckedEvidence(CheckedRelations):
         """A tree at the scene's configuration, parameters and functions left open."""
         return substituted(tree, {**self.problem.reference, "t": ZERO, "tdot": ONE})
 
-    def is_about(self, about: Any, point: CheckedPoint) -> Any:
+    def is_about(self, about: Any, point: CheckedPoint, beside: Collection[tuple[str, ...]] = ()) -> Any:
         """The point's name, or ``reference``; `CheckError` unless it is one of those that a claim is about.
 
         ``reference``: the scene's configuration, which meets the relations for all values that a point chooses;
         ``component``: any point, where no configuration is given; ``here``: whichever of both is so.
+        Angles have to be a chart of poses there, but for those ``beside``.
         """
         fits = about in ("here", "reference" if self.problem.reference else "component")
         refuse(not fits, "the claim has to be about the scene's configuration, if it has one")
+        for tilt in (angles[1] for angles in self.problem.turns if angles not in beside):
+            upright = tilt in point.balls and not excludes_zero(point.value(call("sin", symbol(tilt))))
+            refuse(upright, f"the angles are no chart of the poses around, as sin({tilt}) may be 0")
         if not self.problem.reference:
             return point.name
         for name, tree in {**self.problem.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():

@@ -150,8 +150,10 @@ def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tr
     refuse(type(order) is not int or not 1 <= order <= HIGHEST_ORDER, "the order of a derivative is small")
     lefts, moved = [*(evidence.relation(row).left for row in minor.rows), tree], [*minor.columns, *speeds]
     names, rates = list(moved), dict[str, Any]()
-    taken = evidence.chosen.intersection(q + "dot" * k for q in moved for k in range(1, order + 1))
-    refuse(taken, "a parameter has the name of a derivative")
+    taken = {q + "dot" * k for q in moved for k in range(1, order + 1)}.intersection(
+        (*evidence.chosen, *evidence.variables)
+    )
+    refuse(taken, "a parameter or coordinate has the name of a derivative")
     with ctx.workprec(PRECISION):
         slopes = [[minor.point.value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
         for k in range(1, order + 1):

@@ -12,26 +12,22 @@ STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of
 =========== =============================================== ==================================================
 by          fields                                          meaning (identities in the ring of `ring.py`)
 =========== =============================================== ==================================================
-branch      of, factors [TEXT], chosen (place), power,      of = product of factors, that of place ``chosen`` to the
-            positive [{"plus": TEXT, "sos": [[c, a]]}]      ``power`` (1 where left out); id is that factor. Needs the
-                                                            other factors not 0, but for those that are a positive
-                                                            number ``plus`` squares, with coefficients c > 0
-sos         of, terms [[c, a]]                              of = sum c a^2 or its negative, all c > 0; ids ``id.1``,
-                                                            ``id.2``, ... are the a, which have a value everywhere
-implied     of (or function), h, c {ID: TEXT}, put          h * of = sum c[i] * i: ``of`` follows from the i; so does
-            [[ID, coordinate]]                              ``function``, as a relation of its own. Needs h not 0, the
-                                                            c defined. The c of a velocity relation may hold
-                                                            velocities. Where finite relations ``put`` give a coordinate
+implied     of (or function), c {ID: TEXT}, h, power (k),   h * of^k + squares = sum c[i] * i: ``of`` follows from the
+            sos [[c, a]], put [[ID, coordinate]]            i; so does ``function``, as a relation of its own. Needs h
+                                                            not 0, the c defined. The c of a velocity relation may hold
+                                                            velocities. Squares c * a^2, all c > 0, of an a with a value
+                                                            everywhere: k is even, and h a product that is positive by
+                                                            itself. Where finite relations ``put`` give a coordinate
                                                             (with a factor not 0 by itself), the sides are compared
                                                             after it is put in, one after the other: ``of`` follows from
                                                             these as well
-rate        of (finite, or an integral)                                     its time derivative, with qdot and tdot
-integral    function (f), h, c {ID: TEXT}, put              h * (df/dt) = sum c[i] * i: f keeps its value. Needs
+rate        of (finite, or an integral)                     its time derivative, with qdot and tdot
+integral    function (f), and the others                    h * (df/dt) = sum c[i] * i: f keeps its value. Needs
                                                             h not 0, the c defined. A finite relation of the leaf
 =========== =============================================== ==================================================
 
-``h`` is 1 where left out. Not 0 by itself is a product of powers of numbers and of parameters declared nonzero or
-positive. All texts of a step need a value at the point, as they are written.
+``h`` and ``k`` are 1 where left out. Not 0 by itself is a product of powers of numbers and of parameters declared
+nonzero or positive. All texts of a step need a value at the point, as they are written.
 
 POINTS ``{"id", "values": {symbol: TEXT}, "functions": {h: {"arguments": [s], "text": TEXT}}}``: coordinates, ``t``,
 parameters, generic lengths, velocities ``qdot`` (``tdot`` is 1), each a TEXT of numbers and of parameters given before
@@ -64,7 +60,7 @@ frobenius   minor, fields [id], columns [coordinate       most n - rows of dof: 
             or t] (a minor of the fields)                 fields (all that are missing: n, or n + 1 where t or tdot
                                                           occurs in the rows, less rows), is involutive
 regular     minor                                         least n - rows: all relations are rows or follow from rows
-                                                          by steps (implied, branch, sos, factor, square)
+                                                          by steps
 span        at, fields [id], rows [ID], words [WORD],     least the words (less 1 where a field moves t): fields
             columns [coordinate or t]                     tangent to rows identically, rows account for all
                                                           relations, all at the point; the words' columns are
@@ -169,6 +165,7 @@ path                                    rule           fields
                                                        it has equations. last: of the last one, /dof before
 ======================================= ============== ==========================================================
 
+Euler angles are read at a point only where the sine of the second is not 0: else they are no chart of the poses.
 Local claims (holonomic, circuit, independent, ...) are made at the scene's configuration (with t = 0), where one is
 given that meets the relations; else at any point. Claims are verified in their order.
 """
@@ -248,12 +245,12 @@ def verify(scene: Mapping[str, Any] | str | None, certificate: Mapping[str, Any]
 
 def certificate_of(given: Any) -> dict[str, Any]:
     """A certificate from its text or mapping: of the right form, and not too large."""
-    if isinstance(given, (str, bytes)):
-        refuse(len(given) > LARGEST_TEXT, "the certificate is too long")
-        try:
-            given = json.loads(given)
-        except (ValueError, RecursionError) as error:
-            raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
+    told_in_text = isinstance(given, (str, bytes))
+    refuse(told_in_text and len(given) > LARGEST_TEXT, "the certificate is too long")
+    try:
+        given = json.loads(given if told_in_text else json.dumps(given))
+    except (TypeError, ValueError, RecursionError) as error:
+        raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
     form = isinstance(given, Mapping) and isinstance(given.get("scene"), Mapping) and given.get("certificate")
     refuse(type(form) is not int or form != 1, "a certificate is an object of version 1, with a scene")
     found: dict[str, Any] = {**{name: [] for name in LISTS}, **given}

@@ -15,6 +15,7 @@ from dofkit.classification.claims import claims
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.told import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.singular_angles import without_singular_angles
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
@@ -174,7 +175,7 @@ def report_of(study: Study, passes: Iterable[Pass] = PASSES) -> Report:
     told: dict[str, Any] = {}
     for row in passes:
         told.update(row.fill(study, told))
-    return _report(agreed(told))
+    return _report(agreed(without_singular_angles(study, told)))
 
 
 def _report(told: Values) -> Report:
@@ -216,7 +217,7 @@ def examined(
     passes: Iterable[Pass] = PASSES,
 ) -> Examined:
     """All that some engines find of a system in so many seconds, with some ``reductions``. Raises OutOfTimeError."""
-    with limited(seconds), precise_for(system.numbers):
+    with limited(seconds), precise_for(system.longest):
         with part(SOLVING):
             found = study(system, engines, reductions)
         return Examined(found, report_of(found, passes))
@@ -224,6 +225,6 @@ def examined(
 
 def studied(system: System, budget: float | None = None) -> Examined:
     """The generic answer for a system. Raises OutOfTimeError where there was no time for it."""
-    with limited(DEFAULT_SECONDS if budget is None else budget), precise_for(system.numbers):
+    with limited(DEFAULT_SECONDS if budget is None else budget), precise_for(system.longest):
         found = study(system)
         return Examined(found, report_of(found, GENERIC))

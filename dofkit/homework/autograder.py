@@ -3,6 +3,9 @@
 A result is always written, first of all one in which every answer is open: it stands where the grading is cut short.
 What a student wrote says nothing of who the student is: that is the platform's to say, where it does. Where a
 submission names another ``student`` than its user a person has to look at it, and the result says so.
+
+What a person decided comes back: a ``review.csv`` beside the assignment's file, or the one that ``--reviewed`` names,
+is applied to all who give those answers. So it is put there, and the submissions are graded again.
 """
 
 from __future__ import annotations
@@ -30,6 +33,8 @@ from dofkit.homework.judgement import needs_review
 from dofkit.homework.result import Item, Result
 from dofkit.homework.runs.batch import Orders
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.review_files import TABLE, RunReview
+from dofkit.homework.stand_ins import list_open
 
 #: A longer file of a platform is not read.
 MOST_BYTES = 8_000_000
@@ -44,7 +49,8 @@ class Site:
     """A platform: where things are, below ``root``, and what its result looks like.
 
     ``seconds``: after which a submission needs a review, within what the platform gives. ``excuses``: a result may say
-    that there is none, so that a grader that cannot work costs nobody points.
+    that there is none, so that a grader that cannot work costs nobody points. ``listed``: the table of answers that
+    count by a stand-in, where the platform takes nothing but a number.
     """
 
     root: Path
@@ -55,6 +61,7 @@ class Site:
     users: Callable[[Path], list[Participant]] = lambda root: []
     form: Callable[[Path, Prepared], Handed | None] = lambda root, prepared: None
     excuses: bool = True
+    listed: str | None = None
 
 
 def _gradescope_users(root: Path) -> list[Participant]:
@@ -95,7 +102,7 @@ SITES: dict[str, Site] = {
     ),
     "coursera": Site(
         Path("/shared"), "submission", "feedback.json", 120.0, lambda result, _: coursera.document(result),
-        excuses=False,
+        excuses=False, listed="open.csv",
     ),
 }  # fmt: skip
 
@@ -112,14 +119,15 @@ def undecided(prepared: Prepared, student: str, reason: str) -> Result:
     return Result(student=student, score=0.0, max_score=most, items=items, needs_review=len(items))
 
 
-def grade_at(site: Site, assignment: Path, memory: int) -> Result:
+def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = None) -> Result:
     """Grade what was handed in and write the result. Raises AssignmentError, and OSError where nothing can be written.
 
-    ``memory``: the bytes that the process may take in which answers are judged.
+    ``memory``: the bytes that the process may take in which answers are judged. ``reviewed``: a table that a person
+    filled in, by default the ``review.csv`` beside the assignment; ReviewError where it cannot be used.
     """
     users = site.users(site.root)
     student = ", ".join(user.student for user in users) or "student"
-    prepared = _prepared(site, assignment, student)
+    prepared = _prepared(site, assignment, student, reviewed)
     _write(site, undecided(prepared, student, "grading was cut short."), prepared)
     one = _only_hand_in(site, prepared)
     result = one if isinstance(one, Result) else _result(one, prepared, site.seconds, memory, student)
@@ -127,13 +135,18 @@ def grade_at(site: Site, assignment: Path, memory: int) -> Result:
     doubt = by_platform(users, result.student) if named else None
     result = result.model_copy(update={"student": student, "doubt": doubt})
     _write(site, result, prepared)
+    if site.listed is not None:
+        list_open(result.items, site.root / site.listed, "")
     return result
 
 
-def _prepared(site: Site, assignment: Path, student: str) -> Prepared:
+def _prepared(site: Site, assignment: Path, student: str, reviewed: Path | None) -> Prepared:
+    beside = assignment.with_name(TABLE)
     try:
-        return load_assignment(assignment)
-    except DofkitError:
+        prepared = load_assignment(assignment)
+        table = reviewed or (beside if beside.is_file() else None)
+        return RunReview.read(prepared, table, None).applied(prepared)
+    except (DofkitError, OSError):
         if site.excuses:
             _write(site, Result(student=student, score=None, max_score=0.0, items=[], error=BROKEN), None)
         raise
@@ -223,12 +236,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("assignment", type=Path)
     parser.add_argument("--root", type=Path, help="the platform's folder, such as /autograder")
     parser.add_argument("--seconds", type=float, help="for the whole submission")
+    parser.add_argument("--reviewed", type=Path, metavar="CSV", help="points of a person, else review.csv beside it")
     parser.add_argument("--memory", type=int, default=2048, metavar="MB", help="address space for judging answers")
     given = parser.parse_args(arguments)
     site = SITES[given.site]
     site = replace(site, root=given.root or site.root, seconds=given.seconds or site.seconds)
     try:
-        result = grade_at(site, given.assignment, given.memory << 20)
+        result = grade_at(site, given.assignment, given.memory << 20, given.reviewed)
     except (DofkitError, OSError) as error:
         print(f"no result: {error}", file=sys.stderr)
         return 2

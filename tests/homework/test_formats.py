@@ -175,7 +175,11 @@ def test_prairielearn_stays_below_a_megabyte(status: Status, prepared: Prepared)
         ((RIGHT, PARTLY), 0.6, "Points: 6 of 10."),
         ((RIGHT, OPEN), 0.6, "Provisional: 4 points stand in for answers worth 8 that could not be decided."),
         ((OPEN,), 0.4, "Provisional: "),
-        ((RIGHT, UNREADABLE), 0.2, "Points: 2 of 10."),
+        (
+            (RIGHT, UNREADABLE),
+            0.2,
+            "Answers worth 8 points could not be read. Write them in another way, and hand in again.",
+        ),
         ((), 0.0, "Points: 0 of 10."),
     ],
 )
@@ -379,6 +383,16 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
         "2 The same set of configurations, but written so that its differential vanishes there (squared). IRR" in shown
     )
     assert "p.rod 8 points The time was not enough. d Points" in shown
+
+
+def test_whose_it_is_stands_on_the_pages(prepared: Prepared, tmp_path: Path) -> None:
+    given = [result("ada", RIGHT), result("bob", RIGHT).model_copy(update={"doubt": f"it names {MARKUP}"})]
+    found = pages(prepared, tmp_path, given)
+    shown = " ".join(found["index.html"].shown.split())
+    assert f"Submissions of which a person has to say whose they are Student Why bob it names {MARKUP}" in shown
+    assert "1 submission by points" in shown
+    assert f"It is not certain whose this is. it names {MARKUP}" in " ".join(found["students/bob.html"].shown.split())
+    assert "whose" not in found["students/ada.html"].shown
 
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")

@@ -68,8 +68,8 @@ def test_a_report_in_a_notebook() -> None:
     assert "non-holonomic, scleronomic" in words(html)
     assert "degrees of freedom 4 dimension of the configuration space" in words(html)
     style = dofkit.classify(DISC)._repr_html_().partition("</style>")[0]
-    assert "prefers-color-scheme:dark" in style
-    assert "data-jp-theme-light" in style
+    assert "light-dark(" in style
+    assert "[data-jp-theme-light=false] .dofkit" in style
 
 
 def test_joints_are_words_and_equations_are_mathematics() -> None:

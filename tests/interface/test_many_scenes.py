@@ -344,7 +344,7 @@ def test_forced_colours_are_in_reports_lines_and_faults(monkeypatch: pytest.Monk
 # Watching
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals")
+@pytest.mark.skipif(os.name == "nt", reason="Windows cannot interrupt one process alone")
 def test_a_file_is_watched(tmp_path: Path) -> None:
     file = tmp_path / "scene.yaml"
     file.write_text("coordinates: [x, y]\n", encoding="utf-8")

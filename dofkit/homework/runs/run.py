@@ -104,7 +104,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     review = RunReview.read(prepared, options.reviewed, options.review)
     prepared = review.applied(prepared)
     orders = Orders.of(prepared, options.check_only)
-    others = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
+    others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
         one = _Run(form, prepared, orders, crew, seen, roster)

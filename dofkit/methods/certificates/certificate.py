@@ -206,7 +206,8 @@ def _without_spare_parts(found: dict[str, Any]) -> dict[str, Any]:
 
 def _needed(step: Told, used: set[str]) -> bool:
     """Whether a step is used, or says something of a relation of the scene."""
-    return step["by"] == "implied" or any(name == step["id"] or name.startswith(f"{step['id']}.") for name in used)
+    own, parts = step["id"], f"{step['id']}."
+    return (step["by"] == "implied" and "of" in step) or any(n == own or n.startswith(parts) for n in used)
 
 
 def _texts_in(value: Any) -> set[str]:

@@ -119,7 +119,13 @@ def generalized_coordinates(room: Room) -> Iterator[Told]:
     others = [q for q in room.problem.coordinates if q not in chosen]
     solving = room.solving(others)
     if solving is not None:
-        yield {"rule": "minor", "minor": room.minor(solving)}
+        found: Told = {"rule": "minor", "minor": room.minor(solving)}
+        yield found
+        alone = {q for name in solving.rows if len(row := room.row(name, solving.point)) == 1 for q in row}
+        tilts = {angles[1] for angles in room.problem.turns if not {*angles} <= alone}
+        turned = room.standing_of(solving.rows, [q for q in room.problem.coordinates if q not in tilts])
+        if turned is not None and not turned.dependent:
+            yield {**found, "beside": room.minor(turned)}
     if room.scenery.evidence.moving:
         for found in involutive_rows(room, integrable_names(room), others):
             yield found

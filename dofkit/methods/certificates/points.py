@@ -119,7 +119,7 @@ class PointSearch:
             found |= {name: abs(found[name]) for name in self.problem.coordinates}
         elif attempt >= 100 and attempt % 100 >= AFAR:
             found |= {name: found[name] / 16 for name in self.problem.coordinates}
-        return found
+        return found | {tilt: Fraction(1) for _, tilt, _ in self.problem.turns if found.get(tilt) == 0}
 
     def _approached(
         self, start: Mapping[str, Fraction], names: Sequence[str], unknowns: set[str]

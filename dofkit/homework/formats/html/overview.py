@@ -113,16 +113,18 @@ class Overview:
         self.decided: Counter[tuple[str, str]] = Counter()
         self.codes: Counter[str] = Counter()
         self.queue = Queue(list(self.statuses))
-        self.errors, self.students = Listed(), Listed()
+        self.errors, self.doubts, self.students = Listed(), Listed(), Listed()
         self.unfinished = 0
 
     def add(self, result: Result, link: str) -> None:
         """One more submission; ``link``: where its page is."""
         self.students.add(Student(result.student, link, result))
+        if result.doubt is not None:
+            self.doubts.add(Student(result.student, link, result))
         if result.error is not None:
             self.errors.add(Student(result.student, link, result))
             return
-        if result.needs_review:
+        if result.needs_review or result.doubt is not None:
             self.unfinished += 1
         else:
             self.scores[round(result.score or 0.0, 2)] += 1
@@ -158,6 +160,7 @@ class Overview:
             "different": len(waiting),
             "open_count": sum(queued.count for queued in waiting),
             "errors": self.errors,
+            "doubts": self.doubts,
             "students": self.students,
         }
 
