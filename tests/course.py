@@ -20,15 +20,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from dofkit.homework.answers.roster import load_roster
-from dofkit.homework.own_sheets import own
 from ruamel.yaml import YAML
 
 from dofkit.homework.answers.label_words import word_of
+from dofkit.homework.answers.roster import load_roster
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.formats import FORMATS
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.stated_equations import equations_of
+from dofkit.homework.own_sheets import own
 from dofkit.homework.questions.labels import truths
 from dofkit.homework.result import Result
 
@@ -315,6 +315,29 @@ def screenshots(pages: Sequence[Path], folder: Path, width: int = 390, height: i
         made.append(target)
     shutil.rmtree(folder / "profile", ignore_errors=True)
     return made
+
+
+_FRAME = """<iframe id=f src="{page}" width={width} height=900></iframe><p id=o></p><script>
+onload = () => {{
+  const e = f.contentDocument.documentElement;
+  o.textContent = "fits:" + (e.scrollWidth <= e.clientWidth);
+}}
+</script>"""
+
+
+def too_wide(pages: Sequence[Path], folder: Path, width: int = 390) -> list[Path]:
+    """The pages that have to be moved sideways on a telephone."""
+    assert CHROMIUM is not None
+    found = []
+    for page in pages:
+        frame = folder / "fits.html"
+        frame.write_text(_FRAME.format(page=page.as_uri(), width=width))
+        options = ["--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", "--dump-dom"]
+        command = [CHROMIUM, *options, f"--user-data-dir={folder / 'profile'}", frame.as_uri()]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+        if "fits:true" not in done.stdout:
+            found.append(page)
+    return found
 
 
 def pages_of(folder: Path) -> list[Path]:
