@@ -20,13 +20,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from dofkit.homework.own_sheets import own
 from ruamel.yaml import YAML
 
 from dofkit.homework.answers.label_words import word_of
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.stated_equations import equations_of
+from dofkit.homework.own_sheets import own
 from dofkit.homework.questions.labels import truths
 
 STUDENTS, LATE, SEED = 50, 8, "autumn"
