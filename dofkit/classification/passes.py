@@ -15,7 +15,6 @@ from dofkit.classification.claims import claims
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.told import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.singular_angles import without_singular_angles
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
@@ -175,7 +174,7 @@ def report_of(study: Study, passes: Iterable[Pass] = PASSES) -> Report:
     told: dict[str, Any] = {}
     for row in passes:
         told.update(row.fill(study, told))
-    return _report(agreed(without_singular_angles(study, told)))
+    return _report(agreed(told))
 
 
 def _report(told: Values) -> Report:

@@ -214,3 +214,21 @@ def test_loops_on_one_tree_are_each_looked_at_with_their_own_joints(bodies: int,
     assert report.redundant_equations == 3 * loops
     assert sorted(group.nullity for group in report.redundancies) == [3] * loops
     assert {len(group.members) for group in report.redundancies} == {4}
+
+
+def governor(*more: str) -> dict[str, Any]:
+    """Landau and Lifshitz, Mechanics, section 5: two masses and a collar on the axis, joined by links of length a."""
+    ends = [("O", "A"), ("O", "B"), ("A", "M"), ("B", "M")]
+    links = [{"type": "link", "between": [[0, 0, 0] if p == "O" else p, q], "length": "a"} for p, q in ends]
+    axis = {"type": "on", "members": ["M"], "curve": ["x = 0", "y = 0"]}
+    return {"particles": ["A", "B", "M"], "parameters": {"a": "positive"}, "constraints": [*links, axis, *more]}
+
+
+def test_the_governor_without_a_drawing() -> None:
+    """z_M (z_M - 2 z_A) = 0 by l1 - l3: with the collar at the pivot each mass has a sphere to itself, 4 freedoms; else
+    the height and two angles, 3."""
+    assert told(governor()) == moves(4, None, None)
+    # In one rotating plane, x = 0: at the pivot two circles, else the height alone.
+    assert told(governor("x_A = 0", "x_B = 0")) == moves(2, None, None)
+    # Where the collar is not at the pivot the larger part is left out.
+    assert told(governor("z_M = a")) == moves(2, None, None)
