@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Literal, NamedTuple, Protocol
 
-from dofkit.expressions.tree import Expr, nodes
+from dofkit.expressions.terms import longest_number
+from dofkit.expressions.tree import Expr
 
 Sense = Literal["=", ">=", ">"]
 Sign = Literal["real", "positive", "nonzero"]
@@ -285,11 +286,9 @@ class System:
     left_out: tuple[str, ...] = ()
 
     @property
-    def numbers(self) -> Iterator[Fraction]:
-        """Every number in the relations as they are written."""
-        for constraint in self.constraints:
-            for relation in constraint.relations:
-                yield from (node.args[0] for node in nodes(relation.expr) if node.op == "num")
+    def longest(self) -> int:
+        """The bits of the longest number in the relations as they are written."""
+        return longest_number(r.expr for c in self.constraints for r in c.relations)
 
     def numbers_of(self, *names: str) -> tuple[int, ...]:
         """The numbers of the constraints of these names, in the order of the names."""

@@ -19,6 +19,7 @@ ArgumentKey = Literal[
     "graph",
     "generic fibre",
     "cases",
+    "isolated zeros",
     "independent relations",
     "rigid to first order",
     "degree too high",

@@ -67,6 +67,13 @@ _OWN: dict[ArgumentKey, Argument] = {
         "dofkit.configuration.cases.cases_of",
         "the cases with their bases",
     ),
+    "isolated zeros": Argument(
+        "some coordinates have isolated values, the others are free or given by them",
+        "IsolatedZeros",
+        "relations of one coordinate each, analytic everywhere and not 0 everywhere, with an exact common zero",
+        "dofkit.configuration.isolated_zeros.isolated",
+        "the zeros",
+    ),
     "singular values": Argument(
         "the rank of measured geometry",
         "",

@@ -219,7 +219,7 @@ def examined(
     passes: Iterable[Pass] = PASSES,
 ) -> Examined:
     """All that some engines find of a system in so many seconds, with some ``reductions``. Raises OutOfTimeError."""
-    with limited(seconds), precise_for(system.numbers):
+    with limited(seconds), precise_for(system.longest):
         with part(SOLVING):
             found = study(system, engines, reductions)
         return Examined(found, report_of(found, passes))
@@ -227,6 +227,6 @@ def examined(
 
 def studied(system: System, budget: float | None = None) -> Examined:
     """The generic answer for a system. Raises OutOfTimeError where there was no time for it."""
-    with limited(DEFAULT_SECONDS if budget is None else budget), precise_for(system.numbers):
+    with limited(DEFAULT_SECONDS if budget is None else budget), precise_for(system.longest):
         found = study(system)
         return Examined(found, report_of(found, GENERIC))

@@ -12,9 +12,11 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.generalized_coordinates import generalized
 from dofkit.classification.labels.integrable_part import integrable_part
 from dofkit.classification.study import Study
+from dofkit.classification.turned_coordinates import partly_turned, turned_together
 from dofkit.expressions.text import to_text
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.mobility.textbook_count import CountedFacts, count
+from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import uses_time
 from dofkit.relations.integration_constants import about_constants
 from dofkit.relations.normal.normal_form import Finite
@@ -96,6 +98,16 @@ def _generalized(study: Study) -> list[str] | None:
         if own is None:
             return None
         chosen |= set(own)
+    turning = partly_turned(chosen, system.rotations)
+    for group in turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning):
+        if group.places == 1:
+            continue
+        free = chosen.intersection(group.block.coordinates)
+        whole = Answer(dof=len(free), dependent=group.block.coordinates, hidden=[*group.hidden])
+        own = generalized(group.block, whole, study.setting, system.rotations)
+        if own is None:
+            return None
+        chosen = chosen - free | set(own)
     return [c.name for c in system.coordinates if c.name in chosen]
 
 
@@ -138,7 +150,8 @@ def witness(study: Study) -> dict[str, str] | None:
         return None
     found = {str(s.args[1]): text for a in outcome.answers for s, text in (a.witness or {}).items()}
     names = [c.name for c in study.system.coordinates]
-    others = {name: text for name, text in found.items() if name not in names}
+    own = frozenset(names)
+    others = {name: text for name, text in found.items() if name not in own}
     return {name: found.get(name, "0") for name in names} | others
 
 
@@ -184,11 +197,10 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
         yield f"{many(rigid, 'dependent set')} taken for one rigid body each"
     if followed and left_out:
         yield f"{many(followed, 'other dependent set')} followed apart from all else"
-    spared = sum(k.spared for k in looked)
-    if spared:
+    if any(k.spared for k in looked):
         yield (
-            f"{many(spared, 'coordinate')} fewer where motions were followed (welded bodies and rigid "
-            "clusters as one, bodies that do not turn as particles, what a linear relation gives explicitly)"
+            "fewer coordinates where motions were followed (welded bodies and rigid clusters as one, bodies that do "
+            "not turn as particles, what a linear relation gives explicitly)"
         )
 
 

@@ -78,7 +78,7 @@ class Study:
                 conflicting = unless_late(look, conflicting)
             dependent = unless_late(partial(redundancies, self.reduced, self.setting, self.outcome), [nothing])
         if self.redundant_equations == 0:
-            dependent = [all_needed(r, self.reduced, self.outcome) for r in dependent]
+            dependent = all_needed(dependent, self.reduced, self.outcome)
         return Dependence(conflicting, dependent)
 
     @cached_property

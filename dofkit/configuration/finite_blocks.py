@@ -68,7 +68,7 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         found.consistent, found.dimension, found.dimension, found.verdict, found.about, found.argument, gap=found.gap
     )
     result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
-    result.witness = of_real_point(chart, found.real)
+    result.witness = found.witness or of_real_point(chart, found.real)
     if found.argument in ("cases", "regular point"):
         result.real = _real_rows(chart, found.real)
     result.reasons = list(found.reasons)
@@ -129,12 +129,12 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         return result
     if found.local.confined:
         return _confined_answer(chart, setting, result)
-    if found.rank < len(found.matrix):
-        result.reasons.append(found.local.reason)
     if found.local.dimension is None and chart.time is not None:
         result.consistent = None
     columns = len(chart.columns) - found.rank
     result.degenerate = found.local.dimension != columns - (len(chart.columns) - chart.coordinates)
+    if found.rank < len(found.matrix) and result.degenerate:
+        result.reasons.append(found.local.reason)
     return result
 
 

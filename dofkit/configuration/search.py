@@ -14,6 +14,7 @@ from dofkit.base.verdicts import Verdict
 from dofkit.configuration.components import by_cases, of_largest_part
 from dofkit.configuration.generic_dimension import variety_at
 from dofkit.configuration.generic_points import on_variety, pose_samples, samples_for
+from dofkit.configuration.isolated_zeros import isolated
 from dofkit.configuration.reality import near_singular_point, real_point
 from dofkit.configuration.variety import Variety
 from dofkit.exact.ring.instructions import VAR, reachable
@@ -41,6 +42,9 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     looked = {"field", "balls"} <= chart.engines and found.consistent is not True and found.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
+    alone = isolated(chart, found) if found.consistent is None or found.dimension is None else None
+    if alone is not None:
+        return alone
     look = partial(_variety, pose={}, seed=seed)
     by_case = found.consistent is None and found.dimension is None and "field" in chart.engines
     if by_case:

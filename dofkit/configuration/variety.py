@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from dofkit.base.verdicts import About, ArgumentKey, Verdict
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import GAP
 
 
@@ -16,7 +18,7 @@ class Variety:
 
     ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None:
     not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls; ``about``: is it told of
-    the largest part, or of the ``component`` of these points? ``argument``, ``gap``: see `Answer`.
+    the largest part, or of the ``component`` of these points? ``argument``, ``gap``, ``witness``: see `Answer`.
     """
 
     consistent: bool | None
@@ -28,3 +30,4 @@ class Variety:
     about: About = "everywhere"
     argument: ArgumentKey | None = None
     gap: float = GAP
+    witness: Mapping[Expr, str] | None = None

@@ -10,7 +10,9 @@ from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr, add, call, child
 
 def substitute(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
     """``e`` with symbols replaced by expressions, all at once."""
-    keys = frozenset(mapping)
+    keys = mapping.keys()
+    if keys.isdisjoint(e.symbols):
+        return e
     memo: dict[Expr, Expr] = {}
 
     def go(node: Expr) -> Expr:

@@ -1,11 +1,32 @@
-"""Roots of rational numbers that are rational."""
+"""Powers and roots of rational numbers that are rational."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 
+from dofkit.base.errors import PoleError
+
+#: A power of numbers is folded only while the result stays below this many bits.
+FOLD_BITS = 4096
 #: Higher roots are not looked for.
 MAX_DEGREE = 64
+
+
+def exact_power(base: Fraction, exponent: Fraction) -> Fraction | None:
+    """A number to a power, where that is a number of bounded size. Raises PoleError for 0 to a negative power."""
+    if base == 0:
+        if exponent < 0:
+            raise PoleError
+        return Fraction(exponent == 0)
+    if base == 1:
+        return base
+    if exponent.denominator == 1:
+        bits = max(base.numerator.bit_length(), base.denominator.bit_length())
+        return base ** int(exponent) if bits * abs(exponent) <= FOLD_BITS else None
+    if base > 0 and abs(exponent.numerator) <= 64:
+        root = exact_root(base, exponent.denominator)
+        return None if root is None else exact_power(root, Fraction(exponent.numerator))
+    return None
 
 
 def exact_root(value: Fraction, degree: int) -> Fraction | None:

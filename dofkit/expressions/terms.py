@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 from math import gcd
 
@@ -70,3 +71,18 @@ def content(e: Expr) -> tuple[Fraction, Expr]:
         bottom = bottom * f.denominator // gcd(bottom, f.denominator)
     content = Fraction(top, bottom)
     return content, ex.mul(ex.num(1 / content), e)
+
+
+def longest_number(expressions: Iterable[Expr]) -> int:
+    """The bits of the longest numerator or denominator of a number that occurs; 0 where none does."""
+    seen: set[Expr] = set()
+    stack, longest = list(expressions), 0
+    while stack:
+        node = stack.pop()
+        if node.op == "num":
+            value: Fraction = node.args[0]
+            longest = max(longest, value.numerator.bit_length(), value.denominator.bit_length())
+        elif node.op != "sym" and node not in seen:
+            seen.add(node)
+            stack.extend(ex.children(node))
+    return longest

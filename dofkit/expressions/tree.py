@@ -27,8 +27,7 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any, Literal, get_args
 
-from dofkit.base.errors import PoleError
-from dofkit.expressions.roots import exact_root
+from dofkit.expressions.roots import exact_power
 from dofkit.expressions.turns import TURNING, value_at, value_at_turn
 
 Kind = Literal["coordinate", "velocity", "acceleration", "differential", "parameter", "time", "dt"]
@@ -41,14 +40,11 @@ FUNCTIONS: dict[str, int] = {
     "sinh": 1, "cosh": 1, "tanh": 1, "exp": 1, "log": 1, "abs": 1,
 }  # fmt: skip
 
-#: A power of numbers is folded only while the result stays below this many bits.
-FOLD_BITS = 4096
-
 
 class Expr:
     """One node of an expression; see the module's table for ``op`` and ``args``."""
 
-    __slots__ = ("_hash", "_symbols", "args", "op")
+    __slots__ = ("_functions", "_hash", "_symbols", "args", "op")
 
     op: str
     args: tuple[Any, ...]
@@ -58,6 +54,7 @@ class Expr:
         self.args = args
         self._hash = hash((op, args))
         self._symbols: frozenset[Expr] | None = None
+        self._functions: frozenset[str] | None = None
 
     def __hash__(self) -> int:
         return self._hash
@@ -112,8 +109,25 @@ class Expr:
             if self.op == "sym":
                 self._symbols = frozenset((self,))
             else:
-                self._symbols = frozenset().union(*(child.symbols for child in children(self)))
+                found: frozenset[Expr] = _NO_SYMBOLS
+                for child in children(self):
+                    own = child.symbols
+                    if own and not own <= found:
+                        found = own if found <= own else found | own
+                self._symbols = found
         return self._symbols
+
+    @property
+    def functions(self) -> frozenset[str]:
+        """The names of the functions that occur; ``pow`` for powers but whole ones, ``call`` for unknown functions."""
+        if self._functions is None:
+            found = _NO_NAMES if self.op in ("num", "sym", "const", "add", "mul") else _function_of(self)
+            for child in children(self):
+                own = child.functions
+                if own and not own <= found:
+                    found = found | own
+            self._functions = found
+        return self._functions
 
     @property
     def is_zero(self) -> bool:
@@ -122,6 +136,13 @@ class Expr:
 
 
 ExprLike = Expr | int | Fraction
+_NO_SYMBOLS: frozenset[Expr] = frozenset()
+_NO_NAMES: frozenset[str] = frozenset()
+
+
+def _function_of(e: Expr) -> frozenset[str]:
+    whole = e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1
+    return _NO_NAMES if whole else frozenset((str(e.args[0]) if e.op == "fn" else e.op,))
 
 
 def num(value: int | Fraction) -> Expr:
@@ -248,9 +269,9 @@ def power(base: Expr, exponent: Expr) -> Expr:
         if value == 1:
             return base
         if base.op == "num":
-            folded = _number_power(base.args[0], value)
+            folded = exact_power(base.args[0], value)
             if folded is not None:
-                return folded
+                return num(folded)
         if value == 0:
             return ONE
         if value.denominator == 1:
@@ -261,23 +282,6 @@ def power(base: Expr, exponent: Expr) -> Expr:
     if base == E:
         return fn("exp", exponent)
     return Expr("pow", (base, exponent))
-
-
-def _number_power(base: Fraction, value: Fraction) -> Expr | None:
-    """An exact number to an exact power, where that is a number of bounded size."""
-    if base == 0:
-        if value < 0:
-            raise PoleError
-        return ONE if value == 0 else ZERO
-    if base == 1:
-        return ONE
-    if value.denominator == 1:
-        bits = max(base.numerator.bit_length(), base.denominator.bit_length())
-        return num(base ** int(value)) if bits * abs(value) <= FOLD_BITS else None
-    if base > 0 and abs(value.numerator) <= 64:
-        root = exact_root(base, value.denominator)
-        return None if root is None else _number_power(root, Fraction(value.numerator))
-    return None
 
 
 def sqrt(value: Expr) -> Expr:

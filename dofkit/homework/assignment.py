@@ -9,25 +9,29 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import BeforeValidator, Field, ValidationError
 
 from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.key.own_coordinates import faults_of_own
-from dofkit.homework.problem import Problem, faults_of_names, weighted
+from dofkit.homework.problem import Problem, Variants, faults_of_names, weighted
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.review.rows import Decisions
 from dofkit.homework.sentences.said import Language
 from dofkit.homework.statement import faults_of_places
-from dofkit.scene.fields import WrittenModel, faults_of
+from dofkit.homework.variants.structure import Structure, structures
+from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
 from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
 from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene
 
+#: A scene of more constraints is refused: grading starts with working out all that may be asked of it.
+MOST_CONSTRAINTS = 5000
 FeedbackLevel = Literal["hint", "full"]
+Visibility = Literal["visible", "after_due_date", "after_published", "hidden"]
 UnreadablePolicy = Literal["review", "zero"]
 
 
@@ -43,6 +47,15 @@ class AssignmentError(DofkitError):
         return (AssignmentError, (self.faults, self.source))
 
 
+def _attempts(value: object) -> object:
+    """A number of attempts, 1 or more; without it they are unlimited."""
+    found = exact(value)
+    if found.denominator != 1 or found < 1:
+        hint = "leave it out where they are unlimited"
+        raise fault_error(f"attempts are a whole number, 1 or more, not {value}", hint)
+    return int(found)
+
+
 class Assignment(WrittenModel):
     """What a lecturer hands out."""
 
@@ -53,20 +66,37 @@ class Assignment(WrittenModel):
         "review", description="what cannot be read: `review`, a person looks at it, or `zero`, students hand in again"
     )
     language: Language = Field("en", description="the language of the feedback: `en`, `de`, `fr` or `es`")
+    attempts: Annotated[int, BeforeValidator(_attempts)] | None = Field(
+        None, description="how often a student may hand in; without it as often as they like"
+    )
+    visibility: Visibility | None = Field(
+        None,
+        description="when students see points on Gradescope: `visible` (at once), `after_due_date`, `after_published`, "
+        "`hidden`; by default `after_due_date` where attempts are unlimited",
+    )
     problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
+    variants: Variants | None = Field(None, description="written by `dofkit assignment vary`: a sheet for each student")
+
+    @property
+    def shown(self) -> Visibility:
+        """When students see what their answers are worth."""
+        return self.visibility or ("after_due_date" if self.attempts is None else "visible")
 
 
 @dataclass(frozen=True)
 class Prepared:
     """An assignment with its scenes: everything that grading needs. ``keys`` by problem; ``base``: its folder.
 
-    ``decisions``: what a person decided of answers, which goes before all that dofkit finds.
+    ``decisions``: what a person decided of answers, which goes before all that dofkit finds. ``structures``: of a sheet
+    with variants what each problem's may be; ``marks``: of one student's sheet what tells each problem from others'.
     """
 
     assignment: Assignment
     keys: Mapping[str, Key]
     base: Path = Path()
     decisions: Decisions = field(default_factory=dict)
+    structures: Mapping[str, Sequence[Structure]] = field(default_factory=dict)
+    marks: Mapping[str, str] = field(default_factory=dict)
 
     def questions(self) -> Iterator[tuple[Problem, QuestionBase]]:
         """Every question with its problem, in order."""
@@ -138,7 +168,13 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
         faults += _scene_faults(i, problem, key)
     if faults:
         raise _error(tuple(faults), document)
-    return Prepared(assignment, keys, base)
+    return Prepared(assignment, keys, base, structures=_structures(assignment, keys))
+
+
+def _structures(assignment: Assignment, keys: Mapping[str, Key]) -> dict[str, list[Structure]]:
+    if assignment.variants is None:
+        return {}
+    return {problem.id: structures(problem, keys[problem.id]) for problem in assignment.problems}
 
 
 def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
@@ -148,10 +184,20 @@ def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
 
 
 def _scene(problem: Problem, base: Path) -> Scene:
+    """The scene of a problem. Raises SceneError, for one of too many constraints before it is read whole, too."""
     if isinstance(problem.scene, dict):
+        _bounded(problem.scene.get("constraints"))
         return load(problem.scene, name=problem.id)
     path = base / problem.scene
-    return load(path if path.is_file() else problem.scene)
+    scene = load(path if path.is_file() else problem.scene)
+    _bounded(scene.constraints)
+    return scene
+
+
+def _bounded(constraints: object) -> None:
+    if isinstance(constraints, Sequence) and not isinstance(constraints, str) and len(constraints) > MOST_CONSTRAINTS:
+        message = f"the scene has {len(constraints)} constraints, more than an assignment takes ({MOST_CONSTRAINTS})"
+        raise SceneError((Fault(message, ("constraints",), hint="ask about a part of it; `dofkit classify` takes it"),))
 
 
 def _within(fault: Fault, i: int, problem: Problem) -> Fault:

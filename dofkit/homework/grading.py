@@ -19,11 +19,23 @@ from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.answers.typed import in_whole, shown_text
-from dofkit.homework.assignment import Prepared, Problem, load_assignment
-from dofkit.homework.judgement import FULL, NOTHING, DoubtError, Given, Judgement, needs_review, partly, unreadable
+from dofkit.homework.assignment import Prepared, load_assignment
+from dofkit.homework.judgement import (
+    FULL,
+    NOTHING,
+    DoubtError,
+    Given,
+    JudgedReading,
+    Judgement,
+    needs_review,
+    partly,
+    unreadable,
+)
 from dofkit.homework.key.key import Key
-from dofkit.homework.questions import QuestionBase
-from dofkit.homework.repairs import nearest_reading
+from dofkit.homework.own_sheets import NobodysSheetError, own_steps
+from dofkit.homework.problem import Problem
+from dofkit.homework.questions import NumberQuestion, QuestionBase
+from dofkit.homework.repairs import nearest_reading, parts_read
 from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review.identity import answer_id
 from dofkit.homework.review.rows import Decision
@@ -68,6 +80,12 @@ class Grader:
         """The same, telling of every answer that takes work that it comes next."""
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
+        try:
+            sheet = yield from own_steps(self.prepared, submission.student)
+        except NobodysSheetError as error:
+            return self.refused(submission.student, str(error))
+        if sheet is not self.prepared:
+            return (yield from Grader(sheet, self.seconds, self.condemned).steps(submission))
         items: list[Item] = []
         for problem in self.prepared.assignment.problems:
             items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
@@ -99,7 +117,7 @@ class Grader:
                 if (number := _number(question, answer)) is not None:
                     earlier.setdefault(question.kind(), number)
                 continue
-            spot = _spot(problem, question, answer, earlier)
+            spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get(problem.id, "")
             if spot not in self._known and spot not in self.condemned:
                 yield spot
             found, number = self.judge(spot, problem, question, answer, earlier)
@@ -112,7 +130,8 @@ class Grader:
         """What a person decided of this answer, whoever gave it."""
         if not self.prepared.decisions:
             return None
-        return self.prepared.decisions.get(answer_id(problem.id, question.id, shown_text(answer)))
+        variant = self.prepared.marks.get(problem.id, "")
+        return self.prepared.decisions.get(answer_id(problem.id, question.id, shown_text(answer), variant))
 
     def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
         """An answer with the points that a person gave it."""
@@ -156,17 +175,21 @@ class Grader:
         try:
             return question.judge(answer, key, earlier)
         except DoubtError as error:
-            place = in_whole(answer, error, lambda part: question.read(part, key)).column
-            return replace(needs_review("", error.message), column=place)
+            found = needs_review("", error.message)
+            with suppress(DofkitError):
+                found = replace(found, ways=_parts(question, answer, key))
+            return found
         except TextError as error:
             return self._unread(error, question, answer, key)
 
     def _unread(self, error: TextError, question: QuestionBase, answer: Given, key: Key) -> Judgement:
         """What could not be read, with what would be."""
         error, nearest = in_whole(answer, error, lambda part: question.read(part, key)), None
+        parts: tuple[JudgedReading, ...] = ()
         with suppress(DofkitError):
             nearest = nearest_reading(answer, error, lambda text: question.judge(text, key, {}))
-        found = unreadable(error, nearest)
+            parts = _parts(question, answer, key) if nearest is None else ()
+        found = unreadable(error, (nearest,) if nearest is not None else parts)
         return found if self.prepared.assignment.unreadable == "review" else replace(found, share=NOTHING)
 
     def _item(self, problem: Problem, question: QuestionBase, found: Judgement, answer: Given | None = None) -> Item:
@@ -181,9 +204,16 @@ class Grader:
             feedback=found.feedback(self.prepared.assignment.language),
             column=found.column,
             answer=None if answer is None else shown_text(answer),
-            would_read=found.ways[0].read_as if found.status == "unreadable" and found.ways else None,
+            would_read=found.ways[0].read_as if found.status == "unreadable" and len(found.ways) == 1 else None,
+            variant=self.prepared.marks.get(problem.id),
             readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in found.ways],
         )
+
+
+def _parts(question: QuestionBase, answer: Given, key: Key) -> tuple[JudgedReading, ...]:
+    """What an answer in doubt may mean."""
+    numbers = isinstance(question, NumberQuestion)
+    return parts_read(answer, numbers, lambda text: question.judge(text, key, {}))
 
 
 def _points(share: Fraction | None, question: QuestionBase) -> float | None:

@@ -83,10 +83,9 @@ def needs_review(read_as: str, reason: Sentence) -> Judgement:
     return Judgement("needs_review", None, read_as, (), told)
 
 
-def unreadable(error: TextError, nearest: JudgedReading | None = None) -> Judgement:
-    """What could not be read, and where: open until a person decides. ``nearest``: what would be read."""
+def unreadable(error: TextError, ways: tuple[JudgedReading, ...] = ()) -> Judgement:
+    """What could not be read, and where: open until a person decides. ``ways``: what it may mean."""
     hint = f" ({error.hint})" if error.hint else ""
-    ways = () if nearest is None else (nearest,)
     return Judgement("unreadable", None, "", (), (Said(f"{error.message}{hint}"),), error.column or 1, ways)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
@@ -13,7 +14,7 @@ from dofkit.base.errors import Fault
 from dofkit.expressions.text import valid_name
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
-from dofkit.homework.questions.base import Points
+from dofkit.homework.questions.base import Points, identifier
 from dofkit.scene.constraints import AnyConstraint
 from dofkit.scene.constraints.equations import as_equation
 from dofkit.scene.fields import Listed, Text, WrittenModel, suggestion
@@ -96,6 +97,33 @@ class Problem(WrittenModel):
     def other_names(self) -> dict[str, str]:
         """The declared name of every other one."""
         return {other: name for name, others in self.names.items() for other in others}
+
+
+class StudentSheet(WrittenModel):
+    """Whose sheet is which."""
+
+    student: str = Field(min_length=1, description="what results call the student")
+    known_as: Annotated[tuple[str, ...], Listed] = Field((), description="other names, addresses and numbers of theirs")
+    draw: int = Field(0, ge=0, description="which draw of the seed it is: 0, but where that was another student's too")
+    sheet: str = Field("", description="what tells whether the sheet comes out the same again")
+
+
+class Variants(WrittenModel):
+    """That every student has a sheet of their own, made from a seed."""
+
+    seed: Annotated[str, BeforeValidator(identifier)] = Field(min_length=1, description="what the sheets are made from")
+    version: str = Field("", description="of dofkit, that made them")
+    students: tuple[StudentSheet, ...] = Field((), description="who has a sheet")
+
+    def find(self, text: str) -> StudentSheet | None:
+        """Whose name, address or number it is; None for nobody's, and for that of two."""
+        found = [one for one in self.students if plain_name(text) in map(plain_name, (one.student, *one.known_as))]
+        return found[0] if len(found) == 1 else None
+
+
+def plain_name(text: str) -> str:
+    """A name as names are compared: capitals and spaces make no difference."""
+    return " ".join(unicodedata.normalize("NFC", text).casefold().split())
 
 
 def weighted(problem: Problem) -> Problem:

@@ -1,6 +1,6 @@
-"""What would be read of an answer that cannot be read: the nearest text that can, by a repair its error hints at.
+"""What an open answer may mean: the nearest text that can be read, by a repair its error hints at, or what is in it.
 
-A repair earns nothing by itself: it is shown to the student, and to the person who decides.
+This earns nothing by itself: it is shown to the student, and to the person who decides.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ _MEANT = re.compile(r"did you mean [`'](?P<word>[^`']+)[`']\?|type `(?P<char>.)`
 _WORD = re.compile(r"\\?\w+(?:_\{\w+\})?|\S")
 #: A rest of words, which is read over; one with numbers or signs says something of its own.
 _PROSE = re.compile(r"[\s,;:.!?()'’-]*(?:[^\W\d_]{2,}[\s,;:.!?()'’-]*){1,40}")
+#: Numbers in an answer; of more than so many none is more likely than the others.
+_NUMBER, MOST_PARTS = re.compile(r"(?<![\w.,])-?\d{1,4}(?![\w.,]*\d)"), 4
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 
 
@@ -45,6 +47,25 @@ def nearest_reading(answer: object, error: TextError, judge: Callable[[str], Jud
         else:
             return None
     return None
+
+
+def parts_read(answer: object, numbers: bool, judge: Callable[[str], Judgement]) -> tuple[JudgedReading, ...]:
+    """What an answer in doubt may mean, each with its worth: its ``numbers``, or all of it without question marks."""
+    if not isinstance(answer, str) or len(answer) > MOST_CHARACTERS:
+        return ()
+    if numbers:
+        texts = list(dict.fromkeys(_NUMBER.findall(answer)))
+    else:
+        texts = [answer.replace("?", " ")] if "?" in answer else []
+    found: dict[JudgedReading, None] = {}
+    for text in texts if len(texts) <= MOST_PARTS else ():
+        try:
+            judged = judge(text)
+        except TextError:
+            continue
+        if judged.read_as:
+            found[JudgedReading(judged.read_as, judged.share)] = None
+    return tuple(found)
 
 
 def _repaired(text: str, error: TextError) -> Iterator[str]:

@@ -78,16 +78,16 @@ class QuestionWorth:
         """A label is worth more where it is no plain one, an equation where it has to be found."""
         entry = self._key.constraints[asked["constraint"]]
         written = dict(zip(self._key.constraints, self._key.scene.constraints, strict=True))[entry.name].facts.written
-        labels = (entry.holonomic, entry.scleronomic, entry.bilateral)
+        labels: tuple[bool | None, ...] = (entry.holonomic, entry.scleronomic, entry.bilateral)
         if asked["ask"] == "label":
-            worth, kind = 66 + 4 * labels.count(False) + 3 * (entry.form == "pfaffian"), labels
+            worth = 66 + 4 * labels.count(False) + 3 * (entry.form == "pfaffian")
         elif asked["ask"] == "integral":
-            worth, kind = 75, (entry.holonomic,)
+            worth, labels = 75, (entry.holonomic,)
         else:
-            worth, kind = 8 if written else 70 if entry.equations < FEW else 30, ()
-        self._asked[asked["ask"], kind] += 1
+            worth, labels = 8 if written else 70 if entry.equations < FEW else 30, ()
+        self._asked[asked["ask"], labels] += 1
         self._asked[asked["ask"]] += 1
-        again = self._asked[asked["ask"], kind] > 1
+        again = self._asked[asked["ask"], labels] > 1
         return worth - (60 if again else 20 if self._asked[asked["ask"]] > 1 else 0)
 
 

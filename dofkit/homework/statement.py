@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from typing import Any
 
 from dofkit.base.errors import Fault
 from dofkit.expressions.text.typesetting import typeset
@@ -29,19 +30,27 @@ def places(text: str) -> list[tuple[str, str | None]]:
 
 
 def words_of(text: str) -> set[str]:
-    """The words that a text has of itself."""
-    return set(re.findall(r"\w+", _PLACE.sub(" ", text)))
+    """The words that a text has of itself, and their parts between `_`."""
+    found = re.findall(r"\w+", _PLACE.sub(" ", text))
+    return {*found, *(part for word in found for part in word.split("_"))} - {""}
 
 
-def filled(text: str, scene: Scene) -> str:
-    """The text with what the scene says in its places; a place that stands for nothing stays."""
-    return _PLACE.sub(lambda match: _told(match[1], match[2], scene) or match[0], text)
+def filled(text: str, scene: Scene, hidden: Collection[str] = ()) -> str:
+    """The text with what the scene says in its places; a place that stands for nothing stays.
+
+    ``hidden``: constraints whose equations are not told.
+    """
+    return _PLACE.sub(lambda match: _told(match[1], match[2], scene, hidden) or match[0], text)
 
 
-def _told(name: str, field: str | None, scene: Scene) -> str | None:
+def _told(name: str, field: str | None, scene: Scene, hidden: Collection[str] = ()) -> str | None:
     constraints = named(scene)
+    secret = {each for each in hidden if each in constraints and constraints[each].facts.written}
     if name == ALL and field is None:
-        return "\n".join(f"- `{each}`: {shown(one)}" for each, one in constraints.items())
+        listed = [(each, "" if each in secret else f": {shown(one)}") for each, one in constraints.items()]
+        return "\n".join(f"- `{each}`{told}" for each, told in listed)
+    if name in secret:
+        return f"`{name}`"
     if name in constraints and field is None:
         return shown(constraints[name])
     if field is not None:
@@ -52,7 +61,7 @@ def _told(name: str, field: str | None, scene: Scene) -> str | None:
     return f"${name}$" if name in known else None
 
 
-def _value(value: object) -> str:
+def _value(value: Any) -> str:
     if isinstance(value, tuple):
         numbers = all(not isinstance(part, (tuple, BodyPoint)) for part in value)
         return f"${show_vector(value)}$" if numbers else ", ".join(_value(part) for part in value)

@@ -121,28 +121,25 @@ def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: o
     _print(motions(files, linearize, Telling.here(as_json)))
 
 
-@app.command()
-def draw(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
-    """Draw scenes: ground, bodies, joints by their symbols, what moves, is redundant or contradicts."""
-    _pictures(files, "draw", out, kind)
+def _still(kind: str, about: str) -> None:
+    """A command for a kind of still picture."""
+
+    @app.command(kind, help=about)
+    def still(files: options.Files, out: options.PicturePath = None, form: options.StillKind = "svg") -> None:
+        _pictures(files, kind, out, form)
+
+
+_still("draw", "Draw scenes: ground, bodies, joints by their symbols, what moves, is redundant or contradicts.")
 
 
 @app.command()
-def animate(files: options.Files, out: options.PicturePath = None, kind: options.MovingKind = "html") -> None:
+def animate(files: options.Files, out: options.PicturePath = None, form: options.MovingKind = "html") -> None:
     """Draw scenes in motion: a page with a slider, a gif or an mp4."""
-    _pictures(files, "animate", out, kind)
+    _pictures(files, "animate", out, form)
 
 
-@app.command()
-def graph(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
-    """Draw constraints and what they hold as a graph, redundant ones marked."""
-    _pictures(files, "graph", out, kind)
-
-
-@app.command()
-def phase(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
-    """Draw the directions that differential constraints allow, and those that their brackets add."""
-    _pictures(files, "phase", out, kind)
+_still("graph", "Draw constraints and what they hold as a graph, redundant ones marked.")
+_still("phase", "Draw the directions that differential constraints allow, and those that their brackets add.")
 
 
 @app.command()
@@ -156,11 +153,12 @@ def grade(
     check_only: options.CheckOnly = False,
     certificates: options.CertificateFolder = None,
     reviewed: options.ReviewTable = None,
+    roster: options.RosterPath = None,
 ) -> None:
     """Grade submissions: a result for each, in the order given."""
     from dofkit.homework.runs.run import GradingOptions, run
 
-    chosen = GradingOptions(form, out, workers, scheduler, check_only, certificates, reviewed)
+    chosen = GradingOptions(form, out, workers, scheduler, check_only, certificates, reviewed, roster)
     with failures_of(assignment):
         clean = run(assignment, submissions, chosen)
     if not clean:
@@ -197,17 +195,21 @@ def export_gradescope(
     out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The zip to upload.")] = Path("autograder.zip"),
     python: Annotated[
         list[str] | None,
-        typer.Option("--python", metavar="VERSION", help="The Python there; may be given again. By default 3.12."),
+        typer.Option(
+            "--python", metavar="VERSION", help="A Python there; may be given again. By default 3.11 to 3.13."
+        ),
     ] = None,
     wheels: Annotated[
         bool, typer.Option(help="Put in dofkit and all it needs, so that no network is needed there.")
     ] = True,
+    reviewed: options.ReviewTable = None,
 ) -> None:
     """Write the autograder of an assignment for Gradescope, as one zip to upload."""
     from dofkit.homework import export
 
     with failures_of(assignment):
-        notes = export.export_gradescope(assignment, out, python or (export.PYTHON,), wheels=wheels)
+        pythons = python or export.PYTHONS
+        notes = export.export_gradescope(assignment, out, pythons, wheels=wheels, reviewed=reviewed)
     for note in notes:
         typer.echo(f"{out}: {note}", err=True)
 
@@ -215,13 +217,13 @@ def export_gradescope(
 @export_app.command("otter")
 def export_otter(
     assignment: options.Assignment,
-    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where the test files go.")] = Path("tests"),
+    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where the notebook goes.")] = Path("otter"),
 ) -> None:
-    """Write otter-grader's test files for an assignment, and assignment.json beside their folder."""
-    from dofkit.homework import otter
+    """Write an assignment's master notebook for `otter assign`, and the two files that its tests read."""
+    from dofkit.homework import export
 
     with failures_of(assignment):
-        for path in otter.write_tests(assignment, out):
+        for path in export.export_otter(assignment, out):
             typer.echo(path)
 
 

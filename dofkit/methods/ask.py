@@ -111,7 +111,7 @@ def answered_by(
                     raise ValueError("equivalence is asked of a scene and an answer")
                 return _equivalence(scene, answer, engines)
             system = scene if isinstance(scene, System) else lower(scene)
-            with precise_for(system.numbers):
+            with precise_for(system.longest):
                 return _of_system(system, question, engines)
     except OutOfTimeError:
         return Reply(None, "undecided", OUT_OF_TIME)
@@ -196,7 +196,7 @@ def _redundancy(known: Study) -> Reply:
         return Reply(None, "undecided", _why(outcome))
     found = redundancies(known.reduced, known.setting, outcome)
     if known.redundant_equations == 0:
-        found = [all_needed(r, known.reduced, outcome) for r in found]
+        found = all_needed(found, known.reduced, outcome)
     left = sorted({i for r in found for i in r.undecided})
     if left:
         return Reply(None, "undecided", f"whether {known.names[left[0]]} follows from the others was not decided")

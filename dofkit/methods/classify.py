@@ -91,7 +91,7 @@ def derived_flag(scene: SceneLike | System, budget: float | None = None) -> list
     given = scene_or_system(scene)
     system = given if isinstance(given, System) else lower(given)
     try:
-        with limited(seconds), precise_for(system.numbers):
+        with limited(seconds), precise_for(system.longest):
             outcome = study(system, flag=True).outcome
     except OutOfTimeError:
         return None

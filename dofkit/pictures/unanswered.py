@@ -27,7 +27,7 @@ def unanswered(scene: Scene, report: Report, title: str) -> Picture | None:
     sketch = sketch_of(stage)
     told = f"{title}: {', '.join(_parts(scene))}."
     shapes = tuple(s._replace(state="moving" if s.role in ("body", "point") else "plain") for s in sketch.shapes)
-    bare = replace(sketch, title="", answer="", alternative=told, shapes=shapes, legend=False)
+    bare = replace(sketch, title="", answer="", alternative=told, shapes=shapes, meanings=None)
     return Picture(replace(bare, notes=tuple(_notes(stage))))
 
 

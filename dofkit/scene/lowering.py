@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 
 from dofkit.base.errors import SceneError
 from dofkit.base.wording import verb
@@ -37,9 +38,9 @@ def system_of(scene: Scene, found: Survey) -> System:
     if found.special:
         warnings.append(SPECIAL)
     elif not found.generic:
-        touched = _touched(found.constraints)
-        reference = reference_of(drawing, found.drawn, pose, touched)
-        warnings += _partly(found, undrawn(drawing, found.drawn, pose, touched))
+        reference = reference_of(drawing, found.drawn, pose, partial(_touched, found.constraints))
+        if reference is None:
+            warnings += _partly(found, undrawn(drawing, found.drawn, pose, _touched(found.constraints)))
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,

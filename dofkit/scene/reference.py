@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from itertools import combinations, product
 from math import dist
 from operator import mul
@@ -90,14 +90,16 @@ def pose_of(drawing: Drawing) -> dict[Expr, Expr]:
 
 
 def reference_of(
-    drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Set[str]
+    drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Callable[[], Set[str]]
 ) -> dict[Expr, Expr] | None:
     """The pose, where it is one of every coordinate that a constraint has ``touched``; of all where none has any.
 
-    Its bodies are ``drawn``, and nothing is left to guess. What nothing constrains may stand anywhere.
+    Its bodies are ``drawn``, and nothing is left to guess. What nothing constrains may stand anywhere; what is
+    touched is asked for only where something is not drawn.
     """
     names = [q.name for q in drawing.vocabulary.table.coordinates]
-    if undrawn(drawing, drawn, pose, touched or frozenset(names)):
+    every = frozenset(names)
+    if undrawn(drawing, drawn, pose, every) and undrawn(drawing, drawn, pose, touched() or every):
         return None
     return {s: pose.get(s, ZERO) for s in map(coordinate, names)}
 

@@ -5,15 +5,14 @@ Faults are collected on the way, in the order of the scene's keys; those that ne
 
 from __future__ import annotations
 
-import gc
 import weakref
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import chain
 from typing import Any, Protocol
 
 from dofkit.base.errors import Fault
+from dofkit.base.memory import unhurried
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import Expr
 from dofkit.report import Report
@@ -70,19 +69,7 @@ class Survey:
         return self.drawing.vocabulary.names
 
 
-@contextmanager
-def _unhurried() -> Iterator[None]:
-    """No garbage collection while many small immutable objects are made: it would take half of the time."""
-    collecting = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if collecting:
-            gc.enable()
-
-
-@_unhurried()
+@unhurried()
 def survey(scene: Surveyed, euler: bool = False) -> Survey:
     """Read everything; nothing is raised for what is at fault.
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import pytest
-from checker.certified import faults
+from checker.certified import branch, faults, squares
 
 #: A scene, its claims, the parts of the certificate, and what is told of the last claim.
 False_ = tuple[Mapping[str, Any], list[dict[str, Any]], dict[str, Any], str]
@@ -77,7 +77,7 @@ DEPENDENCE: dict[str, False_] = {
         ],
         {
             "relations": [
-                {"id": "s", "by": "sos", "of": "c1", "terms": [["1", "x"], ["1", "y"]]},
+                *squares("s", "c1", [["1", "x"], ["1", "y"]]),
                 implied("i", "c1", c2="x", c3="y"),
                 implied("j", "c3", **{"s.2": "1"}),
             ],
@@ -97,8 +97,8 @@ PLACES: dict[str, False_] = {
         ],
         {
             "relations": [
-                {"id": "b", "by": "branch", "of": "c1", "factors": ["z", BALL], "chosen": 1},
-                {"id": "s", "by": "sos", "of": "b", "terms": [["1", f"{q} - 5"] for q in "xyz"]},
+                *branch("b", "c1", ["z", BALL], 1),
+                *squares("s", "b", [["1", f"{q} - 5"] for q in "xyz"]),
             ],
             "points": [
                 {"id": "O", "values": {"x": "0", "y": "0", "z": "0"}},
@@ -106,6 +106,16 @@ PLACES: dict[str, False_] = {
             ],
         },
         "dof was verified at another point",
+    ),
+}
+ACROSS = {"rule": "crossing", "minor": minor("", ""), "zero": "c1", "speeds": [{"x": "1"}, {"y": "1"}]}
+NAMES: dict[str, False_] = {
+    # at xdotdot = -1 it says -x^2 - y^2 = 0
+    "a coordinate with the name of a second derivative": (
+        {"coordinates": ["x", "y", "xdotdot"], "constraints": ["x^2*(1 + 2*xdotdot) = y^2"]},
+        [claim("/dof", 2, "squeeze", about="component", most=ACROSS, least=ACROSS)],
+        {"points": [{"id": "P", "values": {"x": "0", "y": "0", "xdotdot": "-1"}}]},
+        "has the name of a derivative",
     ),
 }
 INTEGRALS: dict[str, False_] = {
@@ -135,7 +145,84 @@ INTEGRALS: dict[str, False_] = {
         "has no integral",
     ),
 }
-FALSE = {**DEPENDENCE, **PLACES, **INTEGRALS}
+WELDED = {"bodies": ["B"], "constraints": [{"type": "weld", "between": ["ground", "B"]}]}
+HINGED = {
+    "bodies": ["B"],
+    "constraints": [{"type": "revolute", "between": ["ground", "B"], "at": [0, 0, 0], "axis": [0, 1, 0]}],
+}
+UPRIGHT: dict[str, Any] = {"id": "P", "values": {f"{q}_B": "0" for q in ("x", "y", "z", "phi", "theta", "psi")}}
+#: Where theta is 0 the angles phi and psi turn about one axis: one pose has a line of angles.
+ANGLES: dict[str, False_] = {
+    "the first order of a welded body": (
+        WELDED,
+        [claim("/instantaneous_dof", 1, "rank", at="P")],
+        {"points": [UPRIGHT]},
+        "no chart of the poses around",
+    ),
+    "the freedom of a welded body": (
+        WELDED,
+        [
+            claim(
+                "/dof",
+                1,
+                "regular",
+                about="reference",
+                minor=minor("c1.1 c1.2 c1.4 c1.5 c1.6", "x_B y_B z_B theta_B phi_B"),
+            )
+        ],
+        {
+            "relations": [implied("k", "c1.3", **{"c1.2": "(sin(phi_B) - sin(psi_B))/(cos(phi_B) + cos(psi_B))"})],
+            "points": [UPRIGHT],
+        },
+        "no chart of the poses around",
+    ),
+    # the turn about y by u has the angles pi/2, u, -pi/2
+    "an angle that rests": (
+        HINGED,
+        [
+            claim(
+                "/dof",
+                1,
+                "regular",
+                about="reference",
+                cayley=True,
+                minor=minor("c1.1 c1.2 c1.3 c1.4 c1.5", "x_B y_B z_B B_a B_c", "C"),
+            ),
+            claim(
+                "/generalized_coordinates",
+                ["phi_B"],
+                "minor",
+                minor=minor("c1.1 c1.2 c1.3 c1.4 c1.5", "x_B y_B z_B theta_B psi_B"),
+            ),
+        ],
+        {
+            "cayley": ["B"],
+            "points": [UPRIGHT, {"id": "C", "values": dict.fromkeys(("x_B", "y_B", "z_B", "B_a", "B_b", "B_c"), "0")}],
+        },
+        "no chart of the poses around",
+    ),
+}
+QUARTER = "1.5707963267948966192313216916397514420985846996875529104874722961539082"
+#: A third of a turn about (1, 1, 1), which leaves no entry 12, 23 or 31 of the matrix, is no weld.
+TURNED: dict[str, False_] = {
+    "a welded body that is turned": (
+        {**WELDED, "constraints": [*WELDED["constraints"], "cos(theta_B) <= 1/2"]},
+        [claim("/feasible", True, "point", at="P")],
+        {
+            "points": [
+                {
+                    "id": "P",
+                    "values": {**UPRIGHT["values"], "phi_B": QUARTER, "theta_B": QUARTER},
+                    "rows": ["c1.1", "c1.2", "c1.3"],
+                    "columns": ["phi_B", "theta_B", "psi_B"],
+                    "radius": "1e-40",
+                }
+            ]
+        },
+        "leaves its box",
+    ),
+}
+FALSE = {**DEPENDENCE, **PLACES, **NAMES, **INTEGRALS, **ANGLES, **TURNED}
 
 
 @pytest.mark.parametrize("name", FALSE)

@@ -128,7 +128,7 @@ def test_nonsense_is_read_or_refused(question: str, answer: str) -> None:
     refused = item.status in ("unreadable", "missing") and not item.would_read
     assert calls < (QUICK if refused else GRADED)
     assert item.status in ("unreadable", "wrong", "partly", "missing", "needs_review", "right")
-    assert item.status != "unreadable" or item.column is not None
+    assert (item.status == "unreadable") == (item.column is not None)
 
 
 #: What others misread in silence: how it is read here, or None where it is refused.

@@ -88,8 +88,6 @@ def test_every_type_is_drawn_here_in_every_dimension_of_it() -> None:
 
 @pytest.mark.parametrize(("dimension", "kind"), CASES)
 def test_a_scene_of_each_type_shows_its_symbol(dimension: int, kind: str) -> None:
-    if TYPES[kind].symbol.run in ("locus", "profile"):
-        pytest.importorskip("matplotlib")
     sketch = dofkit.draw(scene(dimension, kind)).sketch
     own = [s for s in sketch.shapes if s.owner == "it" and s.kind != "words"]
     wheels = [s for s in sketch.shapes if s.role == "body" and s.owner in ("a", "b") and s.kind == "area"]

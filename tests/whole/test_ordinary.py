@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
@@ -92,3 +93,142 @@ def test_pick_and_place() -> None:
     lying = arm("block")
     lying["constraints"].append({"type": "equation", "text": "z_block = 1/2"})
     assert told(lying) == moves(14, None, None)
+
+
+ISOLATED = [
+    ("x y", ["y^2 = x^3", "y = 0"], 0, "x^3 = 0"),
+    ("x y", ["exp(x) = 1 + x"], 1, "the exponential is convex and touches its tangent at 0 only"),
+    ("x y", ["x = sin(x)"], 1, "abs(sin(x)) < abs(x) but at 0"),
+    ("x y z", ["x = sin(x)", "y = x + z"], 1, "x = 0 and y = z"),
+    ("x y", ["exp(x) = 1 + x", "exp(y) = 1 + y"], 0, "the origin"),
+    ("x y", ["exp(x) = 1 + x", "exp(x) + x = 1 + y"], 0, "x = 0 and then y = 0"),
+    ("x y", ["cos(x) = 1 - x^2/2", "y = x"], 0, "cos(x) >= 1 - x^2/2, and equal at 0 only"),
+    ("x y", ["exp(x - 1/3) = x + 2/3"], 1, "the tangent at 1/3"),
+    ("x y", ["cos(x - pi/4) = 1 + (x - pi/4)^2"], 1, "1 at most, and 1 at least"),
+    ("x y z", ["x^2 = y^3", "x = z", "z = 0"], 0, "y^3 = 0"),
+]
+
+
+@pytest.mark.parametrize(("names", "written", "dof", "why"), ISOLATED, ids=[w for *_, w in ISOLATED])
+def test_functions_of_one_coordinate_hold_it_where_they_vanish(
+    names: str, written: Sequence[str], dof: int, why: str
+) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": names.split(), "constraints": list(written)}))
+    assert (report.consistent, report.dof, report.velocity_dof, report.redundant) == (True, dof, dof, []), why
+    assert report.verdicts["dof"].verdict in ("proved", "numeric")
+
+
+@pytest.mark.parametrize(
+    "written",
+    [["x = sin(x)", "y = log(x)"], ["exp(x) = 1 + x", "x = 1"], ["exp(x) = x"], ["x^2 + exp(x) = 1 + x", "x y = 1"]],
+)
+def test_what_holds_nowhere_is_not_told_to_hold(written: Sequence[str]) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": ["x", "y"], "constraints": list(written)}))
+    assert report.consistent is not True
+
+
+#: Pairs of forms, or forms that vanish together, told as one relation.
+RATES = [
+    ("x y", "abs(xdot) = abs(ydot)", (1, 1, True), "xdot = ydot or xdot = -ydot, whole lines"),
+    ("x y z", "abs(xdot) = abs(ydot + zdot)", (2, 2, True), "two planes"),
+    ("x y z", "abs(xdot) = abs(ydot - x zdot)", (3, 2, False), "dx = +-(dy - x dz) are contact forms"),
+    ("x y", "abs(xdot - 1) = abs(ydot)", (1, 1, True), "y = +-(x - t) + C"),
+    ("x y z", "xdot^2 - 2 cos(z) xdot ydot + ydot^2 = 0", (1, 1, True), "(dx - cos(z) dy)^2 + sin(z)^2 dy^2 = 0"),
+    ("x y z", "xdot^2 - 2 cosh(z) xdot ydot + ydot^2 = 0", (3, 2, False), "dx = exp(+-z) dy"),
+]
+
+
+@pytest.mark.parametrize(("names", "text", "expected", "why"), RATES, ids=[text for _, text, *_ in RATES])
+def test_relations_between_velocities_that_are_forms(
+    names: str, text: str, expected: tuple[int, int, bool], why: str
+) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": names.split(), "constraints": [text]}))
+    (entry,) = report.constraints
+    assert (report.dof, report.velocity_dof, entry.holonomic) == expected, why
+    assert entry.form == "pfaffian"
+
+
+@pytest.mark.parametrize("text", ["abs(xdot) = ydot", "x abs(xdot) = abs(ydot)", "abs(xdot) = xdot"])
+def test_half_lines_of_velocities_are_no_lines(text: str) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": ["x", "y"], "constraints": [text]}))
+    assert report.constraints[0].holonomic is not True
+
+
+FREEDOMS = {"revolute": 1, "prismatic": 1, "cylindrical": 2, "universal": 2, "spherical": 3, "planar": 3}
+
+
+def tree_with_loops(bodies: int, loops: int, seed: int) -> tuple[dict[str, Any], int]:
+    """A tree of joints drawn anyhow, with planar four-bars on some bodies, in any order; and its freedom: that of
+    every joint, and one for each four-bar, whose hinges are parallel and whose links are no parallelogram."""
+    rng = random.Random(f"tree {seed}")
+    names, places = ["ground"], {"ground": (0, 0, 0)}
+    joints: list[dict[str, Any]] = []
+    dof = loops
+    for i in range(bodies):
+        parent = rng.choice(names[-8:])
+        at = tuple(v + rng.randint(-3, 3) for v in places[parent])
+        kind = rng.choice(sorted(FREEDOMS))
+        dof += FREEDOMS[kind]
+        joint: dict[str, Any] = {"name": f"j{i}", "type": kind, "between": [parent, f"b{i}"]}
+        if kind != "prismatic":
+            joint["at"] = list(at)
+        if kind == "universal":
+            joint["axes"] = rng.choice([[[1, 0, 0], [0, 1, 0]], [[0, 0, 1], [3, 4, 0]]])
+        elif kind != "spherical":
+            joint["axis"] = rng.choice([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 2, 2], [3, 4, 0]])
+        joints.append(joint)
+        names.append(f"b{i}")
+        places[f"b{i}"] = (at[0], at[1], at[2])
+    for k in range(loops):
+        host, origin = rng.choice(names[1:]), [rng.randint(-5, 5) for _ in range(3)]
+        links = [f"q{k}{letter}" for letter in "abc"]
+        pins = zip(pairwise([host, *links, host]), [(0, 0), (1, 2), (5, 3), (4, 0)], strict=True)
+        for pair, (x, y) in pins:
+            at_pin = [origin[0] + x, origin[1] + y, origin[2]]
+            joints.append({"type": "revolute", "between": list(pair), "at": at_pin, "axis": [0, 0, 1]})
+            joints[-1]["name"] = f"p{len(joints)}"
+        names += links
+    rng.shuffle(joints)
+    return {"bodies": names[1:], "constraints": joints}, dof
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_an_open_tree_has_the_freedom_of_its_joints(seed: int) -> None:
+    scene, dof = tree_with_loops(12, 0, seed)
+    report = dofkit.classify(dofkit.load(scene))
+    assert told(scene) == moves(dof, dof)
+    assert (report.verdict, report.redundant, report.redundancies) == ("proved", [], [])
+    assert len(report.generalized_coordinates or []) == dof
+    for joint, entry in zip(scene["constraints"], report.constraints, strict=True):
+        assert entry.equations == entry.independent == 6 - FREEDOMS[joint["type"]]
+        assert (entry.form, entry.holonomic, entry.scleronomic, entry.circuit) == ("finite", True, True, None)
+
+
+@pytest.mark.parametrize(
+    ("bodies", "loops", "seed"), [(8, 2, 0), (12, 3, 1), pytest.param(43, 10, 2, marks=pytest.mark.sweep)]
+)
+def test_loops_on_one_tree_are_each_looked_at_with_their_own_joints(bodies: int, loops: int, seed: int) -> None:
+    scene, dof = tree_with_loops(bodies, loops, seed)
+    report = dofkit.classify(dofkit.load(scene))
+    assert told(scene) == moves(dof, dof)
+    assert report.redundant_equations == 3 * loops
+    assert sorted(group.nullity for group in report.redundancies) == [3] * loops
+    assert {len(group.members) for group in report.redundancies} == {4}
+
+
+def governor(*more: str) -> dict[str, Any]:
+    """Landau and Lifshitz, Mechanics, section 5: two masses and a collar on the axis, joined by links of length a."""
+    ends = [("O", "A"), ("O", "B"), ("A", "M"), ("B", "M")]
+    links = [{"type": "link", "between": [[0, 0, 0] if p == "O" else p, q], "length": "a"} for p, q in ends]
+    axis = {"type": "on", "members": ["M"], "curve": ["x = 0", "y = 0"]}
+    return {"particles": ["A", "B", "M"], "parameters": {"a": "positive"}, "constraints": [*links, axis, *more]}
+
+
+def test_the_governor_without_a_drawing() -> None:
+    """z_M (z_M - 2 z_A) = 0 by l1 - l3: with the collar at the pivot each mass has a sphere to itself, 4 freedoms; else
+    the height and two angles, 3."""
+    assert told(governor()) == moves(4, None, None)
+    # In one rotating plane, x = 0: at the pivot two circles, else the height alone.
+    assert told(governor("x_A = 0", "x_B = 0")) == moves(2, None, None)
+    # Where the collar is not at the pivot the larger part is left out.
+    assert told(governor("z_M = a")) == moves(2, None, None)

@@ -78,7 +78,7 @@ def compare(
 
     ``constants``: parameters that the answer brought with it, as constants of integration; ``engines`` decide.
     """
-    with precise_for(system.numbers):
+    with precise_for(system.longest):
         return _comparison(system, asked, answer, constants, engines).result()
 
 
@@ -87,7 +87,7 @@ def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> 
 
     Are the differentials of the answer and the forms the same in the presence of the others? None: undecided.
     """
-    with precise_for(system.numbers):
+    with precise_for(system.longest):
         return _comparison(system, asked, answer, frozenset()).integrates()
 
 
@@ -96,7 +96,7 @@ def leaves(system: System, asked: Sequence[int], answer: Sequence[int], constant
 
     ``constants``: coordinates of ``system`` that other constraints keep still; the leaves are numbered by them.
     """
-    with precise_for(system.numbers):
+    with precise_for(system.longest):
         return _comparison(system, asked, answer, frozenset()).leaves(constants)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -25,6 +25,9 @@ from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, N
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 
+#: The blocks that hold rows of a constraint, with their answers, by its number.
+BlocksOf = dict[int, list[tuple[Block, Answer]]]
+
 
 def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
     """Part by part, by the rank of the rows; where that does not measure dependence, by what follows from what.
@@ -35,21 +38,28 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     if not outcome.consistent:
         return found
     found += copied(reduced, outcome)
+    blocks: BlocksOf = defaultdict(list)
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        for i in dict.fromkeys(r.constraint for r in block.rows):
+            blocks[i].append((block, a))
     for numbers in _parts(reduced, outcome):
-        found += unless_late(partial(_of_part, reduced, setting, outcome, numbers), [left_open(numbers)])
+        found += unless_late(partial(_of_part, reduced, setting, blocks, numbers), [left_open(numbers)])
     return found
 
 
-def all_needed(found: Redundancies, reduced: Sequence[Reduced], outcome: Outcome) -> Redundancies:
+def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
     """With no equation too many, what was left open is needed, where every equation takes one freedom at most.
 
     One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
     if several or any(a.hidden or a.degenerate for a in outcome.answers):
-        return found
-    needed = {i: reduced[i].equations for i in found.undecided}
-    return replace(found, independent={**found.independent, **needed}, undecided=())
+        return list(found)
+    told = []
+    for r in found:
+        needed = {i: reduced[i].equations for i in r.undecided}
+        told.append(replace(r, independent={**r.independent, **needed}, undecided=()) if needed else r)
+    return told
 
 
 def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:
@@ -65,27 +75,22 @@ def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:
 
 
 def _of_part(
-    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, numbers: Sequence[int]
+    reduced: Sequence[Reduced], setting: Setting, blocks: BlocksOf, numbers: Sequence[int]
 ) -> list[Redundancies]:
     """Of constraints that share coordinates: those that take freedom away, then those that hold on whole regions."""
     regions = [i for i in numbers if is_region(reduced[i])]
     others = [i for i in numbers if i not in regions]
-    found = _of_relations(reduced, setting, outcome, others) if others else []
+    found = _of_relations(reduced, setting, blocks, others) if others else []
     gone = {i for r in found for i in r.redundant}
     kept = [i for i in others if i not in gone]
     return [*found, *unless_late(partial(of_regions, reduced, setting, regions, kept), [left_open(regions)])]
 
 
 def _of_relations(
-    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, numbers: Sequence[int]
+    reduced: Sequence[Reduced], setting: Setting, blocks_of: BlocksOf, numbers: Sequence[int]
 ) -> list[Redundancies]:
     """Of constraints that share coordinates: by implication where rank does not measure dependence, else by rank."""
-    own = set(numbers)
-    blocks = [
-        (block, a)
-        for block, a in zip(outcome.blocks, outcome.answers, strict=True)
-        if any(r.constraint in own for r in block.rows)
-    ]
+    blocks = list({id(block): (block, a) for i in numbers for block, a in blocks_of.get(i, ())}.values())
     if not _measured_by_rank(reduced, setting, numbers, blocks):
         normals = [n for i in numbers for n in reduced[i].normals]
         if _each_takes_one(normals, blocks):

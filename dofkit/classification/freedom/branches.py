@@ -191,13 +191,13 @@ def _first_order(
 
 def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original."""
-    seen: dict[tuple[object, ...], int] = {}
+    seen: dict[Hashable, int] = {}
     found = {}
     for i, r in enumerate(reduced):
         check()
         if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
             continue
-        key = tuple(sorted(repr(_up_to_a_number(normal)) for normal in r.normals))
+        key = frozenset(Counter(_up_to_a_number(normal) for normal in r.normals).items())
         if key in seen:
             found[i] = seen[key]
         else:
@@ -205,26 +205,24 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     return found
 
 
-def _up_to_a_number(normal: Normal) -> list[list[object]]:
-    return [[_scaled(p) for p in branch] for branch in normal.branches]
+def _up_to_a_number(normal: Normal) -> Hashable:
+    return tuple(tuple(_scaled(p) for p in branch) for branch in normal.branches)
 
 
-def _scaled(piece: object) -> object:
+def _scaled(piece: object) -> Hashable:
     """A piece with the first coefficient made 1."""
     if isinstance(piece, Finite):
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
         return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
-    return piece
+    return repr(piece)
 
 
 def _answered(
     names: Sequence[str], rows: list[Row], impossible: list[int], setting: Setting, known: AnsweredBlocks
 ) -> Outcome:
     blocks, untouched = blocks_of(names, rows, setting.reductions)
-    compared = len(blocks) > 1 and "twins" in setting.reductions
-    answers = [known.answer(block, setting, compared) for block in blocks]
-    return Outcome(rows, blocks, answers, untouched, impossible)
+    return Outcome(rows, blocks, known.answers(blocks, setting), untouched, impossible)
 
 
 class AnsweredBlocks:
@@ -237,12 +235,19 @@ class AnsweredBlocks:
         self._roles = {c.name: (c.owner, c.role) for c in system.coordinates}
         self._answers: dict[tuple[int, ...], tuple[Block, Answer]] = {}
         self._alike: dict[Hashable, tuple[tuple[str, ...], Answer]] = {}
+        self._shapes: set[Hashable] = set()
 
-    def answer(self, block: Block, setting: Setting, many: bool) -> Answer:
-        """The block's answer; of ``many`` blocks those that were answered are looked through for a twin."""
+    def answers(self, blocks: Sequence[Block], setting: Setting) -> list[Answer]:
+        """The blocks' answers; those that may be twins are looked through for one that was answered."""
+        shapes = Counter(map(_shape, blocks)) if len(blocks) > 1 and "twins" in setting.reductions else Counter()
+        self._shapes |= {shape for shape, times in shapes.items() if times > 1}
+        return [self._answer(block, setting) for block in blocks]
+
+    def _answer(self, block: Block, setting: Setting) -> Answer:
         same = tuple(id(p) for p in (*(row.piece for row in block.rows), *block.conditions))
         if same not in self._answers:
-            self._answers[same] = block, self._twin(block, setting) if many else in_time(block, setting)
+            twins = _shape(block) in self._shapes
+            self._answers[same] = block, self._twin(block, setting) if twins else in_time(block, setting)
         return self._answers[same][1]
 
     def _twin(self, block: Block, setting: Setting) -> Answer:
@@ -253,6 +258,11 @@ class AnsweredBlocks:
         found = in_time(block, setting)
         self._alike[key] = (block.coordinates, found)
         return found
+
+
+def _shape(block: Block) -> Hashable:
+    """Equal for blocks that differ in names only, and soon told."""
+    return len(block.coordinates), tuple(type(row.piece) for row in block.rows), len(block.conditions)
 
 
 def in_time(block: Block, setting: Setting) -> Answer:

@@ -27,7 +27,8 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
     """The branches that hold at the reference configuration; all of them where none is given, or none holds there."""
     if setting.reference is None:
         return normal
-    normal = _at_kinks(normal, {**setting.reference, ex.TIME: ex.ZERO}, setting.positive)
+    if any(isinstance(p, Finite) and arguments_of(p.expr) for branch in normal.branches for p in branch):
+        normal = _at_kinks(normal, {**setting.reference, ex.TIME: ex.ZERO}, setting.positive)
     if len(normal.branches) < 2:
         return normal
     kept = tuple(b for b in normal.branches if _holds(b, setting))

@@ -137,8 +137,9 @@ def _searched(outcome: Outcome, told: GenericAnswer) -> list[SearchedBlock]:
     roles = {c.name: (c.owner, c.role) for c in told.system.coordinates}
     fruitless: set[Hashable] = set()
     found = []
-    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
-        key = alike(block, told.setting, roles) if len(outcome.blocks) > 1 else None
+    looked = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if _is_searched(b, a, told)]
+    for block, a in looked:
+        key = alike(block, told.setting, roles) if len(looked) > 1 else None
         one = None if key in fruitless else _search(block, a, told)
         if one is not None:
             found.append(one)
@@ -160,10 +161,14 @@ def _merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
     return list(kept.values())
 
 
+def _is_searched(block: Block, a: Answer, told: GenericAnswer) -> bool:
+    return _small(block, a) and _plain(block, told)
+
+
 def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | None:
-    """The candidates of a block; None where it is not searched."""
+    """The candidates of a block; None where it takes too long."""
     system = told.system
-    if not _small(block, a) or not _plain(block, told) or expired():
+    if expired():
         return None
     nonzero = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "nonzero")
     rank = None if a.velocity_dof is None else len(block.coordinates) - a.velocity_dof
@@ -177,11 +182,10 @@ def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | Non
 
 def _small(block: Block, a: Answer) -> bool:
     """Few short rows, all linear in the velocities, with an answer."""
-    terms = sum(len(e.args) if e.op == "add" else 1 for e in expressions(block))
     return (
-        terms <= MAX_TERMS
-        and len(block.rows) + len(a.hidden) <= MAX_ROWS
+        len(block.rows) + len(a.hidden) <= MAX_ROWS
         and len(block.coordinates) <= MAX_COLUMNS
+        and sum(len(e.args) if e.op == "add" else 1 for e in expressions(block)) <= MAX_TERMS
         and not block.nonlinear
         and not a.degenerate
         and (a.velocity_dof is not None or a.consistent is False)

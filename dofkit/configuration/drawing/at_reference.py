@@ -10,7 +10,7 @@ from typing import Any
 from flint import arb, ctx
 
 from dofkit.base.verdicts import VERDICTS
-from dofkit.configuration.drawing.dependent_classes import chart_of, dependent_parts
+from dofkit.configuration.drawing.dependent_classes import DependentClass, chart_of, dependent_parts, widened
 from dofkit.configuration.drawing.fewer_coordinates import smaller
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.configuration.local.dimension import local_at, numeric_dimension
@@ -20,7 +20,7 @@ from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.modular import rank_of, without_time
-from dofkit.exact.matrices.sparse import SparseRow, echelon, rank_of_rows, sparse
+from dofkit.exact.matrices.sparse import Echelon, SparseRow, echelon, rank_of_rows, sparse
 from dofkit.exact.points.balls import BallPoint, jacobian, precision
 from dofkit.exact.points.exact import exact_rank, rational_values
 from dofkit.exact.points.field import FieldPoint
@@ -148,7 +148,8 @@ def _by_parts(
     dimension = len(chart.columns) - rank
     if rank == len(matrix):
         return LocalDimension(dimension, "proved", INDEPENDENT, argument="independent relations"), FollowedClasses(rank)
-    parts = dependent_parts(chart, echelon(matrix, p, supports=True))
+    reduced = echelon(matrix, p, supports=True)
+    parts = dependent_parts(chart, reduced)
     if len(parts) == 1 and len(parts[0].rows) == len(matrix):
         return None
     found = []
@@ -156,6 +157,8 @@ def _by_parts(
     for part in parts:
         own = chart_of(chart, part.rows)
         local, spared = _of_part(own, known, part.rank)
+        if local is None:
+            own, local, spared = _of_wider_part(chart, known, part, reduced)
         if local is None:
             return None
         found.append(local)
@@ -184,6 +187,17 @@ def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local
         return LocalDimension(left, "proved", RIGID, argument="rigid to first order"), 0
     local, spared = _with_fewer(chart, known, point, fields)
     return (local if local.dimension == left else None), spared
+
+
+def _of_wider_part(
+    chart: Chart, known: Mapping[Expr, Expr], part: DependentClass, found: Echelon
+) -> tuple[Chart, LocalDimension | None, int]:
+    """A class with all that is said of its bodies, where that is more and not all there is."""
+    wide = widened(chart, part, found)
+    if not len(part.rows) < len(wide.rows) < len(chart.relations):
+        return chart, None, 0
+    own = chart_of(chart, wide.rows)
+    return own, *_of_part(own, known, wide.rank)
 
 
 def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:

@@ -8,7 +8,8 @@ at: what hangs on a mechanism as a tree, or is determined one by one, never ente
 are apart.
 
 Two rows are in one class where a minimal dependent set holds both. Beside a class those relations are kept that
-mention its coordinates only: without them a bar across a square could not tell that the square is held.
+mention its coordinates only: without them a bar across a square could not tell that the square is held. Where that is
+not enough, all that is said of its bodies is looked at (`widened`).
 """
 
 from __future__ import annotations
@@ -51,6 +52,20 @@ def dependent_parts(chart: Chart, found: Echelon) -> list[DependentClass]:
         rows = tuple(sorted(component | beside))
         parts.append(DependentClass(rows, len(rows) - sum(r in found.supports for r in rows)))
     return sorted(parts, key=lambda part: part.rows)
+
+
+def widened(chart: Chart, part: DependentClass, found: Echelon) -> DependentClass:
+    """The class with all that is said of the bodies and particles that it mentions: a loop with all of its joints.
+
+    The height alone of hinges whose axes are upright closes round a loop to first order only; beside the other
+    equations of these hinges it follows from them. Dependent rows of other classes come along with their own.
+    """
+    owners = {c.name: c.owner for c in chart.roles if c.owner is not None}
+    mentioned = [frozenset(owners.get(s.args[1], s) for s in g.symbols) for g in chart.relations]
+    held = frozenset[object]().union(*(mentioned[i] for i in part.rows))
+    within = {i for i, those in enumerate(mentioned) if those <= held}
+    rows = {i for i in within if i not in found.supports or within.issuperset(found.supports[i])} | {*part.rows}
+    return DependentClass(tuple(sorted(rows)), len(rows) - sum(i in found.supports for i in rows))
 
 
 def chart_of(chart: Chart, rows: Sequence[int]) -> Chart:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
@@ -42,9 +42,8 @@ def precision() -> int:
 
 
 @contextmanager
-def precise_for(numbers: Iterable[Fraction]) -> Iterator[None]:
-    """Compute with balls that tell apart within what these numbers do."""
-    longest = max((max(abs(n.numerator), n.denominator).bit_length() for n in numbers), default=0)
+def precise_for(longest: int) -> Iterator[None]:
+    """Compute with balls that tell apart within what numbers of so many bits do."""
     token = _more.set(2 * max(0, longest - SHORT))
     try:
         with ctx.workprec(precision()):

@@ -43,10 +43,6 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
     return denominators
 
 
-def _has_functions(e: Expr) -> bool:
-    return e.op in ("fn", "pow", "call") or any(_has_functions(child) for child in ex.children(e))
-
-
 def _family(node: Expr) -> str | None:
     if node.op == "pow":
         return None if node.args[1].op == "num" else "exp"
@@ -73,7 +69,7 @@ class Ring(Instructions):
         self._bases: dict[Expr, Expr] = {}
         self.positive = positive
         self.alias = alias or {}
-        given = [e for e in expressions if _has_functions(e)]
+        given = [e for e in expressions if e.functions]
         self._denominators = _angle_arguments(given, self.alias)
         self._split = split_logs(given, positive)
         self._memo: dict[Expr, int] = {}

@@ -10,11 +10,12 @@ import os
 import stat
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
 from itertools import islice
 from typing import Any, BinaryIO
 
+from dofkit.homework.answers.roster import named_by
 from dofkit.homework.answers.submission import (
     MOST_BYTES,
     FilePlace,
@@ -24,11 +25,14 @@ from dofkit.homework.answers.submission import (
     of_value,
     reason,
     refused,
+    shaped,
 )
 from dofkit.homework.answers.tables import DELIMITERS, MOST_CHARACTERS, STUDENT, Columns, TableError, rows
 
 DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), (".csv", ".tsv")
 STDIN = "-"
+#: What a file with answers is called that tells nothing of who hands it in.
+GENERIC = frozenset({"answers", "answer", "submission", "solution", "antworten", "abgabe", "homework", "sheet"})
 #: Files that systems leave in folders.
 _LEFT = frozenset({"thumbs.db", "desktop.ini", "__macosx"})
 
@@ -37,20 +41,22 @@ _LEFT = frozenset({"thumbs.db", "desktop.ini", "__macosx"})
 class Handed:
     """What was handed in at a place: the text of a document, the mapping of a table's row, or why there is neither.
 
-    ``name``: the student's name where it gives none.
+    ``name``: the student's name where it gives none. ``claims``: the names of the file and of the folders it was found
+    in, the innermost first: a roster knows whether they are somebody's.
     """
 
     name: str
     place: FilePlace
     data: bytes | Mapping[str, object] | None = None
     error: str = ""
+    claims: tuple[str, ...] = ()
 
-    def submissions(self) -> list[Submission]:
-        """Read it."""
+    def submissions(self, known: Columns) -> list[Submission]:
+        """Read it; ``known``: the assignment's columns."""
         if self.data is None:
             return [refused(self.name, self.place, self.error)]
         if isinstance(self.data, bytes):
-            return of_text(self.data, self.name, self.place)
+            return of_text(self.data, self.name, self.place, known)
         return [of_value(self.data, self.name, self.place)]
 
     def digest(self) -> str:
@@ -68,9 +74,9 @@ class Handed:
 def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], known: Columns) -> Submission:
     """The one submission of a file or folder, or of a mapping ``{student, answers}``."""
     if isinstance(source, Mapping):
-        return of_value(source, "")
+        return of_value(shaped(source, known), "")
     path = os.fspath(source)
-    found = list(islice((one for h in hand_ins([path], known) for one in h.submissions()), 2))
+    found = list(islice((one for h in hand_ins([path], known) for one in h.submissions(known)), 2))
     if len(found) == 1:
         return found[0]
     return refused(_stem(clean(path)), FilePlace(clean(path)), "it holds more than one submission")
@@ -85,10 +91,34 @@ def hand_ins(sources: Sequence[str], known: Columns, others: Iterable[str | os.P
     for source in sources:
         nothing = True
         for one in _source(source, known, left_out):
-            yield one
+            yield _claimed(one, source)
             nothing = False
         if nothing:
             yield _unreadable(source, "there is no submission in it")
+
+
+def _claimed(one: Handed, source: str) -> Handed:
+    """The same with who may have handed it in, by the names of its file and of its folders below ``source``.
+
+    A document called "answers" or the like, or as Moodle calls it, is its folder's, or that of the name that Moodle
+    gives.
+    """
+    path = one.place.file
+    if source == STDIN or not path:
+        return one
+    within = os.path.relpath(path, clean(source)) if os.path.isdir(source) else os.path.join(*_last_two(path))
+    *folders, _ = [part for part in within.split(os.sep) if part not in ("", os.curdir, os.pardir)]
+    stem = _stem(path)
+    claims = (stem, *reversed(folders)) if os.path.isdir(source) or stem.lower() in GENERIC else (stem,)
+    if one.name != stem or not isinstance(one.data, bytes | None):
+        return replace(one, claims=claims)
+    own = claims[1] if stem.lower() in GENERIC and len(claims) > 1 else stem
+    return replace(one, claims=claims, name=next(named_by(own)))
+
+
+def _last_two(path: str) -> tuple[str, str]:
+    folder, name = os.path.split(path)
+    return os.path.basename(folder), name
 
 
 def _source(source: str, known: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
@@ -203,10 +233,11 @@ def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
     try:
         for row in rows(lines, known):
             place = FilePlace(file, row.line)
+            student = row.student or _stem(file)
             if row.error is not None:
                 yield Handed(row.student, place, error=row.error)
             else:
-                yield Handed(row.student, place, {"student": row.student, "answers": row.answers})
+                yield Handed(student, place, {"student": student, "answers": row.answers})
     except (TableError, UnicodeError) as error:
         yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
 

@@ -1,7 +1,8 @@
 """Coursera's ``feedback.json``: a share of the points, and a text.
 
 Coursera takes a number and nothing else, and has no review by a person. So that an answer that could not be decided is
-neither zero nor full marks there, half of its points stand in for it, and the text begins with saying so.
+neither zero nor full marks there, half of its points stand in for it, and the text begins with saying so. One that
+could not be read has none, and the text says that it can be handed in again.
 """
 
 from __future__ import annotations
@@ -31,6 +32,10 @@ def document(result: Result) -> dict[str, Any]:
             f"Provisional: {number(OPEN_SHARE * waiting)} points stand in for answers worth {number(waiting)} that "
             f"could not be decided.\n\n{told}"
         )
+    unread = sum(item.max_score for item in result.items if item.status == "unreadable" and not stand_in(item))
+    if unread:
+        again = "Write them in another way, and hand in again."
+        told = f"Answers worth {number(unread)} points could not be read. {again}\n\n{told}"
     return {
         "fractionalScore": provisional(result) / result.max_score if result.max_score else 0.0,
         "feedback": told,

@@ -95,13 +95,17 @@ def stand_in(item: Item) -> float:
 
 def decided(result: Result) -> bool:
     """Whether every answer has its points, so that the score is final."""
-    return result.error is None and result.score is not None and not result.needs_review
+    known = result.error is None and result.doubt is None and result.score is not None
+    return known and not result.needs_review
 
 
 def standing(result: Result) -> str:
     """How the submission stands, in a sentence or two."""
     if result.error is not None:
         return f"This submission could not be graded: {plain(result.error)}"
+    if result.doubt is not None:
+        told = standing(result.model_copy(update={"doubt": None}))
+        return f"This is not final, for {plain(result.doubt)}.\n{told}"
     comment = f"Points: {number(result.score or 0.0)} of {number(result.max_score)}."
     if not result.needs_review:
         return comment

@@ -24,7 +24,11 @@ from dofkit.scene.fields import as_written
 from dofkit.scene.names import coordinate_table
 from dofkit.scene.parts import Force, show_point
 
-_SIGNED = {"real": "a constant", "positive": "a positive constant", "nonzero": "a constant that is not 0"}
+_SIGNED = {
+    "real": "{names}: a constant.",
+    "positive": "{names}: a positive constant.",
+    "nonzero": "{names}: a constant that is not 0.",
+}
 _FREEDOM = {
     "configuration": "Degrees of freedom are here the dimension of the configuration space.",
     "velocity": "Degrees of freedom are here the number of independent velocities.",
@@ -53,10 +57,12 @@ class SheetComposer:
         assignment = self.prepared.assignment
         blocks = [f"# {marked(assignment.title)}"]
         if self.whose is not None:
-            blocks.append(f"**{self.told('This is the sheet of {student}.', student=marked(self.whose))}**")
+            whose = self.told("This is the sheet of {student}.", student=marked(self.whose))
+            blocks.append(f"**{whose}**")
         for n, problem in enumerate(assignment.problems, 1):
             blocks += self._problem(n, problem)
-        blocks += [f"## {self.told('How to write answers')}", "\n".join(f"- {way}" for way in self._ways())]
+        heading = self.told("How are answers written?")
+        blocks += [f"## {heading}", "\n".join(f"- {way}" for way in self._ways())]
         return "\n\n".join(blocks) + "\n"
 
     def _problem(self, n: int, problem: Problem) -> Iterator[str]:
@@ -64,10 +70,11 @@ class SheetComposer:
         whole = sum((q.points for q in problem.questions), Fraction(0))
         yield f"## {n}. {marked(problem.title or problem.id)} ({self._points(whole)})"
         if problem.text is not None:
-            yield filled(problem.text, key.scene).strip()
+            yield filled(problem.text, key.scene, asked_equations(problem)).strip()
         figure = self.figures.get(problem.id)
         if figure is not None:
-            yield f"![{self.told('Figure {number}', number=n)}]({figure.path})"
+            caption = self.told("Figure {number}", number=n)
+            yield f"![{caption}]({figure.path})"
         names = list(self._names(problem, key))
         if names:
             yield "\n".join(f"- {one}" for one in names)
@@ -77,8 +84,7 @@ class SheetComposer:
         )
 
     def _points(self, points: Fraction) -> str:
-        count = number(float(points))
-        return self.told("1 point") if count == "1" else self.told("{number} points", number=count)
+        return self.told("points: {number}", number=number(float(points)))
 
     def _asked(self, question: QuestionBase) -> str:
         constraint = getattr(question, "constraint", None) is not None
@@ -91,28 +97,27 @@ class SheetComposer:
         for owner, group in groupby(table.coordinates, key=lambda c: c.owner):
             symbols = ", ".join(f"${c.name}$" for c in group)
             if owner is None:
-                yield self.told("{names}: coordinates", names=symbols)
+                yield self.told("{names}: coordinates.", names=symbols)
             elif owner in table.bodies and key.scene.dimension > 1:
                 yield self.told(
-                    "{names}: the place and the orientation of the body {owner}", names=symbols, owner=owner
+                    "{names}: the place and the orientation of the body {owner}.", names=symbols, owner=owner
                 )
             else:
-                yield self.told("{names}: the place of {owner}", names=symbols, owner=owner)
+                yield self.told("{names}: the place of {owner}.", names=symbols, owner=owner)
         for name, value in key.scene.parameters.items():
             sign = _SIGNED.get(str(value))
-            yield f"${name}$: {self.told(sign)}" if sign else f"${name} = {as_written(value)}$"
+            yield self.told(sign, names=f"${name}$") if sign else f"${name} = {as_written(value)}$"
         for name, arguments in key.scene.functions.items():
-            yield self.told("{names}: an unknown smooth function", names=f"${name}({', '.join(arguments)})$")
-        hidden = {name for q in problem.questions if isinstance(q, EquationQuestion) for name in q.constraint}
+            yield self.told("{names}: an unknown smooth function.", names=f"${name}({', '.join(arguments)})$")
         if (ALL, None) not in places(problem.text or ""):
-            yield from self._constraints(key, hidden)
+            yield from self._constraints(key, asked_equations(problem))
             yield from map(_of_force, key.scene.forces)
         yield from self._further(problem, key)
 
     def _constraints(self, key: Key, hidden: set[str]) -> Iterator[str]:
         for constraint, name in zip(key.scene.constraints, key.constraints, strict=True):
             if constraint.facts.written and name in hidden:
-                yield self.told("{names}: a constraint", names=f"`{name}`")
+                yield self.told("{names}: a constraint.", names=f"`{name}`")
             else:
                 yield f"`{name}`: {shown(constraint)}"
 
@@ -131,10 +136,15 @@ class SheetComposer:
             yield self.told(_FREEDOM[self.prepared.assignment.convention])
         for cls in kinds.values():
             example = safe_example(self.prepared, cls)
-            more = f" {self.told('Of another system, for example:')} `{example}`" if example is not None else ""
-            yield self.told(cls.how) + more
+            lead = self.told("Of another system, for example:")
+            yield self.told(cls.how) + (f" {lead} `{example}`" if example is not None else "")
         yield self.told("Greek letters may be typed as such or as words: theta, omega. LaTeX is read as well.")
         yield self.told("A decimal number has a point or a comma; exact numbers, such as 1/3 or sqrt(2), are better.")
+
+
+def asked_equations(problem: Problem) -> set[str]:
+    """The constraints whose equations are asked for."""
+    return {name for q in problem.questions if isinstance(q, EquationQuestion) for name in q.constraint}
 
 
 def safe_example(prepared: Prepared, kind: type[QuestionBase]) -> str | None:

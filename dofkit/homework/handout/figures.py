@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.spelling import no_such
-from dofkit.homework.formats.wording import stem
 from dofkit.homework.problem import DRAWN, UNDRAWN, Problem
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
@@ -37,9 +36,11 @@ class SheetFigure(NamedTuple):
         return KINDS[Path(self.path).suffix.lower()]
 
 
-def figure_of(problem: Problem, drawn: Callable[[], str | None], base: Path) -> SheetFigure | None:
-    """The picture of a problem; ``drawn`` draws its scene. Raises FigureError, and OSError for what cannot be read."""
-    name = f"figures/{stem(problem.id)}"
+def figure_of(problem: Problem, drawn: Callable[[], str | None], base: Path, name: str) -> SheetFigure | None:
+    """The picture of a problem; ``drawn`` draws its scene, ``name`` is its path in the sheet without the ending.
+
+    Raises FigureError, and OSError for what cannot be read.
+    """
     if problem.figure == UNDRAWN:
         return None
     if problem.figure in (None, DRAWN):

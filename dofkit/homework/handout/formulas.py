@@ -26,7 +26,7 @@ _ACCENTS = {
 _SPECIAL = frozenset("#$\\/_^&~\"'`()[]{},;|*@<>:=-.+!")
 
 #: What the converter raises for what is no LaTeX, and the parser for what is no MathML.
-_REFUSALS = (
+_REFUSALS: tuple[type[Exception], ...] = (
     *(kind for kind in vars(exceptions).values() if isinstance(kind, type) and issubclass(kind, Exception)),
     ValueError, LookupError, TypeError, AttributeError, RuntimeError, ElementTree.ParseError,
 )  # fmt: skip

@@ -83,7 +83,7 @@ def pdf_of(typst: str, pictures: Mapping[str, bytes]) -> bytes:
             path.write_bytes(data)
         source = Path(folder) / "sheet.typ"
         source.write_text(typst, encoding="utf-8")
-        return bytes(compiled(source, root=folder, format="pdf"))
+        return bytes(compiled(source, root=Path(folder), format="pdf"))
 
 
 def pdf_of_picture(svg: bytes) -> bytes:

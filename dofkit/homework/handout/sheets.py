@@ -35,11 +35,11 @@ def written_sheet(prepared: Prepared, draw: Draw, whose: str | None = None) -> W
     of_problem: dict[str, SheetFigure] = {}
     others: dict[str, SheetFigure] = {}
     for problem in prepared.assignment.problems:
-        figure = _figure(problem, prepared, draw)
+        figure = _figure(problem, prepared, draw, whose)
         if figure is not None:
             of_problem[problem.id] = figure
         for n, source in enumerate(dict.fromkeys(pictures_of(problem.text or "")), 1):
-            others[source] = file_of(source, prepared.base, f"figures/{stem(problem.id)}-{n}")
+            others[source] = file_of(source, prepared.base, f"{_path(problem, whose)}-{n}")
     assignment = prepared.assignment
     markdown = SheetComposer(prepared, of_problem, whose).markdown()
     for source, figure in others.items():
@@ -48,9 +48,15 @@ def written_sheet(prepared: Prepared, draw: Draw, whose: str | None = None) -> W
     return WrittenSheet(markdown, assignment.title, assignment.language, figures)
 
 
-def _figure(problem: Problem, prepared: Prepared, draw: Draw) -> SheetFigure | None:
+def _figure(problem: Problem, prepared: Prepared, draw: Draw, whose: str | None) -> SheetFigure | None:
     key = prepared.keys[problem.id]
-    return figure_of(problem, lambda: draw(key.scene, key.report, problem.title or problem.id), prepared.base)
+    path = _path(problem, whose)
+    return figure_of(problem, lambda: draw(key.scene, key.report, problem.title or problem.id), prepared.base, path)
+
+
+def _path(problem: Problem, whose: str | None) -> str:
+    """Where the picture of a problem stands in the sheet's folder, without its ending; each student has another."""
+    return "/".join(["figures", *([] if whose is None else [stem(whose)]), stem(problem.id)])
 
 
 def _html(sheet: WrittenSheet, out: Path) -> None:

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Literal
 
 from dofkit.base.errors import DofkitError
+from dofkit.classification.dependence.equivalence import Compared
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import coordinate
 from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
@@ -24,9 +25,9 @@ MOST_KNOWN = 4096
 #: Scenes with coordinates of answers' own that are kept.
 MOST_EXTENDED = 256
 
+#: Names of constraints, the equations beside them, and their constants.
+ComparedTexts = tuple[tuple[str, ...], tuple[str, ...], frozenset[str]]
 Convention = Literal["configuration", "velocity"]
-#: Seconds for what dofkit says of an assignment's scene.
-SCENE_SECONDS = 60.0
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,19 @@ class Key:
                 return found
             self._known[what, chosen] = found
         return self._known[what, chosen]
+
+    @cached_property
+    def _compared(self) -> dict[ComparedTexts, Compared]:
+        return {}
+
+    def compared(self, texts: ComparedTexts, compare: Callable[[], Compared]) -> Compared:
+        """What equations come to beside the constraints, worked out once for all who write the same in other ways."""
+        known = self._compared.get(texts)
+        if known is None:
+            known = compare()
+            if len(self._compared) < MOST_KNOWN:
+                self._compared[texts] = known
+        return known
 
     @cached_property
     def names(self) -> Names:

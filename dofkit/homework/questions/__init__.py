@@ -11,9 +11,9 @@ from dofkit.homework.questions.equations import EquationQuestion, IntegralQuesti
 from dofkit.homework.questions.labels import LabelQuestion
 from dofkit.homework.questions.motion import GeneralizedForce, Lagrangian, Momentum, MotionQuestion
 from dofkit.homework.questions.names import Coordinates, Redundant
-from dofkit.homework.questions.numbers import CountQuestion, Dof, VelocityDof
+from dofkit.homework.questions.numbers import CountQuestion, Dof, NumberQuestion, VelocityDof
 
-__all__ = ["KINDS", "AnyQuestion", "Earlier", "Identifier", "Points", "QuestionBase"]
+__all__ = ["KINDS", "AnyQuestion", "Earlier", "Identifier", "NumberQuestion", "Points", "QuestionBase"]
 
 AnyQuestion = Annotated[
     Dof

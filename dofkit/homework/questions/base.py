@@ -17,12 +17,18 @@ from dofkit.scene.fields import Number, WrittenModel, exact, fault_error
 
 #: The numbers that a student gave to earlier questions of the same problem, by what was asked.
 Earlier = Mapping[str, Fraction]
+#: The points that a question may have, where it has any.
+FEWEST_POINTS, MOST_POINTS = Fraction(1, 1000), 1_000_000
 
 
 def _points(value: object) -> object:
     found = exact(value)
     if found < 0:
         raise fault_error(f"points are not negative, as {value} is", "write 0 or more")
+    if found > MOST_POINTS or 0 < found < FEWEST_POINTS:
+        raise fault_error(
+            f"no question is worth {value} points", f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
+        )
     return found
 
 

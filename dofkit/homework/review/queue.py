@@ -47,7 +47,7 @@ class Queue:
         """One more submission."""
         for item in result.items:
             if item.score is None or item.decided_by is not None:
-                identity = answer_id(item.problem, item.question, item.answer or "")
+                identity = answer_id(item.problem, item.question, item.answer or "", item.variant or "")
                 queued = self.answers.setdefault(identity, QueuedAnswer(identity, item))
                 queued.add(result.student, link)
 

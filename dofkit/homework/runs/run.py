@@ -13,9 +13,11 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base.workers.pool import cores
+from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
+from dofkit.homework.formats.apart import apart_path
 from dofkit.homework.result import Result
 from dofkit.homework.runs.appeals import write_certificates
 from dofkit.homework.runs.batch import Orders, ResultLine
@@ -24,6 +26,7 @@ from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
 from dofkit.homework.runs.journal import Journal, fingerprint, ledger
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.homework.runs.review_files import ReviewPaths, RunReview
+from dofkit.homework.runs.rostered import rostered
 
 NATIVE = "native"
 #: What results in our own format are called in a folder.
@@ -35,6 +38,7 @@ class GradingOptions:
     """What the command line says besides the files. ``out``: where results go, None for standard output.
 
     ``certificates``: the folder of what the keys rest on, for appeals. ``reviewed``: a table that a person filled in.
+    ``roster``: the table of who is in the course.
     """
 
     form: str = NATIVE
@@ -44,6 +48,7 @@ class GradingOptions:
     check_only: bool = False
     certificates: Path | None = None
     reviewed: Path | None = None
+    roster: Path | None = None
 
     @property
     def format(self) -> Format:
@@ -81,7 +86,8 @@ class GradingOptions:
         path, review = self.native, self.review
         if self.out is None or path is None:
             return []
-        return [self.out, path, ledger(path), *([] if review is None else [review.table, review.page])]
+        beside = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
+        return [self.out, path, ledger(path), *beside]
 
 
 def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
@@ -94,13 +100,14 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         if path.resolve() in [Path(given).resolve() for given in (assignment, *sources)]:
             raise FormatError(f"--out would overwrite {path}, which is read")
     prepared = load_assignment(assignment)
+    roster = None if options.roster is None else load_roster(options.roster)
     review = RunReview.read(prepared, options.reviewed, options.review)
     prepared = review.applied(prepared)
     orders = Orders.of(prepared, options.check_only)
-    others = [assignment, *options.written, *([] if options.reviewed is None else [options.reviewed])]
+    others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
-        one = _Run(form, prepared, orders, crew, seen)
+        one = _Run(form, prepared, orders, crew, seen, roster)
         if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
@@ -132,13 +139,14 @@ class _Run:
     orders: Orders
     crew: GradingCrew
     seen: HandedIn
+    roster: Roster | None = None
     failed: int = 0
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
         """Print results as they come."""
         lines = (line.text for _, found in self._with_lines(stream, sys.stdout.isatty()) for line in found)
         if self.form.name != NATIVE:
-            self.form.write(map(Result.model_validate_json, lines), self.prepared, sys.stdout)
+            self.form.written(map(Result.model_validate_json, lines), self.prepared, sys.stdout, self.roster)
             return
         utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
         for text in lines:
@@ -149,13 +157,13 @@ class _Run:
 
         ``path``: where results stand in our own.
         """
-        with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only))) as journal:
+        with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only, self.roster))) as journal:
             left = journal.remaining(stream, self.seen)
             self.failed += journal.failed
             for one, lines in self._with_lines(left, False):
                 journal.write(one, lines)
         if self.form.name != NATIVE:
-            self.form.write(_results(path), self.prepared, out)
+            self.form.written(_results(path), self.prepared, out, self.roster)
         review.write(path, self.prepared)
         if self.form.name != NATIVE:
             path.unlink()
@@ -165,7 +173,8 @@ class _Run:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            for one, lines in without_repeats(self.orders, in_order(self.crew, stream), self.seen):
+            graded = rostered(self.roster, in_order(self.crew, stream))
+            for one, lines in without_repeats(self.orders, graded, self.seen):
                 self.failed += sum(line.failed for line in lines)
                 yield one, lines
                 bar.update(task, advance=len(lines))

@@ -75,7 +75,7 @@ def configurations(
     given = scene_or_system(scene)
     system = given if isinstance(given, System) else lower(given)
     try:
-        with limited(DEFAULT_SECONDS), precise_for(system.numbers):
+        with limited(DEFAULT_SECONDS), precise_for(system.longest):
             return _Sampled(system, dict(values or {}), along).configurations(steps, step, both)
     except OutOfTimeError as error:
         raise NoMotionError(str(error)) from None

@@ -28,6 +28,8 @@ MAX_ARGUMENTS = 4
 
 def arguments_of(e: Expr) -> list[Expr]:
     """What stands in absolute values and in roots of squares."""
+    if e.functions.isdisjoint(("abs", "pow")):
+        return []
     every = list(ex.nodes(e))
     found = [node.args[1] for node in every if node.op == "fn" and node.args[0] == "abs"]
     found += [node.args[0].args[0] for node in every if _root_of_square(node)]
@@ -36,7 +38,7 @@ def arguments_of(e: Expr) -> list[Expr]:
 
 def with_absolute_values(e: Expr, positive: frozenset[Expr]) -> Expr:
     """``e`` with roots of squares that are written out as absolute values: sqrt(x^2 + 2 x y + y^2) is abs(x + y)."""
-    if not any(_root_of_sum(node) for node in ex.nodes(e)):
+    if "pow" not in e.functions or not any(_root_of_sum(node) for node in ex.nodes(e)):
         return e
     ring = Ring((), positive)
 

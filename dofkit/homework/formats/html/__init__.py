@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, FormatError, Target
 from dofkit.homework.formats.html.overview import Overview
@@ -20,13 +21,13 @@ from dofkit.homework.formats.wording import FileNames
 from dofkit.homework.result import Result
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
-    """A folder of pages. Raises FormatError for what is no folder."""
+def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    """A folder of pages; by class where a ``roster`` tells them. Raises FormatError for what is no folder."""
     if not isinstance(target, Path) or (target.exists() and not target.is_dir()):
         raise FormatError("the format html writes a folder: name one with --out")
     folder = target / "students"
     folder.mkdir(parents=True, exist_ok=True)
-    names, overview = FileNames(), Overview(prepared)
+    names, overview = FileNames(), Overview(prepared, roster)
     for result in results:
         name = names.of(result.student)
         page = rendered("student.html", page=student_page(result, prepared))
@@ -37,4 +38,4 @@ def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None
     (target / "index.html").write_text(rendered("overview.html", page=overview.page()), encoding="utf-8")
 
 
-HTML = Format("html", write, needs_path=True, folder=lambda path: True)
+HTML = Format("html", write, needs_path=True, folder=lambda path: True, write_known=write)

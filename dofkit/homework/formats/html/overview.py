@@ -7,9 +7,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.html.pages import BADGES, percent, question_text
 from dofkit.homework.formats.wording import number
+from dofkit.homework.item_analysis import ItemAnalysis, QuestionFigures
 from dofkit.homework.key.codes import CODES
 from dofkit.homework.result import Item, Result, Status
 from dofkit.homework.review.queue import Queue, QueuedAnswer
@@ -85,6 +87,7 @@ class Question(NamedTuple):
     most: float
     unread: int
     given: int
+    figures: QuestionFigures
 
     @property
     def doubt(self) -> str:
@@ -95,10 +98,12 @@ class Question(NamedTuple):
 
 
 class Overview:
-    """The page of a run: ``add`` every submission, then ``page``."""
+    """The page of a run: ``add`` every submission, then ``page``. A ``roster`` knows who is in which class."""
 
-    def __init__(self, prepared: Prepared) -> None:
+    def __init__(self, prepared: Prepared, roster: Roster | None = None) -> None:
         self.prepared = prepared
+        self.roster = roster
+        self.analysis = ItemAnalysis()
         self.most = float(sum(question.points for _, question in prepared.questions()))
         self.scores: Counter[float] = Counter()
         self.statuses: dict[tuple[str, str], Counter[Status]] = {
@@ -108,20 +113,24 @@ class Overview:
         self.decided: Counter[tuple[str, str]] = Counter()
         self.codes: Counter[str] = Counter()
         self.queue = Queue(list(self.statuses))
-        self.errors, self.students = Listed(), Listed()
+        self.errors, self.doubts, self.students = Listed(), Listed(), Listed()
         self.unfinished = 0
 
     def add(self, result: Result, link: str) -> None:
         """One more submission; ``link``: where its page is."""
         self.students.add(Student(result.student, link, result))
+        if result.doubt is not None:
+            self.doubts.add(Student(result.student, link, result))
         if result.error is not None:
             self.errors.add(Student(result.student, link, result))
             return
-        if result.needs_review:
+        if result.needs_review or result.doubt is not None:
             self.unfinished += 1
         else:
             self.scores[round(result.score or 0.0, 2)] += 1
         self.queue.add(result, link)
+        member = None if self.roster is None else self.roster.find(result.student)
+        self.analysis.add(result, "" if member is None else member.section)
         for item in result.items:
             self._item(item)
 
@@ -151,6 +160,7 @@ class Overview:
             "different": len(waiting),
             "open_count": sum(queued.count for queued in waiting),
             "errors": self.errors,
+            "doubts": self.doubts,
             "students": self.students,
         }
 
@@ -164,7 +174,7 @@ class Overview:
             mean = self.gained[place] / known if known else None
             yield Question(
                 f"{problem.id}.{question.id}", question_text(question), shares, mean, float(question.points),
-                counts["unreadable"], given,
+                counts["unreadable"], given, self.analysis.figures(*place),
             )  # fmt: skip
 
 

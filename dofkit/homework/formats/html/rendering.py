@@ -33,13 +33,11 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters.update(plain=plain, line=line, number=number, stop=stop_of, marked=_marked)
+    environment.filters.update(plain=plain, line=line, number=number, stop=stop_of, pieces=_pieces)
     environment.globals["badges"] = BADGES
     return environment
 
 
-def _marked(text: str) -> Any:
-    """A text in which names stand between backquotes, as markup."""
-    from jinja2.utils import markupsafe
-
-    return markupsafe.Markup(_NAME.sub(r"<code>\1</code>", str(markupsafe.escape(plain(text)))))
+def _pieces(text: str) -> list[str]:
+    """A text cut at the names between backquotes: what is around them and, at every second place, a name."""
+    return _NAME.split(plain(text))
