@@ -20,16 +20,23 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from dofkit.homework.own_sheets import own
 from ruamel.yaml import YAML
 
 from dofkit.homework.answers.label_words import word_of
+from dofkit.homework.answers.roster import load_roster
 from dofkit.homework.assignment import load_assignment
+from dofkit.homework.formats import FORMATS
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.stated_equations import equations_of
+from dofkit.homework.own_sheets import own
 from dofkit.homework.questions.labels import truths
+from dofkit.homework.result import Result
 
-STUDENTS, LATE, SEED = 50, 8, "autumn"
+STUDENTS, SEED = 50, "autumn"
+#: One in so many hands in late, when the first review is done.
+LATE = 6
+#: The sheet whose results are exported by commands, too, each of which grades once more.
+COMMANDED = "sheet1"
 PLATFORMS = ("gradescope", "prairielearn", "coursera", "canvas", "moodle", "lti", "html")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 #: What a right equation is written beside, so that nobody can read it for certain, and what a person gives for it.
@@ -45,11 +52,11 @@ def _equation(name: str, text: str) -> dict[str, str]:
     return {"name": name, "type": "equation", "text": text}
 
 
-_ROD = {"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": "l"}
-_PENDULUM = {"dimension": 2, "parameters": {"l": "positive"}, "particles": ["A"], "constraints": [_ROD]}
+_ROD = {"name": "rod", "type": "link", "between": [[1, 2], "A"], "length": 5}
+_PENDULUM = {"dimension": 2, "particles": ["A"], "constraints": [_ROD]}
 _DOUBLE = {
-    "dimension": 2, "parameters": {"l": "positive", "b": "positive"}, "particles": ["A", "B"],
-    "constraints": [_ROD, {"name": "lower", "type": "link", "between": ["A", "B"], "length": "b"}],
+    "dimension": 2, "particles": ["A", "B"],
+    "constraints": [_ROD, {"name": "lower", "type": "link", "between": ["A", "B"], "length": 3}],
 }  # fmt: skip
 _DISC = {
     "parameters": {"R": "positive"}, "coordinates": ["x", "y", "theta", "phi"],
@@ -82,10 +89,12 @@ SHEETS: dict[str, list[dict[str, Any]]] = {
         _problem("double", "Two masses on two rods", _DOUBLE, _F, _K, _asked("lower")),
     ],
     "sheet2": [
+        _problem("pendulum", "A mass on a rod", _PENDULUM, _F),
         _problem("disc", "A disc rolls upright", _DISC, _F, {"ask": "velocity_dof"}, _label("east"), _asked("east")),
         _problem("blade", "A blade on ice", _BLADE, _F, _label("blade"), _asked("blade")),
     ],
     "sheet3": [
+        _problem("double", "Two masses on two rods", _DOUBLE, _F),
         _problem("wire", "A bead on a turning wire", _WIRE, _F, _label("wire"), _asked("wire")),
         _problem("cylinder", "A cylinder rolls", _CYLINDER, _F, _Q, _label("roll"), _asked("roll")),
     ],
@@ -114,11 +123,11 @@ def dofkit(folder: Path, *arguments: str | Path, status: Sequence[int] = (0,)) -
     return Ended(done.returncode, done.stdout, done.stderr)
 
 
-def write_roster(folder: Path) -> list[str]:
+def write_roster(folder: Path, count: int) -> list[str]:
     """A list of participants with addresses and numbers; the names that results have."""
-    names = [f"Student{i:02} Family{i:02}" for i in range(STUDENTS)]
+    names = [f"Student{i:02} Family{i:02}" for i in range(count)]
     lines = ["First name,Last name,ID number,Email address"]
-    lines += [f"Student{i:02},Family{i:02},{1000 + i},s{i:02}@uni.example" for i in range(STUDENTS)]
+    lines += [f"Student{i:02},Family{i:02},{1000 + i},s{i:02}@uni.example" for i in range(count)]
     (folder / "roster.csv").write_text("\n".join(lines) + "\n")
     return names
 
@@ -172,7 +181,7 @@ def filled(table: Path) -> dict[str, float]:
     """Fill in a review as Excel in Germany saves it: half a point for what is mumbled, else nothing; two stay open."""
     rows = list(csv.DictReader(io.StringIO(table.read_bytes().decode("utf-8-sig"), newline="")))
     given: dict[str, float] = {}
-    for row in rows[2:]:
+    for row in rows[min(2, len(rows) // 3) :]:
         mumbled = row["text"].endswith(MUMBLED)
         row["points"] = GIVEN if mumbled else "0"
         row["remark"] = "Fast richtig, schön." if mumbled else ""
@@ -214,17 +223,18 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
         YAML().dump({"title": f"{name.capitalize()}", "feedback": "full", "problems": SHEETS[name]}, stream)
     dofkit(folder, "assignment", "vary", source, "--roster", "roster.csv", "--seed", SEED, "--out", name)
     varied, answers, out = folder / name / "assignment.yaml", folder / f"{name}-answers", folder / f"{name}-results"
-    hand_ins(varied, answers, students[:-LATE], rng)
+    early = students[: len(students) - len(students) // LATE]
+    hand_ins(varied, answers, early, rng)
     grade = ("grade", varied, answers, "--roster", "roster.csv", "--workers", "2")
     dofkit(folder, *grade, "--out", out)
     first = results_of(out / "results.jsonl")
-    assert len(first) == STUDENTS - LATE
+    assert len(first) == len(early)
     given = filled(out / "review.csv")
     hand_ins(varied, answers, students, random.Random(name))
     dofkit(folder, *grade, "--out", out, "--reviewed", out / "review.csv")
     again = results_of(out / "results.jsonl")
     by_hand = list(decided(again))
-    assert len(again) == STUDENTS
+    assert len(again) == len(students)
     assert given
     assert by_hand
     assert {points for *_, points in by_hand} <= {0.0, 0.5}
@@ -233,7 +243,12 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
     assert list(decided(results_of(out / "results.jsonl"))) == by_hand
     assert (out / "review.csv").read_bytes() == before
     for form in PLATFORMS:
-        export(folder, name, form, [*grade, "--reviewed", out / "review.csv"], again)
+        target = folder / f"{name}-{form}{'.csv' if form in ('canvas', 'moodle') else ''}"
+        if name == COMMANDED:
+            dofkit(folder, *grade, "--reviewed", out / "review.csv", "--format", form, "--out", target)
+        else:
+            write_format(form, varied, out / "results.jsonl", target)
+        exported(name, form, target, again)
     return {
         "students": len(again), "right": sum(i["status"] == "right" for one in again.values() for i in one["items"]),
         "answers": sum(len(one["items"]) for one in again.values()), "decided": len(by_hand),
@@ -242,11 +257,16 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
     }  # fmt: skip
 
 
-def export(folder: Path, name: str, form: str, grade: Sequence[Any], results: Mapping[str, dict[str, Any]]) -> None:
-    """Write a format, and hold what it says of points against the results."""
+def write_format(form: str, assignment: Path, results: Path, target: Path) -> None:
+    """Write results that are there in a format."""
+    prepared, roster = load_assignment(assignment), load_roster(assignment.parent.parent / "roster.csv")
+    with results.open(encoding="utf-8") as lines:
+        FORMATS[form].written(map(Result.model_validate_json, lines), prepared, target, roster)
+
+
+def exported(name: str, form: str, out: Path, results: Mapping[str, dict[str, Any]]) -> None:
+    """Hold what a format says of points against the results."""
     table = form in ("canvas", "moodle")
-    out = folder / (f"{name}-{form}.csv" if table else f"{name}-{form}")
-    dofkit(folder, *grade, "--format", form, "--out", out)
     final = {student: one for student, one in results.items() if not one["needs_review"]}
     if table:
         rows = list(csv.DictReader(io.StringIO(out.read_text(encoding="utf-8-sig"), newline="")))
@@ -255,12 +275,12 @@ def export(folder: Path, name: str, form: str, grade: Sequence[Any], results: Ma
         assert len(rows) == len(final), (form, len(rows), len(final))
         assert sorted(float(row[title]) for row in rows) == sorted(round(one["score"], 4) for one in final.values())
     elif form == "html":
-        assert len(list((out / "students").glob("*.html"))) == STUDENTS
+        assert len(list((out / "students").glob("*.html"))) == len(results)
         assert (out / "index.html").exists()
         assert (out / "review.html").exists()
     else:
         documents = [json.loads(path.read_text()) for path in sorted(out.glob("*.json"))]
-        assert len(documents) == STUDENTS
+        assert len(documents) == len(results)
         shown = sorted(found for one in documents if (found := points_in(one, results)) is not None)
         wanted = sorted(one["score"] for one in final.values())
         assert [round(a, 6) for a in shown] == [round(b, 6) for b in wanted] or form in ("gradescope", "coursera")
@@ -297,6 +317,29 @@ def screenshots(pages: Sequence[Path], folder: Path, width: int = 390, height: i
     return made
 
 
+_FRAME = """<iframe id=f src="{page}" width={width} height=900></iframe><p id=o></p><script>
+onload = () => {{
+  const e = f.contentDocument.documentElement;
+  o.textContent = "fits:" + (e.scrollWidth <= e.clientWidth);
+}}
+</script>"""
+
+
+def too_wide(pages: Sequence[Path], folder: Path, width: int = 390) -> list[Path]:
+    """The pages that have to be moved sideways on a telephone."""
+    assert CHROMIUM is not None
+    found = []
+    for page in pages:
+        frame = folder / "fits.html"
+        frame.write_text(_FRAME.format(page=page.as_uri(), width=width))
+        options = ["--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", "--dump-dom"]
+        command = [CHROMIUM, *options, f"--user-data-dir={folder / 'profile'}", frame.as_uri()]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+        if "fits:true" not in done.stdout:
+            found.append(page)
+    return found
+
+
 def pages_of(folder: Path) -> list[Path]:
     """Pages of every kind: the overview, the review, two students, a sheet, and the table of variants."""
     found = []
@@ -307,17 +350,19 @@ def pages_of(folder: Path) -> list[Path]:
     return found
 
 
-def run(folder: Path) -> dict[str, dict[str, int]]:
-    """The whole course there; what was counted, by sheet."""
+def run(folder: Path, count: int = STUDENTS) -> Iterator[tuple[str, dict[str, int]]]:
+    """The whole course there; of each sheet what was counted."""
     folder.mkdir(parents=True, exist_ok=True)
-    students = write_roster(folder)
-    return {name: run_sheet(folder, name, students) for name in SHEETS}
+    students = write_roster(folder, count)
+    for name in SHEETS:
+        yield name, run_sheet(folder, name, students)
 
 
 def main() -> None:
     """Run it, and say what was counted."""
     folder = Path(sys.argv[1]).resolve()
-    for name, counted in run(folder).items():
+    count = int(os.environ.get("STUDENTS", STUDENTS))
+    for name, counted in run(folder, count):
         print(name, ", ".join(f"{what} {number}" for what, number in counted.items()), flush=True)
     if len(sys.argv) > 2:
         for picture in screenshots(pages_of(folder), Path(sys.argv[2]).resolve()):
