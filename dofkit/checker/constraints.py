@@ -1,7 +1,5 @@
 """Every type of constraint: the equations it stands for, and the points, bodies and directions that it mentions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial

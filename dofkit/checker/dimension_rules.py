@@ -3,8 +3,6 @@
 A rule looks at the evidence of a claim and gives the value that it shows.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from flint import fmpq_mat
@@ -37,9 +35,8 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     else:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
-        ones = [evidence.relation(row) for row in other.rows if rows]
-        fits = all(one.kind == "finite" and (one.owner or not evidence.is_open(one.left)) for one in ones)
-        refuse(not fits, "a family is of configurations, whatever parameters are")
+        for row in map(evidence.relation, rows or ()):
+            refuse(row.kind != "finite" or (not row.owner and evidence.is_open(row.left)), "it is no family of poses")
         point, found = other.point, size - len(other.rows)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
     verified[f"{path} at"] = evidence.is_about(claim["about"], point)

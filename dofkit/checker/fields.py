@@ -4,8 +4,6 @@ The points that can be reached along fields form an immersed manifold, whose tan
 there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to relations never leave them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Sequence
 from itertools import chain
 from typing import Any
@@ -111,14 +109,12 @@ def involutive(evidence: CheckedEvidence, given: Told, allowed: Collection[str] 
     return minor
 
 
-def take_cover(evidence: CheckedEvidence, name: Any) -> None:
+def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
     """Blocks of rows, each with fields that keep it: near a minor's point its rows give all (constant rank theorem).
 
     The fields are tangent identically, so a block has rank at most its variables less its fields, and the minor shows
     that the sum is reached.
     """
-    if ("covers", name) in evidence.seen:
-        return
     given, total = evidence.named("covers", name), 0
     minor, rows = evidence.minor(given["minor"]), [row for block in given["blocks"] for row in block["rows"]]
     once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
@@ -136,9 +132,8 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> None:
         independent(evidence, fields, block["columns"], minor.point)
         total += min(len(own) - len(fields), len(block["rows"]))
     refuse(not once or total != len(minor.rows), "each finite relation once, and the rank of the minor are needed")
-    evidence.seen["covers", name] = rows
-    for row in set(rows) - set(minor.rows):
-        evidence.consequences.append(Consequence(row, minor.rows, at=minor.point.name))
+    evidence.consequences += (Consequence(row, minor.rows, at=minor.point.name) for row in {*rows} - {*minor.rows})
+    return rows
 
 
 def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tree: Tree, order: int) -> Any:
@@ -176,10 +171,8 @@ def isolated(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
     unfit = evidence.moving or evidence.problem.functions or evidence.holds_time((*minor.rows, name))
     refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "finite relations of the scene, without time")
     evidence.on_set(minor.point, (*minor.rows, name))
-    numbers = {q: evidence.text(text) for q, text in given["speeds"].items()}
-    free = set(evidence.problem.coordinates) - set(minor.columns)
-    refuse(not numbers.keys() <= free or any(map(symbols_in, numbers.values())), "numbers for free coordinates")
-    balls = {q: minor.point.value(tree) for q, tree in numbers.items()}
-    value = along_curve(evidence, minor, balls, evidence.relation(name).left, given["order"])
+    speeds = {q: minor.point.value(evidence.text(text)) for q, text in given["speeds"].items()}
+    refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")
+    value = along_curve(evidence, minor, speeds, evidence.relation(name).left, given["order"])
     refuse(not excludes_zero(value), "the zero on the curve is not shown to be isolated")
     return minor

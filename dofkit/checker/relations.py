@@ -5,8 +5,6 @@ for*: where it holds, the relation it was made from holds. Either may need expre
 point, and others to have a value there, so that it is true near the point.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple, TypeVar, cast
@@ -115,10 +113,6 @@ class Consequence(NamedTuple):
     at: str | None = None
 
 
-#: What a step makes: the left sides of relations, and consequences.
-Made = tuple[dict[str, Tree], list[Consequence]]
-
-
 def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
     """The derivative by time along a motion."""
     return along({name: symbol(name + "dot") for name in names}, tree)
@@ -156,7 +150,7 @@ class CheckedRelations(CheckedTexts):
             except FAULTS as error:
                 self.faults[name] = f"step `{name[:60]}`: {told(error)}"
 
-    def _implied(self, step: dict[str, Any]) -> Made:
+    def _implied(self, step: dict[str, Any]) -> tuple[dict[str, Tree], list[Consequence]]:
         """h g^k + squares = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
 
         ``g`` is a relation, or a new function. With squares h is positive, and k even (real Nullstellensatz). Where
@@ -184,7 +178,7 @@ class CheckedRelations(CheckedTexts):
         used = *step["c"], *(name for name, _ in given)
         return {target: left} if new else {}, [Consequence(target, used, needs, defined)]
 
-    def _rate(self, step: dict[str, Any]) -> Made:
+    def _rate(self, step: dict[str, Any]) -> tuple[dict[str, Tree], list[Consequence]]:
         """What is constantly 0, or keeps its value, has the derivative 0."""
         of = self.relation(step["of"])
         refuse(of.kind != "finite", "only a finite relation has a rate")

@@ -171,10 +171,9 @@ Local claims (holonomic, circuit, independent, ...) are made at the scene's conf
 given that meets the relations; else at any point. Claims are verified in their order.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 from dofkit.checker import dimension_rules as numbers
@@ -303,11 +302,12 @@ class Verifier:
         field = parts[3] if len(parts) == 4 and parts[1] == "constraints" else ""
         whole = about == "everywhere" or path == "/conflicting" or value is False
         refuse(cayley and whole and not field and path not in LOCAL, "a chart is no whole")
-        misplaced = parts[0] or ("about" in claim and path not in ("/dof", "/velocity_dof"))
-        refuse(misplaced, "no path, or an `about` of what is no number of freedoms")
+        refuse(
+            parts[0] or ("about" in claim and path not in ("/dof", "/velocity_dof")), "no path, or an `about` too many"
+        )
         evidence = self.evidence(cayley)
         for name in claim.get("covers", []):
-            take_cover(evidence, name)
+            evidence.once(("covers", name), partial(take_cover, evidence, name))
         owner = parts[-2].replace("~1", "/").replace("~0", "~")
         found = RULES[field or path, rule](evidence, {**claim, "owner": owner, "field": field}, self.verified)
         same = json.dumps(found, sort_keys=True) == json.dumps(value, sort_keys=True)
