@@ -302,9 +302,7 @@ class Verifier:
         field = parts[3] if len(parts) == 4 and parts[1] == "constraints" else ""
         whole = about == "everywhere" or path == "/conflicting" or value is False
         refuse(cayley and whole and not field and path not in LOCAL, "a chart is no whole")
-        refuse(
-            parts[0] or ("about" in claim and path not in ("/dof", "/velocity_dof")), "no path, or an `about` too many"
-        )
+        refuse(parts[0] or ("about" in claim and path not in ("/dof", "/velocity_dof")), "no path, or a spare `about`")
         evidence = self.evidence(cayley)
         for name in claim.get("covers", []):
             evidence.once(("covers", name), partial(take_cover, evidence, name))
