@@ -67,7 +67,7 @@ def _stopped(error: TextError, problem: str, asked: QuestionBase, given: Given, 
         return needs_review(asked.read(text, key), "it is not judged here.")
 
     nearest = nearest_reading(given, error, judged)
-    found = unreadable(error, nearest)
+    found = unreadable(error)
     item = Item(
         problem=problem, question=asked.id, score=None, max_score=float(asked.points), status="unreadable", codes=[],
         read_as="", feedback=found.feedback(), column=found.column, answer=shown_text(given),
