@@ -10,9 +10,9 @@ from typing import Any
 from flint import fmpq_mat
 
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.fields import Told, admissible, crossing, independent, involutive, isolated, of_word, span
+from dofkit.checker.fields import Told, admissible, independent, involutive, isolated, of_word, pinned, span
 from dofkit.checker.trees import refuse
-from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, heads_in, symbols_in
+from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
 
 
 def _finite_minor(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
@@ -22,7 +22,7 @@ def _finite_minor(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
 
 
 #: What shows how many freedoms there are at most: as many as coordinates less rows, or one less.
-MOST = {"minor": _finite_minor, "frobenius": involutive, "isolated": isolated, "crossing": crossing}
+MOST = {"minor": _finite_minor, "frobenius": involutive, "isolated": isolated}
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -31,15 +31,16 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     most, least = claim.get("most", {**one, "rule": "minor"}), claim.get("least", {**one, "rule": "regular"})
     refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
-    above = size - len(minor.rows) - (most["rule"] in ("isolated", "crossing"))
-    if least["rule"] == "crossing":
-        other = crossing(evidence, least)
-        point, found = other.point, size - len(other.rows) - 1
-    elif least["rule"] == "regular":
-        other = evidence.accounts(evidence.minor(least["minor"]), evidence.equations)
-        point, found = other.point, size - len(other.rows)
-    else:
+    above = size - len(minor.rows) - (most["rule"] == "isolated")
+    if least["rule"] == "span":
         point, found = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
+    else:
+        rows = least["minor"]["rows"] if least["rule"] == "family" else None
+        other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
+        ones = [evidence.relation(row) for row in other.rows if rows]
+        fits = all(one.kind == "finite" and (one.owner or not evidence.is_open(one.left)) for one in ones)
+        refuse(not fits, "a family is of configurations, whatever parameters are")
+        point, found = other.point, size - len(other.rows)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
     verified[f"{path} at"] = evidence.is_about(claim["about"], point)
     return found
@@ -214,8 +215,8 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     follow from the rows, is no less in coordinates with the second angle (``beside``: another minor of these rows). Or
     relations of one coordinate each keep all three.
     """
-    minor = MOST[claim["rule"]](evidence, claim)
-    columns = {*minor.columns, *([claim["free"]] if claim["rule"] == "isolated" else [])}
+    minor = {**MOST, "isolated": pinned}[claim["rule"]](evidence, claim)
+    columns = {*minor.columns, *(claim["speeds"] if claim["rule"] == "isolated" else ())}
     whole = sorted((*columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
     refuse(not whole, "the columns of the minor are not all the other coordinates")
     other = evidence.minor(claim.get("beside", claim["minor"]))
@@ -301,7 +302,7 @@ def _is_analytic(evidence: CheckedEvidence, name: str, given: bool) -> bool:
     """Whether a relation is analytic at all places; a form, and what gives no coordinate, up to a denominator."""
     one = evidence.relation(name)
     quotient = not given or one.kind != "finite"
-    return evidence.has_value_everywhere(one.left, quotient) and "apply" not in heads_in(one.left)
+    return evidence.has_value_everywhere(one.left, quotient) and not one.left.applied
 
 
 def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:

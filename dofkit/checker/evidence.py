@@ -59,29 +59,29 @@ class CheckedEvidence(CheckedRelations):
 
     def holds(self, name: str, point: CheckedPoint) -> bool:
         """Whether a relation is 0 at a point, exactly."""
-        return self.once(("holds", name, point.name), lambda: self._is_zero(self.relation(name).left, point))
+        return self.once(("holds", name, point.name), lambda: self.is_zero(self.relation(name).left, point))
 
-    def _is_zero(self, left: Tree, point: CheckedPoint) -> bool:
+    def is_zero(self, left: Tree, point: CheckedPoint) -> bool:
         """Whether a tree is 0 at a point: of a row of its box, or in the ring; and its ball holds 0."""
         row = any(self.known[name].left == left for name in point.rows)
         return bool(point.value(left).contains(0)) and (row or self.ring.vanishes(point.prepared(left)))
 
-    def on_set(self, point: CheckedPoint, names: Iterable[str]) -> None:
+    def on_set(self, point: CheckedPoint, names: Iterable[str], states: bool = False) -> None:
         """`CheckError` unless the relations hold at a point, but for integrals; forms are smooth there.
 
-        A nonlinear relation speaks of a state: all velocity relations and all rates hold at its velocities.
+        A nonlinear relation speaks of a state, as all do where ``states``: velocity relations and rates hold there.
         """
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
         finite = {one.name for one in wanted if one.kind == "finite"}
         self.follow(finite, {*point.rows, *(name for name in finite if self.holds(name, point))}, point, "what holds")
-        states = not all(self.is_linear(one.name) for one in wanted)
+        states |= not all(self.is_linear(one.name) for one in wanted)
         for one in wanted:
             still = one.name in finite
             for velocity in self.met_by(one.left):
                 point.value(self.slope(one.name, velocity[:-3]))
             wrong = still and excludes_zero(point.value(one.left))
             if states:
-                wrong |= not self._is_zero(total_derivative(one.left, self.variables) if still else one.left, point)
+                wrong |= not self.is_zero(total_derivative(one.left, self.variables) if still else one.left, point)
             refuse(wrong, f"`{one.name}` does not hold at the point `{point.name}`, or not for its velocities")
 
     def minor(self, given: Any, allowed: Collection[str] | None = None) -> CheckedMinor:

@@ -227,11 +227,16 @@ def told_integral(evidence: CheckedEvidence, text: Any) -> str:
 
 
 def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """A motion meets all equations, and each inequality holds somewhere; all at one point where that is asked."""
+    """A motion meets all equations, and each inequality holds somewhere; all at one point where that is asked.
+
+    Inequalities between velocities hold for those of the point, which is regular: a motion has them.
+    """
     point, places = moves(evidence, claim, evidence.equations), claim.get("inequalities", {})
     sided = [one for one in evidence.problem.relations if one.kind == "inequality"]
-    together = claim["path"] == "/feasible"
-    refuse(together and not (sided and not any(evidence.met_by(one.left) for one in sided)), "inequalities of places")
+    together, moving = claim["path"] == "/feasible", any(evidence.met_by(one.left) for one in sided)
+    refuse(together and (not sided or (moving and claim["rule"] != "regular")), "inequalities, and a regular point")
+    if together and moving:
+        evidence.on_set(point, evidence.equations, states=True)
     for one in sided:
         place = point if together else evidence.point(places.get(one.name, places.get(one.owner, point.name)))
         equal_will_do = not one.strict and not evidence.is_open(one.left)
@@ -264,14 +269,19 @@ def moves(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> Chec
 def refuted(evidence: CheckedEvidence, given: Told, verified: Told, names: Sequence[str] | None = None) -> bool:
     """No motion meets equations: a positive number plus squares plus multiples of what is 0 cannot be 0.
 
-    An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974).
+    An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974); of ``/feasible`` with all others,
+    and a strict one, times a positive number, is positive.
     """
     held = evidence.closure([one.name for one in evidence.problem.relations] if names is None else names, None)
     total = [evidence.text(given["number"]), evidence.squares(given.get("sos", []))]
-    refuse(not evidence.is_nowhere_zero(total[0], True), "the number that is left over is not positive")
     sided = {name: evidence.squares(terms) for name, terms in given.get("inequality", {}).items()}
     factors = {name: evidence.text(text) for name, text in given.get("c", {}).items()}
-    refuse(len(sided) + bool(factors) > 1 and sided, "an inequality is refuted by itself")
+    together = names is None and given["path"] == "/feasible"
+    refuse(len(sided) + bool(factors) > 1 and sided and not together, "an inequality is refuted by itself")
+    strict = [s for name, s in sided.items() if together and evidence.relation(name).strict]
+    positive = evidence.is_nowhere_zero(total[0], True)
+    positive |= total[0] == ZERO and any(evidence.is_nowhere_zero(s, True) for s in strict)
+    refuse(not positive, "what is left over is not positive")
     for name, factor in (*sided.items(), *factors.items()):
         one = evidence.relation(name)
         fits = name in held and not one.leaf and (one.kind == "inequality") == (name in sided)

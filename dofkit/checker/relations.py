@@ -19,7 +19,7 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, heads_in, put_in, symbols_in
+from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, put_in, symbols_in
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -79,7 +79,7 @@ class CheckedTexts:
 
         A claim is about almost all of them: what holds for the chosen ones has to hold for those near them.
         """
-        return not self.chosen.isdisjoint(symbols_in(tree)) or "apply" in heads_in(tree)
+        return not self.chosen.isdisjoint(symbols_in(tree)) or tree.applied
 
     def met_by(self, tree: Tree) -> list[str]:
         """The velocities that occur."""
@@ -141,6 +141,7 @@ class CheckedRelations(CheckedTexts):
 
     def _take_steps(self) -> None:
         makers = {"rate": self._rate, "implied": self._implied, "integral": self._implied}
+        makers["assumed"] = lambda step: ({step["id"]: self.text(step["function"])}, [])
         for step in self.parts["relations"]:
             name, by = step["id"], step.get("by")
             try:

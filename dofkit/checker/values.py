@@ -6,7 +6,7 @@ Every operation on balls encloses the true one, where it is defined and smooth a
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import reduce
@@ -24,25 +24,9 @@ Made = TypeVar("Made")
 Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
 
 
-def nodes_of(tree: Tree) -> Iterator[Tree]:
-    """All nodes of a tree, each once."""
-    stack, seen = [tree], set()
-    while stack:
-        node = stack.pop()
-        if id(node) not in seen:
-            seen.add(id(node))
-            stack += node.below
-            yield node
-
-
 def symbols_in(tree: Tree) -> frozenset[str]:
     """The names of the symbols of a tree."""
-    return frozenset(str(node.value) for node in nodes_of(tree) if node.head == "symbol")
-
-
-def heads_in(tree: Tree) -> set[str]:
-    """The kinds of nodes that occur in a tree."""
-    return {node.head for node in nodes_of(tree)}
+    return tree.symbols
 
 
 def folded(tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made]) -> Made:

@@ -21,6 +21,7 @@ implied     of (or function), c {ID: TEXT}, h, power (k),   h * of^k + squares =
                                                             (with a factor not 0 by itself), the sides are compared
                                                             after it is put in, one after the other: ``of`` follows from
                                                             these as well
+assumed     function                                        a relation that may hold or not: for ``family`` alone
 rate        of (finite, or an integral)                     its time derivative, with qdot and tdot
 integral    function (f), and the others                    h * (df/dt) = sum c[i] * i: f keeps its value. Needs
                                                             h not 0, the c defined. A finite relation of the leaf
@@ -67,15 +68,12 @@ span        at, fields [id], rows [ID], words [WORD],     least the words (less 
                                                           independent. Where finite relations hold parameters: minor
                                                           (that of ``most`` does) whose rows account for them. Where
                                                           t or tdot occurs a field's t is not 0 at the point
-isolated    minor, zero ID, free coordinate, fields [id],  most the number of fields (of dof): finite rows without t;
-            pins [coordinate], order (2 to 8)             columns, free and pins are all coordinates; the fields are
-                                                          tangent to rows and zero, pins a minor of them; while pins
-                                                          rest and free has the speed 1, rows stay 0 and the derivative
-                                                          of zero of that order is not 0
-crossing    minor, zero ID, speeds [{coordinate: TEXT}]   most and least n - rows - 1 (of dof): rows and zero are
-                                                          finite, without t, all follow from them; the second
-                                                          derivative of zero is positive for the first speeds,
-                                                          negative for the second
+isolated    minor, zero ID, speeds {coordinate: TEXT},    most n - rows - 1 (of dof): rows and zero are finite, without
+            order (1 to 8)                                t, of the scene; while the rows stay 0 and coordinates that
+                                                          are no columns have these speeds, and the others rest, the
+                                                          derivative of zero of that order is not 0
+family      minor                                         least n - rows: finite rows (assumed ones, without parameters,
+                                                          may be among them) from which all relations follow by steps
 =========== ============================================= ======================================================
 
 CLAIMS ``{"path", "value", "rule", ..., "about", "cayley"}``. ``about`` (dof, velocity_dof): ``reference`` (the point
@@ -121,13 +119,18 @@ path                                    rule           fields
                                                        point of a verified /redundant; or all are of one group
                                                        where that was verified by ``without``)
 /feasible true                          point, regular at, or minor: equations as for /consistent; all inequalities
-                                                       hold at that point
+                                                       hold at that point (regular, and at its velocities, where they
+                                                       hold velocities)
+/feasible false                         nullstellensatz as for /consistent false, of all together; or number 0 and a
+                                                       strict inequality whose squares are a positive number
 /integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of
                                                        the texts of the basis, in order; /dof verified before at the
                                                        same point. Nothing more where the basis is null
 /generalized_coordinates                minor,         as above, minor: rows finite or integrals; the columns (and
-                                        frobenius,     free) are all the other coordinates; /dof verified before, at
-                                        isolated       the same point
+                                        frobenius,     the only one of speeds) are all the other coordinates; /dof
+                                        isolated       verified before, at the same point. isolated: fields [id] and
+                                                       pins [coordinate] besides: the fields are tangent to rows and
+                                                       zero, the pins, which are the value, a minor of them
 /growth_vector                          span           spans: for each entry {"words", "columns"}; at, fields, rows,
                                                        minor (regular: all rows). Upper bounds: their number, and /dof
                                                        verified before, at the same point
@@ -193,7 +196,7 @@ Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
 #: The rules: paths of the report (fields of an entry, without ``/``), names of rules, and what looks at them.
 TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/consistent, /feasible", "point, regular", labels.consistent),
-    ("/consistent", "nullstellensatz", labels.refuted),
+    ("/consistent, /feasible", "nullstellensatz", labels.refuted),
     ("/conflicting", "conflict", labels.conflict),
     ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds),
     ("/dof, /velocity_dof", "everywhere", numbers.everywhere),

@@ -214,15 +214,15 @@ def agreed(told: Values) -> dict[str, Any]:
     for row in broken:
         names = ", ".join(row.fields) or "verdict"
         DEFECTS.error("defect in the report of %r: not true that %s (%s)", told.get("scene"), row.law, names)
-        found = untold(found, row.fields, CONTRADICTION.format(law=row.law, fields=", ".join(row.fields)))
+        found = _without(found, row)
     return found
 
 
-def untold(told: Values, fields: Sequence[str], warning: str) -> dict[str, Any]:
-    """What is told without some fields, and with a warning."""
-    names = {f.removeprefix(ENTRY) for f in fields if f.startswith(ENTRY)}
-    open_: dict[str, Any] = {f: [] if f in LISTS else None for f in fields if not f.startswith(ENTRY)}
-    warnings = [*told["warnings"], warning]
+def _without(told: dict[str, Any], row: Agreement) -> dict[str, Any]:
+    """What is told without the fields of a law that does not hold."""
+    names = {f.removeprefix(ENTRY) for f in row.fields if f.startswith(ENTRY)}
+    open_: dict[str, Any] = {f: [] if f in LISTS else None for f in row.fields if not f.startswith(ENTRY)}
+    warnings = [*told["warnings"], CONTRADICTION.format(law=row.law, fields=", ".join(row.fields))]
     entries = told["constraints"]
     if names:
         entries = [_open_entry(e, names) for e in entries]

@@ -15,7 +15,6 @@ from dofkit.classification.claims import claims
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.told import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.singular_angles import without_singular_angles
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
@@ -95,7 +94,10 @@ def _count(study: Study, told: Values) -> Values:
 
 def _choice(study: Study, told: Values) -> Values:
     del told
-    return {"generalized_coordinates": fields.generalized_coordinates(study)}
+    return {
+        "generalized_coordinates": fields.generalized_coordinates(study),
+        "joint_coordinates": fields.joint_coordinates(study),
+    }
 
 
 def _growth(study: Study, told: Values) -> Values:
@@ -154,7 +156,7 @@ PASSES: tuple[Pass, ...] = (
     Pass("redundant_equations redundant redundancies", _redundancy),
     Pass("constraints holonomic scleronomic", _entries),
     Pass("count", _count),
-    Pass("generalized_coordinates", _choice),
+    Pass("generalized_coordinates joint_coordinates", _choice),
     Pass("growth_vector", _growth),
     Pass("integrable_part", _integrable),
     Pass("verdict verdicts", _sureness),
@@ -175,7 +177,7 @@ def report_of(study: Study, passes: Iterable[Pass] = PASSES) -> Report:
     told: dict[str, Any] = {}
     for row in passes:
         told.update(row.fill(study, told))
-    return _report(agreed(without_singular_angles(study, told)))
+    return _report(agreed(told))
 
 
 def _report(told: Values) -> Report:

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 from ruamel.yaml import YAML
 
 from dofkit.base.errors import DofkitError
+from dofkit.base.version import __version__
 from dofkit.base.wording import many
 from dofkit.homework.answers.label_words import word_of
 from dofkit.homework.answers.roster import Participant, Roster
@@ -73,16 +74,11 @@ class ClassSheets:
                 yield f"problem '{problem.id}' is the same for everyone: its own key is {why}"
             elif len({v.mark for _, s in self.sheets for v in s.variants if v.problem.id == problem.id}) == 1:
                 yield f"problem '{problem.id}' is the same for everyone: nothing of it can differ as it is written"
-        seen: dict[tuple[str, ...], str] = {}
+        seen: dict[str, str] = {}
         for whose, sheet in self.sheets:
-            other = seen.setdefault(marks_of(sheet), whose.student)
+            other = seen.setdefault(sheet.digest, whose.student)
             if other != whose.student:
                 yield f"'{whose.student}' and '{other}' have the same sheet: there are too few different ones"
-
-
-def marks_of(sheet: OwnSheet) -> tuple[str, ...]:
-    """What tells a sheet from others."""
-    return tuple(variant.mark for variant in sheet.variants)
 
 
 def row_of(student: str, variant: Variant) -> VariantRow:
@@ -120,14 +116,17 @@ def class_sheets(source: str, roster: Roster, seed: str, out: Path) -> ClassShee
         StudentSheet.model_validate({"student": one.student, "known_as": _others(one)}) for one in roster.members
     )
     value = _standing_alone(given, out)
-    prepared = load_assignment({**value, "variants": Variants(seed=seed, students=students).model_dump()}, base=out)
-    taken: set[tuple[str, ...]] = set()
+    prepared = load_assignment(
+        {**value, "variants": {"seed": seed, "students": [one.model_dump() for one in students]}}, base=out
+    )
+    taken: set[str] = set()
     found = []
     for whose in students:
         drawn = _different(prepared, seed, whose, taken)
-        taken.add(marks_of(drawn[1]))
+        taken.add(drawn[1].digest)
         found.append(drawn)
-    final = Variants(seed=seed, students=tuple(whose for whose, _ in found)).model_dump(exclude_defaults=True)
+    marked = tuple(whose.model_copy(update={"sheet": sheet.digest}) for whose, sheet in found)
+    final = Variants(seed=seed, version=__version__, students=marked).model_dump(exclude_defaults=True)
     return ClassSheets(load_assignment({**value, "variants": final}, base=out), tuple(found))
 
 
@@ -136,17 +135,15 @@ def _others(one: Participant) -> list[str]:
     return list(dict.fromkeys(name for name in one.called() if name != one.student))
 
 
-def _different(
-    prepared: Prepared, seed: str, whose: StudentSheet, taken: set[tuple[str, ...]]
-) -> tuple[StudentSheet, OwnSheet]:
+def _different(prepared: Prepared, seed: str, whose: StudentSheet, taken: set[str]) -> tuple[StudentSheet, OwnSheet]:
     """The first draw of a sheet that nobody has; the very first where all are taken."""
     first = own_sheet(prepared, seed, whose)
     sheet, draw = first, 0
-    while marks_of(sheet) in taken and draw < MOST_DRAWS:
+    while sheet.digest in taken and draw < MOST_DRAWS:
         draw += 1
         whose = whose.model_copy(update={"draw": draw})
         sheet = own_sheet(prepared, seed, whose)
-    if marks_of(sheet) in taken:
+    if sheet.digest in taken:
         return whose.model_copy(update={"draw": 0}), first
     return whose, sheet
 

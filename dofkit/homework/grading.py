@@ -32,7 +32,7 @@ from dofkit.homework.judgement import (
     unreadable,
 )
 from dofkit.homework.key.key import Key
-from dofkit.homework.own_sheets import NobodysSheetError, own
+from dofkit.homework.own_sheets import NobodysSheetError, own_steps
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.repairs import nearest_reading, parts_read
@@ -81,21 +81,16 @@ class Grader:
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
         try:
-            own_one = self._of(submission.student)
+            sheet = yield from own_steps(self.prepared, submission.student)
         except NobodysSheetError as error:
             return self.refused(submission.student, str(error))
-        if own_one is not self:
-            return (yield from own_one.steps(submission))
+        if sheet is not self.prepared:
+            return (yield from Grader(sheet, self.seconds, self.condemned).steps(submission))
         items: list[Item] = []
         for problem in self.prepared.assignment.problems:
             items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
         items += unasked(self.prepared, submission)
         return self._total(submission.student, items)
-
-    def _of(self, student: str) -> Grader:
-        """The grader of the student's own sheet, where everyone has another. Raises NobodysSheetError."""
-        sheet = own(self.prepared, student)
-        return self if sheet is self.prepared else Grader(sheet, self.seconds, self.condemned)
 
     def refused(self, student: str, error: str) -> Result:
         """The result of a submission that cannot be graded."""

@@ -10,9 +10,9 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Generator, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar, cast
 
 from dofkit.base.errors import DofkitError, SceneError
 from dofkit.homework.assignment import Prepared
@@ -63,12 +63,22 @@ class OwnSheet:
     prepared: Prepared
     variants: tuple[Variant, ...]
 
+    @property
+    def digest(self) -> str:
+        """What tells it from others."""
+        return hashlib.blake2b("\0".join(v.mark for v in self.variants).encode(), digest_size=8).hexdigest()
+
 
 def own(prepared: Prepared, student: str) -> Prepared:
     """The sheet of a student of a varied assignment; the assignment itself where it is none.
 
-    Raises NobodysSheetError for who is not among its students.
+    Raises NobodysSheetError for who is not among its students, and where the sheet comes out another way than it did.
     """
+    return _last(own_steps(prepared, student))
+
+
+def own_steps(prepared: Prepared, student: str) -> Generator[str, None, Prepared]:
+    """The same, telling of every problem that takes work that it comes next."""
     variants = prepared.assignment.variants
     if variants is None:
         return prepared
@@ -77,21 +87,42 @@ def own(prepared: Prepared, student: str) -> Prepared:
         raise NobodysSheetError(
             f"'{student[:200]}' is not among the students of this assignment, or is the name of two: whose sheet is it?"
         )
-    return own_sheet(prepared, variants.seed, found).prepared
+    sheet = yield from _sheet_steps(prepared, variants.seed, found)
+    if found.sheet and found.sheet != sheet.digest:
+        raise NobodysSheetError(
+            f"the sheet of '{found.student}' comes out another way than dofkit {variants.version} made it: grade with "
+            "that version, or give more time"
+        )
+    return sheet.prepared
 
 
 def own_sheet(prepared: Prepared, seed: str, whose: StudentSheet) -> OwnSheet:
     """The sheet that a seed gives a student, with what is told of each problem."""
+    return _last(_sheet_steps(prepared, seed, whose))
+
+
+_Made = TypeVar("_Made")
+
+
+def _last(steps: Generator[str, None, _Made]) -> _Made:
+    while True:
+        try:
+            next(steps)
+        except StopIteration as stop:
+            return cast(_Made, stop.value)
+
+
+def _sheet_steps(prepared: Prepared, seed: str, whose: StudentSheet) -> Generator[str, None, OwnSheet]:
     chosen = _balanced(prepared, Stream(seed, whose.student, whose.draw))
-    variants = tuple(
-        _variant(problem, structure, Stream(seed, whose.student, whose.draw, problem.id))
-        for problem, structure in zip(prepared.assignment.problems, chosen, strict=True)
-    )
+    variants: list[Variant] = []
+    for problem, structure in zip(prepared.assignment.problems, chosen, strict=True):
+        yield f"the problem {problem.id} of the sheet of {whose.student}"
+        variants.append(_variant(problem, structure, Stream(seed, whose.student, whose.draw, problem.id)))
     update = {"problems": tuple(v.problem for v in variants), "variants": None}
     assignment = prepared.assignment.model_copy(update=update)
     keys = {v.problem.id: v.key for v in variants}
     marks = {v.problem.id: v.mark for v in variants}
-    return OwnSheet(replace(prepared, assignment=assignment, keys=keys, structures={}, marks=marks), variants)
+    return OwnSheet(replace(prepared, assignment=assignment, keys=keys, structures={}, marks=marks), tuple(variants))
 
 
 def _balanced(prepared: Prepared, stream: Stream) -> list[Structure]:

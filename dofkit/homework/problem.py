@@ -105,12 +105,14 @@ class StudentSheet(WrittenModel):
     student: str = Field(min_length=1, description="what results call the student")
     known_as: Annotated[tuple[str, ...], Listed] = Field((), description="other names, addresses and numbers of theirs")
     draw: int = Field(0, ge=0, description="which draw of the seed it is: 0, but where that was another student's too")
+    sheet: str = Field("", description="what tells whether the sheet comes out the same again")
 
 
 class Variants(WrittenModel):
     """That every student has a sheet of their own, made from a seed."""
 
     seed: Annotated[str, BeforeValidator(identifier)] = Field(min_length=1, description="what the sheets are made from")
+    version: str = Field("", description="of dofkit, that made them")
     students: tuple[StudentSheet, ...] = Field((), description="who has a sheet")
 
     def find(self, text: str) -> StudentSheet | None:

@@ -30,8 +30,9 @@ def places(text: str) -> list[tuple[str, str | None]]:
 
 
 def words_of(text: str) -> set[str]:
-    """The words that a text has of itself."""
-    return set(re.findall(r"\w+", _PLACE.sub(" ", text)))
+    """The words that a text has of itself, and their parts between `_`."""
+    found = re.findall(r"\w+", _PLACE.sub(" ", text))
+    return {*found, *(part for word in found for part in word.split("_"))} - {""}
 
 
 def filled(text: str, scene: Scene, hidden: Collection[str] = ()) -> str:

@@ -16,6 +16,7 @@ from dofkit.interface.failures import failures_of
 _HOMES = {
     "class_sheets": "dofkit.homework.class_sheets",
     "load_roster": "dofkit.homework.answers.roster",
+    "own": "dofkit.homework.own_sheets",
     "write_class": "dofkit.homework.class_sheets",
     "HANDOUTS": "dofkit.homework.handout.sheets",
     "load_assignment": "dofkit.homework.assignment",
@@ -53,6 +54,9 @@ def handout(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="PATH", help="The file; by default beside the assignment.")
     ] = None,
+    student: Annotated[
+        str | None, typer.Option("--student", metavar="NAME", help="Whose sheet, where everyone has another.")
+    ] = None,
 ) -> None:
     """Write the sheet that students get: problems, pictures, names, how to write answers; it tells no answer."""
     with failures_of(assignment):
@@ -60,7 +64,9 @@ def handout(
         target = Path(assignment).with_suffix(f".{form}") if out is None else out
         if target.resolve() == Path(assignment).resolve():
             raise typer.BadParameter("it would overwrite the assignment", param_hint="--out")
-        _of("write_sheet")(_of("written_sheet")(prepared, drawing()), form, target)
+        if student is not None:
+            prepared = _of("own")(prepared, student)
+        _of("write_sheet")(_of("written_sheet")(prepared, drawing(), student), form, target)
     for remark in _of("remarks")(prepared):
         typer.echo(f"{assignment}: {remark}", err=True)
     typer.echo(target)

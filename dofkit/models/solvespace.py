@@ -148,7 +148,7 @@ class _SketchScene:
         number_ = f"c{record.handle():03x}"
         if kind is None or kind.says is None:
             told = f"{number_}: of kind {record.whole('type') if kind is None else kind.name}, which is not read"
-            self.draft.leave_out(told)
+            self.draft.leave_out(told, binding=True)
             return
         name = f"{number_}-{kind.name}"
         if record.whole("reference"):

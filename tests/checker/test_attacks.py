@@ -265,15 +265,17 @@ NOT_AT_THE_POINT: dict[str, Attack] = {
                 "value": ["c1", "c2"],
                 "rule": "cofactors",
                 "at": "P",
-                "minimal": {"c1": {"at": "Q"}, "c2": {"at": "R"}},
+                "minimal": {
+                    "c1": {"minor": {"at": "Q", "rows": ["c2", "c3"], "columns": ["z", "x"]}},
+                    "c2": {"minor": {"at": "Q", "rows": ["c1"], "columns": ["x"]}},
+                },
             }
         ],
         {
             "relations": [{"id": "i", "by": "implied", "of": "c3", "h": "y - 1", "c": {"c1": "y"}}],
             "points": [
                 {"id": "P", "values": {"x": "0", "y": "0", "z": "0"}},
-                {"id": "Q", "values": {"x": "1", "y": "2", "z": "0"}},
-                {"id": "R", "values": {"x": "5", "y": "1", "z": "0"}},
+                {"id": "Q", "values": {"x": "0", "y": "2", "z": "0"}},
             ],
         },
     ),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from shared.known_scenes import ROOT
 
 import dofkit
 
@@ -33,7 +34,7 @@ def test_a_door_on_a_slanted_hinge_has_one_coordinate() -> None:
 
 
 def test_bodies_that_turn_together_have_their_own_angles() -> None:
-    report = dofkit.classify("car-differential")
+    report = dofkit.classify(ROOT / "tests/scenes/textbook/car-differential.yaml")
     assert report.generalized_coordinates == ["theta_ring", "theta_left"]
 
 
@@ -56,3 +57,30 @@ def test_angles_that_turn_alike_are_no_motion(axis: list[int], text: str) -> Non
     assert report.dof in ({None, 0, 1} if wanted is None else {None, wanted})
     if report.dof is None:
         assert "Euler angles" in " ".join(report.warnings)
+
+
+@pytest.mark.parametrize("text", ["theta_door >= -1", "theta_door = 0", "cos(theta_door) <= 2"])
+def test_a_welded_body_has_no_freedom_that_its_angles_have(text: str) -> None:
+    """Angles (u, 0, -u) are one pose: their line is no motion."""
+    weld = {"type": "weld", "between": ["ground", "door"]}
+    assert dofkit.classify({"bodies": ["door"], "constraints": [weld]}).dof == 0
+    report = dofkit.classify({"bodies": ["door"], "constraints": [weld, text]})
+    assert report.dof in (None, 0)
+    assert report.velocity_dof in (None, 0)
+    assert "Euler angles" in " ".join(report.warnings)
+
+
+def test_a_welded_body_that_is_drawn_turned_has_no_freedom() -> None:
+    weld = {"type": "weld", "between": ["ground", "door"]}
+    scene = {"bodies": ["door"], "configuration": {"theta_door": 1}, "constraints": [weld, "theta_door >= -1"]}
+    report = dofkit.classify(scene)
+    assert (report.dof, report.instantaneous_dof) == (0, 0)
+    assert report.warnings == []
+
+
+@pytest.mark.parametrize("type_", ["weld", "prismatic"])
+def test_a_body_that_is_kept_from_turning_is_not_turned_by_a_third(type_: str) -> None:
+    """About (1, 1, 1) that takes e1 to e2, e2 to e3, e3 to e1: no e_i keeps what it has along the next."""
+    joint = {"type": type_, "between": ["ground", "door"]} | ({"axis": [1, 0, 0]} if type_ == "prismatic" else {})
+    report = dofkit.classify({"bodies": ["door"], "constraints": [joint, "cos(theta_door) = 0"]})
+    assert report.consistent in (None, False)

@@ -17,10 +17,13 @@ from dofkit.exact.ring.ring import Ring
 COMBINED_ENTRIES = 20_000
 
 
-def combined(ring: Ring, relations: Sequence[int]) -> list[int] | None:
-    """An echelon form of the numerators by degree, as nodes that vanish together where they do; None: too large."""
+#: The terms of a polynomial: exponents and coefficients.
+Terms = dict[tuple[int, ...], Any]
+
+
+def echelon_by_degree(canon: Canon, relations: Sequence[int]) -> list[Terms] | None:
+    """An echelon form of the numerators, the highest terms eliminated first; None where it is too large."""
     try:
-        canon = Canon(ring)
         tables = [canon.quotient(node)[0].to_dict() for node in relations]
     except NoValueError:
         return None
@@ -28,8 +31,13 @@ def combined(ring: Ring, relations: Sequence[int]) -> list[int] | None:
     if not monomials or len(monomials) * len(tables) > COMBINED_ENTRIES:
         return None
     reduced, rank = fmpq_mat([[table.get(m, 0) for m in monomials] for table in tables]).rref()
-    rows = [{m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0} for r in range(rank)]
-    return [_polynomial_node(ring, row) for row in rows]
+    return [{m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0} for r in range(rank)]
+
+
+def combined(ring: Ring, relations: Sequence[int]) -> list[int] | None:
+    """An echelon form of the numerators by degree, as nodes that vanish together where they do; None: too large."""
+    rows = echelon_by_degree(Canon(ring), relations)
+    return None if rows is None else [_polynomial_node(ring, row) for row in rows]
 
 
 def _polynomial_node(ring: Ring, table: dict[tuple[int, ...], Any]) -> int:

@@ -50,13 +50,14 @@ def new_names(scene: Scene, problem: Problem, stream: Stream) -> dict[str, str]:
     """Name -> another name, of what may be renamed: never what the problem's own words mention."""
     known = declared(scene)
     counts = Counter(map(spelled, known))
-    fixed = set(map(spelled, words_of(problem.text or ""))) | set(problem.other_names)
+    said = words_of(f"{problem.title or ''} {problem.text or ''}")
+    fixed = set(map(spelled, said)) | set(problem.other_names)
     arguments = {argument for given in scene.functions.values() for argument in given}
     taken = {*map(spelled, known), "t", "e", "E", "pi", *problem.other_names, *problem.also}
     taken |= {c.name for c in scene.constraints if c.name is not None}
     found: dict[str, str] = {}
     for name in _renameable(scene):
-        if counts[spelled(name)] > 1 or spelled(name) in fixed or name in arguments:
+        if counts[spelled(name)] > 1 or name in arguments or fixed & set(map(spelled, words(scene, {name: name}))):
             continue
         match = _INDEXED.fullmatch(spelled(name))
         kind = next((k for k in KINDS if match and match["stem"] in k), None)

@@ -8,6 +8,7 @@ from typing import Any
 
 from dofkit.methods.certificates.emptiness import inconsistent
 from dofkit.methods.certificates.everywhere import everywhere, velocities_everywhere
+from dofkit.methods.certificates.families import families
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, orbit
 from dofkit.methods.certificates.integrals import integral_of_text
 from dofkit.methods.certificates.rigid_fields import backing
@@ -59,6 +60,10 @@ def _near(room: Room) -> Iterator[Told]:
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "regular", "minor": room.minor(standing), "about": room.about, **backed}
     yield from stationary(room)
+    if standing is not None and standing.dependent:
+        most = {"rule": "minor", "minor": room.minor(standing)}
+        for least in families(room, len(room.problem.coordinates) - len(standing.rows)):
+            yield {"rule": "squeeze", "most": most, "least": least, "about": room.about}
 
 
 def velocity_dof(room: Room) -> Iterator[Told]:

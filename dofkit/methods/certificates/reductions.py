@@ -90,7 +90,7 @@ def without_factor(scenery: Scenery, name: str) -> str:
         rest = add(*(times(*term[:i], *term[i + 1 :]) for term, i in zip(terms, places, strict=True)))
         made = {"id": step, "by": "implied", "function": text_of(rest), "c": {name: text_of(rest)}, "power": 2}
         sos = [[c, text_of(times(base, rest))] for c, base in positive[1]]
-        back = {"id": f"{step}, and back", "by": "implied", "of": name, "c": {step: text_of(factor)}}
+        back: dict[str, object] = {"id": f"{step}, and back", "by": "implied", "of": name, "c": {step: text_of(factor)}}
         if _stand(scenery, [{**made, "h": positive[0], "sos": sos}, back]):
             return step
     return name

@@ -16,6 +16,8 @@ from dofkit.methods.certificates.texts import text_of
 Order = list[list[str]]
 #: What is farther from 0 than this, in floats, is taken to be none.
 FAR = 1e-7
+#: Relations that are longer are not solved in pairs.
+LARGEST_OF_PAIR = 30
 
 
 def puts(scenery: Scenery, names: Sequence[str]) -> Order:
@@ -60,7 +62,8 @@ def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
 def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> list[str]:
     """Steps by which coordinates are 0: of two relations that are linear in them, and hold nothing beside."""
     found = []
-    for pair in combinations(names, 2):
+    short = [name for name in names if scenery.evidence.relation(name).left.size <= LARGEST_OF_PAIR]
+    for pair in combinations(short, 2):
         for step in _pair_steps(scenery, pair, point):
             if _stands(scenery, step):
                 found.append(str(step["id"]))

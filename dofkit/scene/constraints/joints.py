@@ -179,16 +179,18 @@ def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
 def parallel(first: Frame, second: Frame) -> Iterator[Relation]:
     """No relative rotation: the plane angle, or 3 relations in space.
 
-    theta2 - theta1 - const = 0; g2 - g1 = 0; or (R1 e1).(R2 e2) = (R1 e2).(R2 e3) = (R1 e3).(R2 e1) = 0.
+    theta2 - theta1 - const = 0; g2 - g1 = 0; or the Gibbs vector of B = R1^T R2, of which 1 + tr B times two are
+    B32 - B23, B13 - B31, B21 - B12, and which no half turn has.
     """
     if first.dimension == 2:
         yield Relation(difference(second.angle, first.angle), part="angle")
     elif first.gibbs is not None and second.gibbs is not None:
         yield from component_relations(minus(second.gibbs, first.gibbs), "orientation {}")
     else:
+        a, b = ([frame.carry(unit(i, 3)) for i in range(3)] for frame in (first, second))
+        trace = sum((dot(a[i], b[i]) for i in range(3)), mul(first.under, second.under))
         for i, j, about in ((0, 1, "z"), (1, 2, "x"), (2, 0, "y")):
-            e = dot(first.carry(unit(i, 3)), second.carry(unit(j, 3)))
-            yield Relation(e, part=f"orientation {about}")
+            yield Relation(difference(dot(a[i], b[j]), dot(a[j], b[i])) / trace, part=f"orientation {about}")
 
 
 def carrier(first: Frame, second: Frame) -> Frame:
