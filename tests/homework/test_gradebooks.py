@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import doctest
+import importlib
 import io
 from pathlib import Path
 from typing import Any
@@ -236,12 +238,18 @@ def test_what_two_go_by_names_nobody(tmp_path: Path) -> None:
         (("grace", "Ada Lovelace_12_assignsubmission_file_"), "grace", "S1", True),
         (("class",), "grace", "S2", False),
         (("class",), "mallory", "mallory", False),
-        (("ada",), "ada:3", "S1", False),
     ],
 )
 def test_whose_it_is(claims: tuple[str, ...], student: str, expected: str, doubted: bool, tmp_path: Path) -> None:
     found = by_roster(roster(CANVAS, tmp_path), claims, student)
     assert (found.student, found.doubt is not None) == (expected, doubted)
+
+
+def test_what_names_nobody_is_its_owners(tmp_path: Path) -> None:
+    known = roster(CANVAS, tmp_path)
+    assert by_roster(known, ("ada",), "ada:3", True) == ("S1", None)
+    assert by_roster(known, ("ada",), "ada:3").doubt is not None
+    assert by_roster(known, ("Ada Lovelace_3_assignsubmission_file_",), "Ada Lovelace_3", True) == ("S1", None)
 
 
 def test_whose_it_is_at_a_platform() -> None:
@@ -254,3 +262,10 @@ def test_whose_it_is_at_a_platform() -> None:
 def test_names_of_files() -> None:
     assert next(named_by("Ada Lovelace_123_assignsubmission_onlinetext_onlinetext")) == "Ada Lovelace"
     assert list(named_by("ada")) == ["ada"]
+
+
+@pytest.mark.parametrize("module", ["roster", "submission"])
+def test_documentation(module: str) -> None:
+    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.answers.{module}"))
+    assert outcome.failed == 0
+    assert outcome.attempted > 0

@@ -52,8 +52,8 @@ _HEADERS: Mapping[str, frozenset[str]] = {
 #: Of what one person has, and nobody else.
 _UNIQUE = ("email", "number", "username", "own")
 #: Folders and files as Moodle calls them when all submissions are downloaded, and as Canvas does.
-_MOODLE = re.compile(r"(?P<name>.+?)_\d+_assignsubmission_\w+")
-_CANVAS = re.compile(r"[^\W_]+_(?:LATE_)?(?P<id>\d+)_\d+_", re.IGNORECASE)
+_MOODLE = re.compile(r"(?P<who>.+?)(?P<number>_\d+)_assignsubmission_\w+")
+_CANVAS = re.compile(r"[^\W_]+_(?:LATE_)?(?P<who>\d+)_\d+_", re.IGNORECASE)
 
 
 class RosterError(DofkitError):
@@ -128,8 +128,18 @@ def named_by(claim: str) -> Iterator[str]:
     """
     for pattern in (_MOODLE, _CANVAS):
         if found := pattern.match(claim):
-            yield found[1]
+            yield found["who"]
     yield claim
+
+
+def own_name(claim: str) -> str:
+    """What one is called whom nothing else names but a file or a folder: never as another is.
+
+    >>> own_name("Ada Lovelace_123_assignsubmission_file_"), own_name("sheet_1_2_ada")
+    ('Ada Lovelace_123', 'sheet_1_2_ada')
+    """
+    found = _MOODLE.match(claim)
+    return claim if found is None else found["who"] + found["number"]
 
 
 def _key(text: str) -> str:
