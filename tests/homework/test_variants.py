@@ -22,15 +22,19 @@ from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.class_sheets import VaryError, class_sheets, write_class
 from dofkit.homework.echo import echo
 from dofkit.homework.grading import Grader
+from dofkit.homework.key.key import Key
 from dofkit.homework.notebooks import QuestionError, item_of
 from dofkit.homework.own_sheets import NobodysSheetError, OwnSheet, own, own_sheet, structure_told
 from dofkit.homework.review.identity import answer_id
+from dofkit.homework.starting import best_questions
+from dofkit.homework.variants.difficulty import difficulty_of
 from dofkit.homework.variants.geometry import Stretch, new_stretch, stretched
 from dofkit.homework.variants.renaming import renamed, words
 from dofkit.homework.variants.stream import Stream
 from dofkit.homework.variants.structure import names_at_hand, written_scene
 from dofkit.interface import cli
 from dofkit.interface.assignment_commands import drawing
+from dofkit.scene.catalog import catalog_names
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.reading import load
 
@@ -391,3 +395,24 @@ def test_what_cannot_be_varied(tmp_path: Path) -> None:
     roster.write_text("email\n")
     with pytest.raises(VaryError, match="nobody"):
         class_sheets(str(source), load_roster(roster), "7", tmp_path / "made")
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize("name", catalog_names())
+@pytest.mark.parametrize("free", [False, True])
+def test_variants_of_the_whole_catalog(name: str, free: bool) -> None:
+    """Three students of every scene, with what is asked of it first; a base that is not proved stays as it is."""
+    asked = list(best_questions(Key(load(name))))
+    more = {"vary": True} if free else {}
+    prepared = varied({"id": "p", "scene": name, "questions": asked, **more}, students=3)
+    base = prepared.keys["p"]
+    for sheet in sheets(prepared):
+        (variant,) = sheet.variants
+        if base.report.verdict != "proved":
+            assert (variant.changed, variant.numbers, variant.names) == ("", "", "")
+            continue
+        assert (variant.key.report.verdict, variant.key.report.consistent) == ("proved", True)
+        assert len(variant.key.coordinates) == len(base.coordinates)
+        assert (variant.key.report.dof == 0) == (base.report.dof == 0)
+        if not free:
+            assert difficulty_of(variant.problem, variant.key) == prepared.structures["p"][0].difficulty
