@@ -70,7 +70,7 @@ def _gradescope_users(root: Path) -> list[Participant]:
     known = [_object(user) for user in users] if isinstance(users, list) else []
     found = [[clean(str(user.get(key) or "")) for key in ("email", "name", "sid", "id")] for user in known]
     return [
-        Participant(email or name or own, name=name, email=email, number=sid, own=own)
+        Participant(email or name or own, name=name, email=email, number=sid, other=own)
         for email, name, sid, own in found
         if email or name or own
     ]
