@@ -124,11 +124,22 @@ def test_support_in_motion_where_the_problem_says_so() -> None:
     aspects = ["names", "supports"]
     prepared = varied(problem("p", PENDULUM, {"ask": "dof"}, LABEL, vary=aspects), students=20)
     moving = [v for sheet in sheets(prepared) for v in sheet.variants if v.changed]
-    assert 3 < len(moving) < 17
+    assert 3 < len(moving) < 20
     assert {v.key.constraints["rod"].scleronomic for v in moving} == {False}
     assert {v.key.report.dof for v in moving} == {1}
     alone = varied(problem("p", PENDULUM, {"ask": "dof"}, LABEL), students=20)
     assert not [v for sheet in sheets(alone) for v in sheet.variants if v.changed], "its label would be another"
+
+
+def test_a_link_may_hang_on_what_moves() -> None:
+    """Asked for its label; where its equation is asked for, the sheet would have nothing to tell of it."""
+    scene = {**PENDULUM, "constraints": [{"name": "rod", "type": "link", "between": [[2, "1/2"], "A"], "length": "l"}]}
+    prepared = varied(problem("p", scene, {"ask": "dof"}, LABEL, vary=["supports"]))
+    told = {s.changed: s.key.scene.constraints[0].in_words for s in prepared.structures["p"]}
+    text = "(x_A - (2 + a*cos(omega*t)))^2 + (y_A - (0.5))^2 = l^2"
+    assert told["rod: it hangs on a support that moves by a cos(omega t)"] == text
+    asked = problem("p", scene, LABEL, {"ask": "equation", "constraint": "rod"}, vary=["supports"])
+    assert {s.changed for s in varied(asked).structures["p"]} == {"", "rod: its length grows at the speed v"}
 
 
 def test_two_problems_may_trade_their_labels() -> None:
