@@ -115,7 +115,8 @@ class TypeFacts:
     ``axial``: it turns about lines through its places, in the plane about a place; ``slides``: along its first
     direction; ``contact``: in the plane it pushes its first point across its first direction. ``bars``: it keeps
     distances between its points; ``complete``: between every two. ``welded``: two bodies are one; ``held``: a body,
-    or a point, stays where it is. ``geared``: two wheels, the ratio of whose angles is its number.
+    or a point, stays where it is. ``geared``: two wheels, the ratio of whose angles is its number. ``freedoms``: what a
+    joint leaves free of the one body against the other.
 
     For how its relations are read: ``written``: they are a person's texts, which may be squared or fall into parts;
     ``lettered``: x, y, z in these stand for coordinates of a point; ``half_turns``: they also hold in assemblies that
@@ -138,6 +139,7 @@ class TypeFacts:
     welded: bool = False
     held: bool = False
     geared: bool = False
+    freedoms: tuple[str, ...] = ()
     written: bool = False
     lettered: bool = False
     half_turns: bool = False
@@ -201,9 +203,11 @@ class DrawnPoint:
 class JointRate(NamedTuple):
     """How the rate of a joint's angle or displacement enters a coupling: ``factor`` times ``rate`` of two members.
 
-    ``slides``: it is a displacement.
+    ``name``: of the joint and what is meant of it; ``slope`` of the relation by that; ``slides``: it is a displacement.
     """
 
+    name: str
+    slope: Expr
     rate: Callable[[Kinematics], VelocityRow]
     members: tuple[str, str]
     place: tuple[Expr, ...]

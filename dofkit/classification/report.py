@@ -14,6 +14,7 @@ from dofkit.classification.labels.integrable_part import integrable_part
 from dofkit.classification.study import Study
 from dofkit.classification.turned_coordinates import partly_turned, turned_together
 from dofkit.expressions.text import to_text
+from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import uses_time
@@ -78,6 +79,13 @@ def redundancies(study: Study) -> list[Redundancy]:
 def generalized_coordinates(study: Study) -> list[str] | None:
     """An independent choice of ``dof`` coordinates: those that are not pivots of what integrates."""
     return unless_late(partial(_generalized, study), None)
+
+
+def joint_coordinates(study: Study) -> list[str] | None:
+    """Angles and displacements of joints that describe a tree; None for what is none, or has another freedom."""
+    dof = study.outcome.dof
+    found = None if dof is None else tree_coordinates(study.system)
+    return found if found is not None and len(found) == dof else None
 
 
 def _generalized(study: Study) -> list[str] | None:

@@ -339,7 +339,7 @@ def test_all_faults_of_a_table_are_told_at_once(course: Course) -> None:
     assert (status, out) == (2, "")
     told = [line for line in err.splitlines() if ": error: " in line]
     places = [line.partition(": error: ")[0].removeprefix(f"{course.out / 'review.csv'}:") for line in told]
-    assert places == ["2:11", "3:11", "4:11", "7:11", "8:1", "9:1"]
+    assert places == ["2:12", "3:12", "4:12", "7:12", "8:1", "9:1"]
     assert "'two' is no number of points" in told[0]
     assert "2.5 points are out of range" in told[1]
     assert "write 0 to 2, or nothing" in err

@@ -25,7 +25,7 @@ pytest.importorskip("defusedxml")
 pytestmark = pytest.mark.sweep
 
 WHEELS = ("mujoco", "dm_control", "gymnasium_robotics")
-#: Seconds for one model, reading apart, and the share that may be open.
+#: Seconds of the processor for one model, reading apart, and the share that may be open.
 SLOWEST, OPEN = 5.0, 0.02
 #: Of joints in URDF: what each leaves free.
 FREE = {"revolute": 1, "continuous": 1, "prismatic": 1, "fixed": 0, "floating": 6, "planar": 3}
@@ -34,7 +34,7 @@ NO_ROBOTS = {"ur3.urdf", "alex_psyonic_hands.urdf"}
 
 
 class Compared(NamedTuple):
-    """What is right of a model, what was answered, and how long that took."""
+    """What is right of a model, what was answered, and the seconds that took."""
 
     name: str
     right: int
@@ -54,9 +54,9 @@ class Compared(NamedTuple):
 
 def compared(name: str, path: Path, right: int) -> Compared:
     scene = dofkit.load(path)
-    start = time.perf_counter()
+    start = time.process_time()
     report = dofkit.classify(scene)
-    return Compared(name, right, report, time.perf_counter() - start)
+    return Compared(name, right, report, time.process_time() - start)
 
 
 def folder(wheel: str) -> Path:

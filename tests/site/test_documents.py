@@ -23,7 +23,7 @@ from shared.documented import (
 import dofkit
 
 #: Kinds of blocks: data, what runs, and what is shown.
-KINDS = {"yaml", "csv", "python", "sh", "text"}
+KINDS = {"yaml", "xml", "csv", "python", "sh", "text"}
 #: Files that are no scene, or one with faults.
 NO_SCENES = ("sheet.yaml", "pendulum-sheet.yaml", "ada.yaml", "broken.yaml")
 PROGRAMS = [(document, block) for document in DOCUMENTS for block in blocks_of(document) if block.kind == "python"]

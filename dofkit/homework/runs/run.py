@@ -112,6 +112,8 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
             one.to_stdout(stream)
         else:
             one.to_path(stream, options.out, options.native, review)
+    if one.doubted:
+        print(f"a person has to say whose they are: {one.doubted} of the submissions have a 'doubt'", file=sys.stderr)
     if options.certificates is not None:
         write_certificates(prepared, options.certificates)
     return one.failed == 0
@@ -132,7 +134,7 @@ def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
 
 @dataclass
 class _Run:
-    """One run; ``failed`` counts the submissions that could not be graded."""
+    """One run; ``failed`` counts the submissions that could not be graded, ``doubted`` those that may be another's."""
 
     form: Format
     prepared: Prepared
@@ -141,6 +143,7 @@ class _Run:
     seen: HandedIn
     roster: Roster | None = None
     failed: int = 0
+    doubted: int = 0
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
         """Print results as they come."""
@@ -176,6 +179,7 @@ class _Run:
             graded = rostered(self.roster, in_order(self.crew, stream))
             for one, lines in without_repeats(self.orders, graded, self.seen):
                 self.failed += sum(line.failed for line in lines)
+                self.doubted += sum(line.doubted for line in lines)
                 yield one, lines
                 bar.update(task, advance=len(lines))
 

@@ -80,6 +80,8 @@ def _facts(report: Report) -> Iterator[Fact]:
     yield from _inequalities(report)
     if report.generalized_coordinates:
         yield Fact("coordinates", f"{names_of(report.generalized_coordinates)} (independent, and enough)")
+    if report.joint_coordinates:
+        yield Fact("joints", f"{names_of(report.joint_coordinates)} (they describe the tree)")
     if report.growth_vector:
         yield Fact("growth vector", f"({', '.join(map(str, report.growth_vector))})")
     part = report.integrable_part

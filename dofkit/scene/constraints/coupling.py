@@ -133,7 +133,9 @@ class Coupling(ConstraintBase):
             hint = f"write {told}" if told else "name a revolute, prismatic, cylindrical or screw joint"
             world.fault(f"'{written}' tells no angle or displacement of a joint", "joints", letter, hint=hint)
             return None
-        return self._located(world, letter, joint, measures[what or next(iter(measures))])
+        what = what or next(iter(measures))
+        found = self._located(world, letter, joint, measures[what])
+        return None if found is None else found._replace(name=f"{name}.{what}")
 
     def _located(self, world: World, letter: str, joint: Axial, measure: Measure) -> MeasuredJoint | None:
         """The joint where it is drawn."""
@@ -150,7 +152,7 @@ class Coupling(ConstraintBase):
             return None
         first, second = (world.frame(end, "joints", letter) for end in joint.between)
         world.drawn.update(joint.between)
-        return MeasuredJoint(first, second, place or (ZERO,) * world.dimension, axis, measure)
+        return MeasuredJoint(first, second, place or (ZERO,) * world.dimension, axis, measure, "")
 
     def _fits(self, world: World, e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> bool:
         """Record the rates at the drawing, where every joint stands at 0; whether the relation has a value there."""
@@ -189,6 +191,7 @@ class MeasuredJoint(NamedTuple):
     place: Vec
     axis: Direction | None
     measure: Measure
+    name: str
 
     @property
     def value(self) -> Expr:
@@ -199,6 +202,8 @@ class MeasuredJoint(NamedTuple):
         """How its rate enters where the relation has that slope."""
         size = ONE if self.axis is None else length(self.axis.vector)
         return JointRate(
+            self.name,
+            slope,
             self.measure.rate,
             (self.first.name, self.second.name),
             self.place,

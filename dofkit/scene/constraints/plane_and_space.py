@@ -51,7 +51,7 @@ class Revolute(Driven):
     synonyms: ClassVar[tuple[str, ...]] = ("hinge", "pin")
     understood: ClassVar[tuple[str, ...]] = ("pivot", "pinned", "rotary", "rotational", "turning", "bearing")
     facts: ClassVar[TypeFacts] = TypeFacts(
-        _revolute_rows, turn_rate, axial=True, half_turns=True, joint=True, planar_pair=True
+        _revolute_rows, turn_rate, axial=True, half_turns=True, joint=True, planar_pair=True, freedoms=("angle",)
     )
     measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE}
     symbol: ClassVar[Symbol] = Symbol(plane=(RING,), space=(axle(1.5), *cylinder(0.5, 0.7)))
@@ -91,7 +91,13 @@ class Prismatic(Driven):
     synonyms: ClassVar[tuple[str, ...]] = ("slider",)
     understood: ClassVar[tuple[str, ...]] = ("translational", "sliding", "linear", "rail", "piston")
     facts: ClassVar[TypeFacts] = TypeFacts(
-        _prismatic_rows, slide_rate, slides=True, half_turns=True, joint=True, planar_pair=True
+        _prismatic_rows,
+        slide_rate,
+        slides=True,
+        half_turns=True,
+        joint=True,
+        planar_pair=True,
+        freedoms=("displacement",),
     )
     measures: ClassVar[Mapping[str, Measure]] = {"displacement": SHIFT}
     symbol: ClassVar[Symbol] = Symbol(

@@ -60,7 +60,9 @@ class Cylindrical(Driven):
         3: "{type: cylindrical, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}"
     }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_cylindrical_rows, slide_rate, axial=True, half_turns=True, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _cylindrical_rows, slide_rate, axial=True, half_turns=True, joint=True, freedoms=("angle", "displacement")
+    )
     measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
     symbol: ClassVar[Symbol] = Symbol(space=(*cylinder(0.3, 2.4, 1), *cylinder(0.6, 1.0)))
 
@@ -91,7 +93,7 @@ class Screw(Driven):
     pitch: Value = Field(description="the advance along the axis for one turn, right-handed")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(
-        _screw_rows, turn_rate, by_turn=True, axial=True, half_turns=True, joint=True
+        _screw_rows, turn_rate, by_turn=True, axial=True, half_turns=True, joint=True, freedoms=("angle",)
     )
     variation: ClassVar[TypeVariation] = TypeVariation(places=("at",), directions=("axis",), lengths=("pitch",))
     measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
@@ -129,7 +131,9 @@ class Universal(LocatedJoint):
         None, description="two perpendicular axes, the first carried by the first body, the second by the second"
     )
     dimensions: ClassVar[tuple[int, ...]] = (3,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_universal_rows, directions=2, axial=True, half_turns=True, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _universal_rows, directions=2, axial=True, half_turns=True, joint=True, freedoms=("angle_1", "angle_2")
+    )
     symbol: ClassVar[Symbol] = Symbol(
         space=(
             Stroke(((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0))),
@@ -185,7 +189,9 @@ class Spherical(LocatedJoint):
     understood: ClassVar[tuple[str, ...]] = ("socket", "ball-socket", "ball_and_socket")
     axis: Vector | None = Field(None, description="not needed: the joint turns every way")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_spherical_rows, half_turns=True, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _spherical_rows, half_turns=True, joint=True, freedoms=("rotation_1", "rotation_2", "rotation_3")
+    )
     symbol: ClassVar[Symbol] = Symbol(
         space=(
             RING,
@@ -213,7 +219,9 @@ class Planar(Axial):
         3: "{type: planar, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}"
     }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_planar_rows, half_turns=True, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _planar_rows, half_turns=True, joint=True, freedoms=("displacement_1", "displacement_2", "angle")
+    )
     symbol: ClassVar[Symbol] = Symbol(space=(plate(-0.15, 2.2), plate(0.15, 1.2, 1)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
