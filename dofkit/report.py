@@ -175,6 +175,7 @@ class Report(Displayed, ToldModel):
     ``velocity_dof`` the number of independent velocities of finite motions,
     ``instantaneous_dof`` what the constraints allow to first order at the reference configuration.
     ``redundant`` is None, never empty, where it was not decided.
+    ``joint_coordinates``: of a tree of bodies the angles and displacements that describe it (None for any other).
     ``special_cases`` are apart: all other fields are the generic answer.
     ``generic`` is the count in general position beside that at the drawing (None without a drawing), ``mobility``
     Gruebler's and Kutzbach's beside the truth (None without bodies and joints).
@@ -211,6 +212,7 @@ class Report(Displayed, ToldModel):
     redundancies: list[Redundancy]
     conflicting: list[str]
     generalized_coordinates: list[str] | None
+    joint_coordinates: list[str] | None = None
     growth_vector: list[int] | None
     integrable_part: IntegrablePart | None = None
     generic: Generic | None = None

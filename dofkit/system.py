@@ -70,6 +70,7 @@ class Kinematics(Protocol):
 
     Columns are the velocity v, then the angular velocity w, of every member; a vector of velocities is a row a
     component. ``points``: (what carries it, its place); ``number``: the screw's advance by radian, or a ratio of gears.
+    ``parts``: of a coupling the rate of each joint, its factor, and the joint alone.
     """
 
     @property
@@ -82,6 +83,8 @@ class Kinematics(Protocol):
     def directions(self) -> Sequence[Sequence[Any]]: ...
     @property
     def number(self) -> Any: ...
+    @property
+    def parts(self) -> Sequence[tuple[Callable[[Any], VelocityRow], Any, Any]]: ...
 
     def shift(self) -> list[VelocityRow]:
         """How the second body's point at the first place moves against the first body's."""
@@ -112,7 +115,8 @@ class TypeFacts:
     ``axial``: it turns about lines through its places, in the plane about a place; ``slides``: along its first
     direction; ``contact``: in the plane it pushes its first point across its first direction. ``bars``: it keeps
     distances between its points; ``complete``: between every two. ``welded``: two bodies are one; ``held``: a body,
-    or a point, stays where it is. ``geared``: two wheels, the ratio of whose angles is its number.
+    or a point, stays where it is. ``geared``: two wheels, the ratio of whose angles is its number. ``freedoms``: what a
+    joint leaves free of the one body against the other.
 
     For how its relations are read: ``written``: they are a person's texts, which may be squared or fall into parts;
     ``lettered``: x, y, z in these stand for coordinates of a point; ``half_turns``: they also hold in assemblies that
@@ -135,6 +139,7 @@ class TypeFacts:
     welded: bool = False
     held: bool = False
     geared: bool = False
+    freedoms: tuple[str, ...] = ()
     written: bool = False
     lettered: bool = False
     half_turns: bool = False
@@ -195,13 +200,30 @@ class DrawnPoint:
     particle: bool = False
 
 
+class JointRate(NamedTuple):
+    """How the rate of a joint's angle or displacement enters a coupling: ``factor`` times ``rate`` of two members.
+
+    ``name``: of the joint and what is meant of it; ``slope`` of the relation by that; ``slides``: it is a displacement.
+    """
+
+    name: str
+    slope: Expr
+    rate: Callable[[Kinematics], VelocityRow]
+    members: tuple[str, str]
+    place: tuple[Expr, ...]
+    direction: tuple[Expr, ...]
+    factor: Expr
+    slides: bool = False
+
+
 @dataclass(frozen=True)
 class Connection:
     """What the constraint number ``constraint`` connects, as given by its geometry and not by a text.
 
     ``facts``: of its type. ``members``: bodies (``ground`` too) and particles, in the order mentioned. ``points``
     belong to members, ``places`` and ``directions`` to the drawing; what is in general position is None. ``number``:
-    the screw's pitch, or the ratio of gears. ``driven``: one more relation prescribes the motion.
+    the screw's pitch, or the ratio of gears. ``driven``: one more relation prescribes the motion. ``rates``: of the
+    joints that are coupled.
     """
 
     constraint: int
@@ -212,6 +234,7 @@ class Connection:
     directions: tuple[tuple[Expr, ...] | None, ...] = ()
     number: Expr | None = None
     driven: bool = False
+    rates: tuple[JointRate, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -237,6 +260,7 @@ class System:
     (constraint index, particle, particle), ``distances`` those between points of any kind that constraints
     hold, by constraint index; ``connections`` what each constraint of given or generic geometry
     connects, ``starts`` where the bodies' origins stand. ``size``: the largest distance between given points.
+    ``left_out``: what the scene says that it leaves out.
     """
 
     name: str
@@ -259,6 +283,7 @@ class System:
     tolerance: Fraction | None = None
     size: float = 1.0
     warnings: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
 
     @property
     def longest(self) -> int:
@@ -268,6 +293,10 @@ class System:
     def numbers_of(self, *names: str) -> tuple[int, ...]:
         """The numbers of the constraints of these names, in the order of the names."""
         return tuple(i for name in names for i, c in enumerate(self.constraints) if c.name == name)
+
+
+#: How an entry of what is left out begins that is a constraint: it would take freedom away.
+BINDING = "constraint "
 
 
 #: The fixed world, always there.

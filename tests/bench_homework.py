@@ -16,6 +16,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from ruamel.yaml import YAML
+
 import dofkit
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.grading import Grader
@@ -131,6 +133,36 @@ def rates() -> None:
         told(f"{what}: answers a second and core", f">= {asked}", f"{rate:.0f}")
 
 
+NATURAL = Path(__file__).parent / "homework" / "natural"
+#: Questions whose answers are numbers, labels and names, not equations.
+SIMPLE = frozenset({"dof", "velocity_dof", "k", "label", "coordinates", "redundant"})
+
+
+def natural() -> None:
+    """Answers a second of one core, as students write them: solved, on another branch, rewritten, with remarks."""
+    took, count = {True: 0.0, False: 0.0}, {True: 0, False: 0}
+    for path in sorted(NATURAL.glob("*.yaml")):
+        given = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+        prepared = dofkit.load_assignment(given.pop("assignment"))
+        kinds = {(problem.id, question.id): question.kind() for problem, question in prepared.questions()}
+        grader = Grader(prepared)
+        for by_place in given.values():
+            for place, by_verdict in by_place.items():
+                problem, question = place.split(".")
+                simple = kinds[problem, question] in SIMPLE
+                answers = [
+                    {"answers": {problem: {question: answer}}} for some in by_verdict.values() for answer in some
+                ]
+                start = time.process_time()
+                for one in answers:
+                    grader.grade(of_value(one, "s"))
+                took[simple] += time.process_time() - start
+                count[simple] += len(answers)
+    for simple, asked in ((True, 300), (False, 40)):
+        what = "numbers, labels, names" if simple else "equations, integrals, motion"
+        told(f"natural answers, {what}: a second and core", f">= {asked}", f"{count[simple] / took[simple]:.0f}")
+
+
 def command(folder: Path, *more: str) -> list[str]:
     """The command line that grades the submissions of a folder."""
     return [sys.executable, "-m", "dofkit", "grade", str(folder / "a.json"), *more]
@@ -193,6 +225,7 @@ def main() -> None:
     """Everything."""
     told("", "asked", "measured")
     rates()
+    natural()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "a.json").write_text(json.dumps(ASSIGNMENT))

@@ -25,6 +25,10 @@ def text_of(value: object, width: int | None = None, how: bool = False) -> str:
     return str(_drawn("text_of", value, width, how))
 
 
+#: Methods of Pydantic's models that a notebook offers beside the fields.
+_OF_USE = frozenset({"model_copy", "model_dump", "model_dump_json", "model_validate", "model_validate_json"})
+
+
 class Displayed:
     """The base of what is drawn: by `print` as at a terminal, by a notebook as a table."""
 
@@ -32,6 +36,11 @@ class Displayed:
 
     def __str__(self) -> str:
         return text_of(self)
+
+    def __dir__(self) -> list[str]:
+        """What a reader asks for: of Pydantic's own methods only those that are of use here."""
+        inner = {name for cls in type(self).__mro__ if cls.__module__.startswith("pydantic.") for name in vars(cls)}
+        return sorted(n for n in super().__dir__() if n.startswith("_") or n in _OF_USE or n not in inner)
 
     def _repr_html_(self) -> str:
         return str(_drawn("html_of", self))

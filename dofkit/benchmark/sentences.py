@@ -105,7 +105,7 @@ def _tolerance(chart: ChartRun) -> str:
         f"{_percent(ours.right, ours.trials)} of the trials and is wrong in {_percent(ours.wrong, ours.trials)}; "
         "singular values with that tolerance find it in "
         f"{_percent(other.right, other.trials)}, and with the best one for all drawings in "
-        f"{_percent(round(1000 * other.best), 1000)}."
+        f"{_percent(other.best, 1)}."
     )
 
 
@@ -186,12 +186,20 @@ def _milliseconds(seconds: float) -> str:
 
 
 def _percent(count: float, trials: float) -> str:
-    """Never rounded to 0 or 100 where it is not."""
-    value = 100 * count / trials
+    return percent(count / trials, "less than ", "more than ")
+
+
+def percent(share: float, below: str = "<", above: str = ">") -> str:
+    """Never rounded to 0 or 100 where it is not.
+
+    >>> percent(0.5), percent(0.0004), percent(0.9996), percent(1.0)
+    ('50 %', '<0.1 %', '>99.9 %', '100 %')
+    """
+    value = 100 * share
     if 0 < value < 0.1:
-        return "less than 0.1 %"
+        return f"{below}0.1 %"
     if 99.9 < value < 100:
-        return "more than 99.9 %"
+        return f"{above}99.9 %"
     return f"{value:.1f} %" if 0 < value < 10 or 90 < value < 100 else f"{value:.0f} %"
 
 

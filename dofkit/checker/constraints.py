@@ -10,7 +10,21 @@ from typing import Any
 
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector, apart, cross, dot, length, less, scaled, square
 from dofkit.checker.grammar import KnownNames, Sided, parse, parse_relations
-from dofkit.checker.trees import ONE, TWO, ZERO, Effort, Tree, add, call, difference, power, refuse, symbol, times
+from dofkit.checker.trees import (
+    ONE,
+    TWO,
+    ZERO,
+    Effort,
+    Tree,
+    add,
+    call,
+    difference,
+    number,
+    power,
+    refuse,
+    symbol,
+    times,
+)
 from dofkit.checker.values import evaluated, excludes_zero, in_velocities, substituted, symbols_in
 
 Entry = Mapping[str, Any]
@@ -270,13 +284,14 @@ def turns(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> Tr
 
 
 def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
-    """No turn of one against the other: the angle; the Cayley parameters; or three entries of A1^T A2."""
+    """No turn of one against the other: the angle; Cayley parameters, those of B = A1^T A2 by B - B^T over 1 + tr B."""
     if len(first.position) == 2:
         return [difference(second.angle, first.angle)]
     if first.cayley is not None and second.cayley is not None:
         return less(second.cayley, first.cayley)
     a, b = (tuple(zip(*frame.turn, strict=True)) for frame in (first, second))
-    return [dot(a[i], b[j]) for i, j in ((0, 1), (1, 2), (2, 0))]
+    half = power(add(times(first.under, second.under), *(dot(a[i], b[i]) for i in range(3))), number(-1))
+    return [times(half, difference(dot(a[i], b[j]), dot(a[j], b[i]))) for i, j in ((0, 1), (1, 2), (2, 0))]
 
 
 #: What each joint keeps, the fields it has beside ``between``, and the dimensions in which it is defined.

@@ -10,9 +10,9 @@ from typing import Any
 from flint import fmpq_mat
 
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.fields import Told, admissible, crossing, independent, involutive, isolated, of_word, span
+from dofkit.checker.fields import Told, admissible, independent, involutive, isolated, of_word, pinned, span
 from dofkit.checker.trees import refuse
-from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, heads_in, symbols_in
+from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
 
 
 def _finite_minor(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
@@ -22,7 +22,7 @@ def _finite_minor(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
 
 
 #: What shows how many freedoms there are at most: as many as coordinates less rows, or one less.
-MOST = {"minor": _finite_minor, "frobenius": involutive, "isolated": isolated, "crossing": crossing}
+MOST = {"minor": _finite_minor, "frobenius": involutive, "isolated": isolated}
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -31,18 +31,18 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     most, least = claim.get("most", {**one, "rule": "minor"}), claim.get("least", {**one, "rule": "regular"})
     refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
-    above = size - len(minor.rows) - (most["rule"] in ("isolated", "crossing"))
-    if least["rule"] == "crossing":
-        other = crossing(evidence, least)
-        point, found = other.point, size - len(other.rows) - 1
-    elif least["rule"] == "regular":
-        other = evidence.accounts(evidence.minor(least["minor"]), evidence.equations)
-        point, found = other.point, size - len(other.rows)
-    else:
+    above = size - len(minor.rows) - (most["rule"] == "isolated")
+    if least["rule"] == "span":
         point, found = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
+    else:
+        rows = least["minor"]["rows"] if least["rule"] == "family" else None
+        other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
+        ones = [evidence.relation(row) for row in other.rows if rows]
+        fits = all(one.kind == "finite" and (one.owner or not evidence.is_open(one.left)) for one in ones)
+        refuse(not fits, "a family is of configurations, whatever parameters are")
+        point, found = other.point, size - len(other.rows)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
-    evidence.is_about(claim["about"], point)
-    verified[f"{path} at"] = "reference" if claim["about"] == "reference" else point.name
+    verified[f"{path} at"] = evidence.is_about(claim["about"], point)
     return found
 
 
@@ -82,11 +82,15 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
 
 
 def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
-    """What depends on what: nothing, one constraint alone, or a circuit where one equation is too many."""
+    """What depends on what: nothing; a circuit where one equation is too many; all, where without any one nothing.
+
+    So it is where what can be dropped was verified at the same point: there the dependent equation is a regular one.
+    """
     surplus, known = verified["/redundant_equations"], [one for one in owners(evidence) if evidence.owned(one)]
-    around = [{one, *verified[key]} for one in known if (key := f"circuit {one}") in verified]
-    around = [set(known)] if len(known) == 1 else around
-    refuse(surplus and (len(around) != 1 or (surplus != 1 and len(known) > 1)), "several groups, or none that is shown")
+    place, whole = verified.get("at /redundant", object()), len(known) == 1 or "apart" in verified
+    around = [{one, *verified[f"circuit {one}"]} for one in known if verified.get(f"at circuit {one}") == place]
+    around = [set(known)] if whole else around
+    refuse(surplus and (len(around) != 1 or (surplus > 1 and not whole)), "several groups, or none that is shown")
     return [{"nullity": surplus, "members": [one for one in known if one in around[0]]}] if surplus else []
 
 
@@ -113,7 +117,7 @@ def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]
     names, point, own = names_told(claim), evidence.point(claim["at"]), evidence.owned(claim["owner"])
     before = owners(evidence)[: owners(evidence).index(claim["owner"])]
     refuse(not own or not set(names) <= set(before), "a circuit holds constraints that were written before")
-    evidence.is_about("here", point)
+    verified[f"at circuit {claim['owner']}"] = evidence.is_about("here", point)
     evidence.on_set(point, [*relations_of(evidence, names), *own])
     evidence.follow(own, relations_of(evidence, names), point, "the circuit")
     for name in names:
@@ -162,13 +166,14 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
             whole = set(other.rows) == every.difference(evidence.owned(name))
             larger = whole and same_place(evidence, other.point, verified) > len(other.rows)
             refuse(not larger, f"without `{name}` the others are no manifold, or as large")
+        verified["apart"] = True
         return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
-    evidence.is_about("here", minor.point)
     refuse(not set(dropped) <= set(order) or not set(minor.rows) <= every, "no constraints, or rows of no relations")
     kept = relations_of(evidence, [owner for owner in order if owner not in dropped])
     evidence.follow(relations_of(evidence, dropped), kept, minor.point, "what is kept")
     _depend_plainly(evidence, minor, every - set(minor.rows))
+    verified["at /redundant"] = evidence.is_about("here", minor.point)
     sizes, spared = sorted(len(evidence.owned(owner)) for owner in order), len(every) - len(minor.rows)
     most = sum(1 for i in range(len(sizes)) if sum(sizes[: i + 1]) <= spared)
     refuse(len(dropped) != most, f"{len(dropped)} constraints are named, and {most} might be dropped")
@@ -183,8 +188,9 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
     if not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite):
         return
     for name in others:
-        ways = [one for one in evidence.consequences if one.target == name and set(one.sources) <= set(minor.rows)]
-        used = [(*one.defined, *one.nonzero) for one in ways if one.defined]
+        ways = [(i, one) for i, one in enumerate(evidence.consequences) if one.target == name and one.defined]
+        ways = [(i, one) for i, one in ways if {*one.sources} <= {*minor.rows} and evidence.applies(i, minor.point)]
+        used = [(*one.defined, *one.nonzero) for _, one in ways]
         plain = any(not any(map(symbols_in, trees)) for trees in used)
         single = len(others) == 1 and any(all(excludes_zero(minor.point.value(t)) for t in trees) for trees in used)
         refuse(not plain and not single, f"`{name}` does not depend on the rows by numbers")
@@ -195,20 +201,32 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
-def same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
-    """n less the dof that was verified near the point."""
-    evidence.is_about("here", point)
-    refuse(verified.get("/dof at") not in (None, "reference", point.name), "dof was verified at another point")
+def same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, beside: Any = ()) -> int:
+    """n less the dof that was verified near the point; of angles ``beside`` it is told beside the point."""
+    place = evidence.is_about("here", point, beside)
+    refuse(verified.get("/dof at") not in (None, place), "dof was verified at another point")
     return len(evidence.problem.coordinates) - int(verified["/dof"])
 
 
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
-    """All other coordinates are functions of these near the point, whose number is dof there."""
-    minor = MOST[claim["rule"]](evidence, claim)
-    columns = {*minor.columns, *([claim["free"]] if claim["rule"] == "isolated" else [])}
+    """All other coordinates are functions of these near the point, whose number is dof there.
+
+    Where angles are no chart of poses at the point, they are beside it: what is left over by all relations, which
+    follow from the rows, is no less in coordinates with the second angle (``beside``: another minor of these rows). Or
+    relations of one coordinate each keep all three.
+    """
+    minor = {**MOST, "isolated": pinned}[claim["rule"]](evidence, claim)
+    columns = {*minor.columns, *(claim["speeds"] if claim["rule"] == "isolated" else ())}
     whole = sorted((*columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
     refuse(not whole, "the columns of the minor are not all the other coordinates")
-    refuse(same_place(evidence, minor.point, verified) != len(columns), "their number is not a verified dof")
+    other = evidence.minor(claim.get("beside", claim["minor"]))
+    refuse(other.point is not minor.point or set(other.rows) != set(minor.rows), "another minor is of other rows")
+    held = (symbols_in(evidence.relation(name).left) for name in evidence.finite)
+    still = {q for names in held for q in names if names <= {q}}
+    turned = [angles for angles in evidence.problem.turns if angles[1] not in other.columns or {*angles} <= still]
+    if turned:
+        evidence.accounts(minor, evidence.finite)
+    refuse(same_place(evidence, minor.point, verified, turned) != len(columns), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names_told(claim)
 
@@ -268,7 +286,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     beside = any(q == "t" for _, q in order) and (blocks or generic or evidence.moving or not minor)
     refuse(beside or (not minor and (blocks or generic)), "t is given beside others, or a point is needed")
     if minor:
-        evidence.is_about("here", minor.point)
+        verified[f"{claim['path']} at"] = evidence.is_about("here", minor.point)
     if rank < len(names):
         rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
         refuse(blocks or order or sorted(rows) != sorted(names), "one cover of all finite relations is needed")
@@ -284,7 +302,7 @@ def _is_analytic(evidence: CheckedEvidence, name: str, given: bool) -> bool:
     """Whether a relation is analytic at all places; a form, and what gives no coordinate, up to a denominator."""
     one = evidence.relation(name)
     quotient = not given or one.kind != "finite"
-    return evidence.has_value_everywhere(one.left, quotient) and "apply" not in heads_in(one.left)
+    return evidence.has_value_everywhere(one.left, quotient) and not one.left.applied
 
 
 def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable
 from typing import Any, NamedTuple
 
 from dofkit.checker.relations import CheckedRelations, total_derivative
-from dofkit.checker.trees import ONE, ZERO, Tree, refuse, symbol
+from dofkit.checker.trees import ONE, ZERO, Tree, call, refuse, symbol
 from dofkit.checker.values import CheckedPoint, derivative, evaluated, excludes_zero, linear_in, substituted, symbols_in
 
 LARGEST_MINOR = 250
@@ -59,29 +59,29 @@ class CheckedEvidence(CheckedRelations):
 
     def holds(self, name: str, point: CheckedPoint) -> bool:
         """Whether a relation is 0 at a point, exactly."""
-        return self.once(("holds", name, point.name), lambda: self._is_zero(self.relation(name).left, point))
+        return self.once(("holds", name, point.name), lambda: self.is_zero(self.relation(name).left, point))
 
-    def _is_zero(self, left: Tree, point: CheckedPoint) -> bool:
+    def is_zero(self, left: Tree, point: CheckedPoint) -> bool:
         """Whether a tree is 0 at a point: of a row of its box, or in the ring; and its ball holds 0."""
         row = any(self.known[name].left == left for name in point.rows)
         return bool(point.value(left).contains(0)) and (row or self.ring.vanishes(point.prepared(left)))
 
-    def on_set(self, point: CheckedPoint, names: Iterable[str]) -> None:
+    def on_set(self, point: CheckedPoint, names: Iterable[str], states: bool = False) -> None:
         """`CheckError` unless the relations hold at a point, but for integrals; forms are smooth there.
 
-        A nonlinear relation speaks of a state: all velocity relations and all rates hold at its velocities.
+        A nonlinear relation speaks of a state, as all do where ``states``: velocity relations and rates hold there.
         """
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
         finite = {one.name for one in wanted if one.kind == "finite"}
         self.follow(finite, {*point.rows, *(name for name in finite if self.holds(name, point))}, point, "what holds")
-        states = not all(self.is_linear(one.name) for one in wanted)
+        states |= not all(self.is_linear(one.name) for one in wanted)
         for one in wanted:
             still = one.name in finite
             for velocity in self.met_by(one.left):
                 point.value(self.slope(one.name, velocity[:-3]))
             wrong = still and excludes_zero(point.value(one.left))
             if states:
-                wrong |= not self._is_zero(total_derivative(one.left, self.variables) if still else one.left, point)
+                wrong |= not self.is_zero(total_derivative(one.left, self.variables) if still else one.left, point)
             refuse(wrong, f"`{one.name}` does not hold at the point `{point.name}`, or not for its velocities")
 
     def minor(self, given: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
@@ -138,19 +138,24 @@ class CheckedEvidence(CheckedRelations):
         """A tree at the scene's configuration, parameters and functions left open."""
         return substituted(tree, {**self.problem.reference, "t": ZERO, "tdot": ONE})
 
-    def is_about(self, about: Any, point: CheckedPoint) -> None:
-        """`CheckError` unless a point is one of those that a claim is about.
+    def is_about(self, about: Any, point: CheckedPoint, beside: Collection[tuple[str, ...]] = ()) -> Any:
+        """The point's name, or ``reference``; `CheckError` unless it is one of those that a claim is about.
 
         ``reference``: the scene's configuration, which meets the relations for all values that a point chooses;
         ``component``: any point, where no configuration is given; ``here``: whichever of both is so.
+        Angles have to be a chart of poses there, but for those ``beside``.
         """
         fits = about in ("here", "reference" if self.problem.reference else "component")
         refuse(not fits, "the claim has to be about the scene's configuration, if it has one")
+        for tilt in (angles[1] for angles in self.problem.turns if angles not in beside):
+            upright = tilt in point.balls and not excludes_zero(point.value(call("sin", symbol(tilt))))
+            refuse(upright, f"the angles are no chart of the poses around, as sin({tilt}) may be 0")
         if not self.problem.reference:
-            return
+            return point.name
         for name, tree in {**self.problem.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():
             told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
         for left in (self.relation(name).left for name in self.finite):
             if self.is_open(left):
                 self.identity(self.at_reference(left), ZERO, "a relation at the configuration")
+        return "reference"

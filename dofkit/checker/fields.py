@@ -150,8 +150,10 @@ def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tr
     refuse(type(order) is not int or not 1 <= order <= HIGHEST_ORDER, "the order of a derivative is small")
     lefts, moved = [*(evidence.relation(row).left for row in minor.rows), tree], [*minor.columns, *speeds]
     names, rates = list(moved), dict[str, Any]()
-    taken = evidence.chosen.intersection(q + "dot" * k for q in moved for k in range(1, order + 1))
-    refuse(taken, "a parameter has the name of a derivative")
+    taken = {q + "dot" * k for q in moved for k in range(1, order + 1)}.intersection(
+        (*evidence.chosen, *evidence.variables)
+    )
+    refuse(taken, "a parameter or coordinate has the name of a derivative")
     with ctx.workprec(PRECISION):
         slopes = [[minor.point.value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
         for k in range(1, order + 1):
@@ -177,36 +179,30 @@ def _stationary(evidence: CheckedEvidence, given: Told) -> tuple[CheckedMinor, T
 
 
 def isolated(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
-    """A minor at whose point the set is no more than the orbit of fields, which keep it.
+    """A minor whose rows leave a dimension more than there is: another relation is not 0 on all that they leave.
 
-    Where the fields' own coordinates (``pins``) rest, the rows leave a curve, on which another relation has a
-    derivative that is not 0: its zero is isolated. Every point near it is moved there by the fields.
+    It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only.
     """
-    minor, zero, names = _stationary(evidence, given)
-    fields, pins, free = [field_named(evidence, name) for name in given["fields"]], given["pins"], given["free"]
-    whole = sorted((*minor.columns, *pins, free)) == sorted(evidence.problem.coordinates)
-    refuse(not whole or any("t" in field for field in fields), "columns, pins and one more are the coordinates")
-    tangent(evidence, fields, names)
-    independent(evidence, fields, pins, minor.point)
-    value = along_curve(evidence, minor, {free: arb(1)}, zero, given["order"])
+    minor, zero, _ = _stationary(evidence, given)
+    numbers = {q: evidence.text(text) for q, text in given["speeds"].items()}
+    free = set(evidence.problem.coordinates) - set(minor.columns)
+    refuse(not numbers.keys() <= free or any(map(symbols_in, numbers.values())), "numbers for free coordinates")
+    balls = {q: minor.point.value(tree) for q, tree in numbers.items()}
+    value = along_curve(evidence, minor, balls, zero, given["order"])
     refuse(not excludes_zero(value), "the zero on the curve is not shown to be isolated")
     return minor
 
 
-def crossing(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
-    """A minor at whose point one more relation is positive along a curve and negative along another, and all follow.
+def pinned(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
+    """An `isolated` zero where the coordinates (``pins``) of fields rest, which keep all: the set is their orbit there.
 
-    Its zeros part what the rows leave, so that their dimension is one less (Hurewicz and Wallman 1941), and no larger,
-    since it is analytic. Signs: of the second derivatives; where a first one is not 0 it has both signs anyway.
+    Every point near it is moved to one where the pins rest; these are on a curve, with an isolated zero.
     """
-    minor, zero, names = _stationary(evidence, given)
-    evidence.follow(evidence.equations, names, minor.point, "the rows and one more")
-    evidence.on_set(minor.point, evidence.equations)
-    left = set(evidence.problem.coordinates) - set(minor.columns)
-    for sign, speeds in zip((1, -1), given["speeds"], strict=True):
-        numbers = {q: evidence.text(text) for q, text in speeds.items()}
-        refuse(not numbers.keys() <= left or any(map(symbols_in, numbers.values())), "numbers for free coordinates")
-        balls = {q: minor.point.value(tree) for q, tree in numbers.items()}
-        value = along_curve(evidence, minor, balls, zero, 2) * sign
-        refuse(not value > 0, "the sign along a curve is not shown")
+    minor, (_, _, names), pins = isolated(evidence, given), _stationary(evidence, given), given["pins"]
+    fields = [field_named(evidence, name) for name in given["fields"]]
+    whole = len(given["speeds"]) == 1 and sorted((*minor.columns, *pins, *given["speeds"]))
+    apart = whole != sorted(evidence.problem.coordinates)
+    refuse(apart or any("t" in field for field in fields), "columns, pins and one more are the coordinates")
+    tangent(evidence, fields, names)
+    independent(evidence, fields, pins, minor.point)
     return minor

@@ -182,15 +182,18 @@ def factor(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
 def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     """The constraint says that a function keeps its value, as a step does: it follows from its rate.
 
-    Where it takes further integrals: a minor of these, of finite relations and a relation of the constraint shows that
-    they do not do alone.
+    The step follows from the constraint and finite relations. Where it takes further integrals: a minor of these, of
+    finite relations and a relation of the constraint shows that they do not do alone.
     """
     point, function = evidence.point(claim["at"]), evidence.text(told_integral(evidence, claim["value"]))
     moves = any(excludes_zero(point.value(derivative(function, v))) for v in evidence.variables)
     refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
     evidence.identity(evidence.relation(claim["step"]).left, function, "the integral of the step")
     others, whole = [*claim.get("integrals", [])], own(evidence, claim)
-    if others:
+    refuse(set(whole) <= set(evidence.finite), "a finite relation has no integral")
+    if not others:
+        evidence.follow([claim["step"]], {*evidence.finite, *whole}, point, "the constraint")
+    else:
         minor = evidence.minor(claim["minor"], {*others, *evidence.finite, *whole})
         rest = set(minor.rows).difference(whole)
         refuse(minor.point is not point or len(rest) == len(minor.rows), "the minor is not of the constraint")
@@ -224,11 +227,16 @@ def told_integral(evidence: CheckedEvidence, text: Any) -> str:
 
 
 def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """A motion meets all equations, and each inequality holds somewhere; all at one point where that is asked."""
+    """A motion meets all equations, and each inequality holds somewhere; all at one point where that is asked.
+
+    Inequalities between velocities hold for those of the point, which is regular: a motion has them.
+    """
     point, places = moves(evidence, claim, evidence.equations), claim.get("inequalities", {})
     sided = [one for one in evidence.problem.relations if one.kind == "inequality"]
-    together = claim["path"] == "/feasible"
-    refuse(together and not (sided and not any(evidence.met_by(one.left) for one in sided)), "inequalities of places")
+    together, moving = claim["path"] == "/feasible", any(evidence.met_by(one.left) for one in sided)
+    refuse(together and (not sided or (moving and claim["rule"] != "regular")), "inequalities, and a regular point")
+    if together and moving:
+        evidence.on_set(point, evidence.equations, states=True)
     for one in sided:
         place = point if together else evidence.point(places.get(one.name, places.get(one.owner, point.name)))
         equal_will_do = not one.strict and not evidence.is_open(one.left)
@@ -261,14 +269,19 @@ def moves(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> Chec
 def refuted(evidence: CheckedEvidence, given: Told, verified: Told, names: Sequence[str] | None = None) -> bool:
     """No motion meets equations: a positive number plus squares plus multiples of what is 0 cannot be 0.
 
-    An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974).
+    An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974); of ``/feasible`` with all others,
+    and a strict one, times a positive number, is positive.
     """
     held = evidence.closure([one.name for one in evidence.problem.relations] if names is None else names, None)
     total = [evidence.text(given["number"]), evidence.squares(given.get("sos", []))]
-    refuse(not evidence.is_nowhere_zero(total[0], True), "the number that is left over is not positive")
     sided = {name: evidence.squares(terms) for name, terms in given.get("inequality", {}).items()}
     factors = {name: evidence.text(text) for name, text in given.get("c", {}).items()}
-    refuse(len(sided) + bool(factors) > 1 and sided, "an inequality is refuted by itself")
+    together = names is None and given["path"] == "/feasible"
+    refuse(len(sided) + bool(factors) > 1 and sided and not together, "an inequality is refuted by itself")
+    strict = [s for name, s in sided.items() if together and evidence.relation(name).strict]
+    positive = evidence.is_nowhere_zero(total[0], True)
+    positive |= total[0] == ZERO and any(evidence.is_nowhere_zero(s, True) for s in strict)
+    refuse(not positive, "what is left over is not positive")
     for name, factor in (*sided.items(), *factors.items()):
         one = evidence.relation(name)
         fits = name in held and not one.leaf and (one.kind == "inequality") == (name in sided)

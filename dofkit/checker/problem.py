@@ -32,7 +32,7 @@ MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 8_
 _NULLS = (None, "", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
 #: Keys that say nothing of the mathematics, and values that are as good as left out.
-_SILENT, _DEFAULTS = ("name", "title", "source", "notes", "expect"), {"dimension": 3, "tolerance": 0}
+_SILENT, _DEFAULTS = ("name", "title", "source", "notes", "left_out", "expect"), {"dimension": 3, "tolerance": 0}
 #: What a text alone stands for in these lists.
 _SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")
@@ -120,7 +120,10 @@ class CheckedRelation(NamedTuple):
 
 
 class CheckedProblem(NamedTuple):
-    """What a scene says. ``parameters``: those that stay symbols; ``reference`` holds at t = 0, empty where none is."""
+    """What a scene says. ``parameters``: those that stay symbols; ``reference`` holds at t = 0, empty where none is.
+
+    ``turns``: the Euler angles of bodies; where the sine of the second is 0 they are no chart of the poses around.
+    """
 
     dimension: int
     coordinates: tuple[str, ...]
@@ -129,6 +132,7 @@ class CheckedProblem(NamedTuple):
     relations: tuple[CheckedRelation, ...]
     generic: tuple[str, ...]
     reference: Mapping[str, Tree]
+    turns: tuple[tuple[str, ...], ...]
 
 
 def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> CheckedProblem:
@@ -145,7 +149,9 @@ def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset
     for told in (names, [one.name for one in relations]):
         refuse(len({*told}) < len(told), "a name is that of a generic symbol, or relations have one name")
     named = coordinates, world.signs, world.names.functions
-    return CheckedProblem(world.dimension, *named, relations, tuple(world.generic), reference)
+    turning = (list(one.reference) for one in world.frames.values() if world.dimension == 3 and one.cayley is None)
+    turns = tuple(tuple(names[3:]) for names in turning)
+    return CheckedProblem(world.dimension, *named, relations, tuple(world.generic), reference, turns)
 
 
 def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, tuple[str, ...], dict[str, Tree]]:

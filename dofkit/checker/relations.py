@@ -19,7 +19,7 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, heads_in, symbols_in
+from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, put_in, symbols_in
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -79,7 +79,7 @@ class CheckedTexts:
 
         A claim is about almost all of them: what holds for the chosen ones has to hold for those near them.
         """
-        return not self.chosen.isdisjoint(symbols_in(tree)) or "apply" in heads_in(tree)
+        return not self.chosen.isdisjoint(symbols_in(tree)) or tree.applied
 
     def met_by(self, tree: Tree) -> list[str]:
         """The velocities that occur."""
@@ -140,8 +140,8 @@ class CheckedRelations(CheckedTexts):
         self._take_steps()
 
     def _take_steps(self) -> None:
-        makers = {"branch": self._branch, "sos": self._squares, "rate": self._rate}
-        makers |= {"implied": self._implied, "integral": self._implied}
+        makers = {"rate": self._rate, "implied": self._implied, "integral": self._implied}
+        makers["assumed"] = lambda step: ({step["id"]: self.text(step["function"])}, [])
         for step in self.parts["relations"]:
             name, by = step["id"], step.get("by")
             try:
@@ -157,48 +157,33 @@ class CheckedRelations(CheckedTexts):
             except FAULTS as error:
                 self.faults[name] = f"step `{name[:60]}`: {told(error)}"
 
-    def _branch(self, step: dict[str, Any]) -> Made:
-        """A product is 0 where a factor is, and where the others are not 0 only there; so is a power of the factor."""
-        of, chosen, exponent = self.relation(step["of"]), step["chosen"], step.get("power", 1)
-        factors = [self.text(text) for text in step["factors"]]
-        whole = type(chosen) is type(exponent) is int and 0 <= chosen < len(factors) and 1 <= exponent <= 64
-        refuse(not whole, "there is no such factor, or power")
-        base = factors.pop(chosen)
-        self.identity(of.left, times(power(base, number(exponent)), *factors), "the product of the factors")
-        sure = [symbol("tdot")]
-        for positive in step.get("positive", []):
-            refuse(not self.is_nowhere_zero(self.text(positive["plus"]), True), "what is added to squares is positive")
-            sure.append(add(self.text(positive["plus"]), self.squares(positive["sos"])))
-        others = [one for one in factors if not self.is_nowhere_zero(one) and not any(self.same(one, s) for s in sure)]
-        refuse(any(map(self.met_by, others)), "another factor holds velocities")
-        name, defined = step["id"], (base, *factors)
-        down = Consequence(name, (of.name,), tuple(others), defined)
-        return {name: base}, [down, Consequence(of.name, (name,), (), defined)]
-
-    def _squares(self, step: dict[str, Any]) -> Made:
-        """A sum of squares with coefficients of one sign is 0 where every square is."""
-        of, total = self.relation(step["of"]), self.squares(step["terms"])
-        refuse(not any(self.same(of.left, one) for one in (total, negative(total))), "it is no sum of these squares")
-        new = {f"{step['id']}.{i}": self.text(a) for i, (_, a) in enumerate(step["terms"], 1)}
-        return new, [*(Consequence(name, (of.name,)) for name in new), Consequence(of.name, tuple(new))]
-
     def _implied(self, step: dict[str, Any]) -> Made:
-        """h g = sum c_i r_i: g is 0 where all r_i are and h is not; a function with the rate g keeps its value.
+        """h g^k + squares = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
 
-        Integrals: along every motion near a point where h is not 0.
+        ``g`` is a relation, or a new function. With squares h is positive, and k even (real Nullstellensatz). Where
+        finite relations give coordinates, and these are put in, the two sides need to be the same only then. Integrals:
+        along every motion near a point where h is not 0.
         """
-        leaf = step["by"] == "integral"
-        left = self.text(step["function"]) if leaf else self.relation(step["of"]).left
-        sources = [self.relation(name) for name in step["c"]]
+        leaf, k, squares = step["by"] == "integral", step.get("power", 1), self.squares(step.get("sos", []))
+        new = leaf or "function" in step
+        left = self.text(step["function"]) if new else self.relation(step["of"]).left
+        sources, given = [self.relation(name) for name in step["c"]], step.get("put", [])
         refuse(any(one.leaf or one.kind == "inequality" for one in sources), "an inequality or integral to start from")
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
         refuse(self.met_by(h) or (leaf and self.met_by(left)), "the factor or integral holds velocities")
+        definite = not step.get("sos") or (k % 2 == 0 and self.is_nowhere_zero(h, True))
+        refuse(type(k) is not int or not 1 <= k <= 64 or not definite, "a sum that is 0 where its terms are not")
         change = total_derivative(left, self.variables) if leaf else left
-        total = add(*(times(c, one.left) for c, one in zip(cofactors, sources, strict=True)))
-        self.identity(times(h, change), total, "the cofactors")
-        needs, target = () if self.is_nowhere_zero(h) else (h,), step["id" if leaf else "of"]
-        defined = (h, *cofactors, left) if leaf else (h, *cofactors)
-        return {target: left} if leaf else {}, [Consequence(target, tuple(step["c"]), needs, defined)]
+        rest = add(*(times(c, one.left) for c, one in zip(cofactors, sources, strict=True)))
+        total = add(times(h, power(change, number(k))), squares, negative(rest))
+        for name, q in given:
+            one, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).left)
+            refuse(one.kind != "finite" or one.leaf or not self.is_nowhere_zero(slope), f"`{name}` does not give `{q}`")
+        refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
+        needs, target = () if self.is_nowhere_zero(h) else (h,), step["id" if new else "of"]
+        defined = (h, *cofactors, left) if new or given else (h, *cofactors)
+        used = *step["c"], *(name for name, _ in given)
+        return {target: left} if new else {}, [Consequence(target, used, needs, defined)]
 
     def _rate(self, step: dict[str, Any]) -> Made:
         """What is constantly 0, or keeps its value, has the derivative 0."""
@@ -228,7 +213,7 @@ class CheckedRelations(CheckedTexts):
         while len(found) > size:
             size = len(found)
             for i, one in enumerate(self.consequences):
-                if one.target not in found and found.issuperset(one.sources) and self._met(i, point):
+                if one.target not in found and found.issuperset(one.sources) and self.applies(i, point):
                     found.add(one.target)
             self.effort.spend(len(self.consequences) + 1)
         return found
@@ -239,11 +224,12 @@ class CheckedRelations(CheckedTexts):
         left = left and left - self.closure(start, point)
         refuse(left, f"`{min(left, default='')}` is not shown to follow from {what}")
 
-    def _met(self, place: int, point: CheckedPoint | None) -> bool:
+    def applies(self, place: int, point: CheckedPoint | None) -> bool:
+        """Whether what a consequence needs is so near a point, at all velocities; without a point, everywhere."""
         one = self.consequences[place]
         if point is None:
             return one.at is None and not one.nonzero and all(map(self.has_value_everywhere, one.defined))
-        wide = {v: arb(0, 10**30) for v in self.velocities - point.balls.keys()}
+        wide = {v: arb(0, 10**30) for v in self.velocities}
 
         def look() -> bool:
             try:

@@ -143,6 +143,7 @@ class QuotientRing:
 
     def _number_root(self, value: Any, order: int) -> Quotient:
         whole = fmpz(value.p) * fmpz(value.q) ** (order - 1)
+        self.effort.spend(int(whole).bit_length() ** 3 // 20)
         primes = whole.factor() if int(whole).bit_length() <= 128 else [(whole, 1)]
         found = self.constant(Fraction(1, int(value.q)))
         for prime, exponent in primes:

@@ -45,13 +45,15 @@ class Effort:
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """One node of an expression."""
+    """One node of an expression; ``symbols`` are those in it; ``applied``: a declared function occurs."""
 
     head: str
     below: tuple[Tree, ...] = ()
     value: Fraction | str = ""
     orders: tuple[int, ...] = ()
     size: int = field(init=False, compare=False, repr=False)
+    symbols: frozenset[str] = field(init=False, compare=False, repr=False)
+    applied: bool = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         """Parts may be shared, so that a short text writes a huge tree, and powers of powers a huge number."""
@@ -60,6 +62,9 @@ class Tree:
         digits = self.value.as_integer_ratio() if isinstance(self.value, Fraction) else (0,)
         own = 1 + max(map(int.bit_length, digits)) // 64
         object.__setattr__(self, "size", own + often * sum(part.size for part in self.below))
+        named = frozenset((str(self.value),) if self.head == "symbol" else ())
+        object.__setattr__(self, "symbols", named.union(*(part.symbols for part in self.below)))
+        object.__setattr__(self, "applied", self.head == "apply" or any(part.applied for part in self.below))
         refuse(self.size > LARGEST or own > LARGEST_NUMBER, "an expression or a number is too large")
 
 

@@ -6,7 +6,7 @@ Every operation on balls encloses the true one, where it is defined and smooth a
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import reduce
@@ -24,25 +24,9 @@ Made = TypeVar("Made")
 Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
 
 
-def nodes_of(tree: Tree) -> Iterator[Tree]:
-    """All nodes of a tree, each once."""
-    stack, seen = [tree], set()
-    while stack:
-        node = stack.pop()
-        if id(node) not in seen:
-            seen.add(id(node))
-            stack += node.below
-            yield node
-
-
 def symbols_in(tree: Tree) -> frozenset[str]:
     """The names of the symbols of a tree."""
-    return frozenset(str(node.value) for node in nodes_of(tree) if node.head == "symbol")
-
-
-def heads_in(tree: Tree) -> set[str]:
-    """The kinds of nodes that occur in a tree."""
-    return {node.head for node in nodes_of(tree)}
+    return tree.symbols
 
 
 def folded(tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made]) -> Made:
@@ -60,7 +44,7 @@ def folded(tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made]) -> Made:
 def substituted(tree: Tree, values: Mapping[str, Tree], functions: Choices | None = None) -> Tree:
     """A tree with trees in the place of symbols, all at once, and texts in the place of declared functions."""
 
-    def put_in(node: Tree, below: tuple[Tree, ...]) -> Tree:
+    def replaced(node: Tree, below: tuple[Tree, ...]) -> Tree:
         if node.head == "apply" and functions and node.value in functions:
             arguments, text = functions[str(node.value)]
             return substituted(slope_of(text, arguments, node.orders), dict(zip(arguments, below, strict=True)))
@@ -69,7 +53,7 @@ def substituted(tree: Tree, values: Mapping[str, Tree], functions: Choices | Non
         makers: dict[str, Callable[..., Tree]] = {"sum": add, "product": times, "power": power}
         return makers[node.head](*below) if node.head in makers else Tree(node.head, below, node.value, node.orders)
 
-    return folded(tree, put_in)
+    return folded(tree, replaced)
 
 
 def slope_of(text: Tree, arguments: Sequence[str], orders: Sequence[int]) -> Tree:
@@ -122,6 +106,13 @@ def linear_in(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree
     if any(not symbols_in(slope).isdisjoint(used) for slope in slopes.values()):
         return None
     return {q: slope for q, slope in slopes.items() if slope != ZERO}, substituted(tree, dict.fromkeys(used, ZERO))
+
+
+def put_in(tree: Tree, name: str, given: Tree) -> tuple[Tree, Tree]:
+    """The slope (or 0) of what is linear in a symbol, and a tree with the value of it at which that is 0."""
+    slopes, rest = linear_in(given, [name]) or ({}, ZERO)
+    slope = slopes.get(name, ZERO)
+    return slope, substituted(tree, {name: times(MINUS, rest, power(slope, MINUS))})
 
 
 def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:

@@ -12,22 +12,23 @@ STEPS (``{"id", "by", "of", ...}``; ``of`` is an ID; every step only uses IDs of
 =========== =============================================== ==================================================
 by          fields                                          meaning (identities in the ring of `ring.py`)
 =========== =============================================== ==================================================
-branch      of, factors [TEXT], chosen (place), power,      of = product of factors, that of place ``chosen`` to the
-            positive [{"plus": TEXT, "sos": [[c, a]]}]      ``power`` (1 where left out); id is that factor. Needs the
-                                                            other factors not 0, but for those that are a positive
-                                                            number ``plus`` squares, with coefficients c > 0
-sos         of, terms [[c, a]]                              of = sum c a^2 or its negative, all c > 0; ids ``id.1``,
-                                                            ``id.2``, ... are the a, which have a value everywhere
-implied     of, h, c {ID: TEXT}                             h * of = sum c[i] * i: ``of`` follows from the i.
-                                                            Needs h not 0, the c defined. The c of a velocity
-                                                            relation may hold velocities
-rate        of (finite, or an integral)                                     its time derivative, with qdot and tdot
-integral    function (f), h, c {ID: TEXT}                   h * (df/dt) = sum c[i] * i: f keeps its value. Needs
+implied     of (or function), c {ID: TEXT}, h, power (k),   h * of^k + squares = sum c[i] * i: ``of`` follows from the
+            sos [[c, a]], put [[ID, coordinate]]            i; so does ``function``, as a relation of its own. Needs h
+                                                            not 0, the c defined. The c of a velocity relation may hold
+                                                            velocities. Squares c * a^2, all c > 0, of an a with a value
+                                                            everywhere: k is even, and h a product that is positive by
+                                                            itself. Where finite relations ``put`` give a coordinate
+                                                            (with a factor not 0 by itself), the sides are compared
+                                                            after it is put in, one after the other: ``of`` follows from
+                                                            these as well
+assumed     function                                        a relation that may hold or not: for ``family`` alone
+rate        of (finite, or an integral)                     its time derivative, with qdot and tdot
+integral    function (f), and the others                    h * (df/dt) = sum c[i] * i: f keeps its value. Needs
                                                             h not 0, the c defined. A finite relation of the leaf
 =========== =============================================== ==================================================
 
-``h`` is 1 where left out. Not 0 by itself is a product of powers of numbers and of parameters declared nonzero or
-positive. All texts of a step need a value at the point, as they are written.
+``h`` and ``k`` are 1 where left out. Not 0 by itself is a product of powers of numbers and of parameters declared
+nonzero or positive. All texts of a step need a value at the point, as they are written.
 
 POINTS ``{"id", "values": {symbol: TEXT}, "functions": {h: {"arguments": [s], "text": TEXT}}}``: coordinates, ``t``,
 parameters, generic lengths, velocities ``qdot`` (``tdot`` is 1), each a TEXT of numbers and of parameters given before
@@ -60,22 +61,19 @@ frobenius   minor, fields [id], columns [coordinate       most n - rows of dof: 
             or t] (a minor of the fields)                 fields (all that are missing: n, or n + 1 where t or tdot
                                                           occurs in the rows, less rows), is involutive
 regular     minor                                         least n - rows: all relations are rows or follow from rows
-                                                          by steps (implied, branch, sos, factor, square)
+                                                          by steps
 span        at, fields [id], rows [ID], words [WORD],     least the words (less 1 where a field moves t): fields
             columns [coordinate or t]                     tangent to rows identically, rows account for all
                                                           relations, all at the point; the words' columns are
                                                           independent. Where finite relations hold parameters: minor
                                                           (that of ``most`` does) whose rows account for them. Where
                                                           t or tdot occurs a field's t is not 0 at the point
-isolated    minor, zero ID, free coordinate, fields [id],  most the number of fields (of dof): finite rows without t;
-            pins [coordinate], order (2 to 8)             columns, free and pins are all coordinates; the fields are
-                                                          tangent to rows and zero, pins a minor of them; while pins
-                                                          rest and free has the speed 1, rows stay 0 and the derivative
-                                                          of zero of that order is not 0
-crossing    minor, zero ID, speeds [{coordinate: TEXT}]   most and least n - rows - 1 (of dof): rows and zero are
-                                                          finite, without t, all follow from them; the second
-                                                          derivative of zero is positive for the first speeds,
-                                                          negative for the second
+isolated    minor, zero ID, speeds {coordinate: TEXT},    most n - rows - 1 (of dof): rows and zero are finite, without
+            order (1 to 8)                                t, of the scene; while the rows stay 0 and coordinates that
+                                                          are no columns have these speeds, and the others rest, the
+                                                          derivative of zero of that order is not 0
+family      minor                                         least n - rows: finite rows (assumed ones, without parameters,
+                                                          may be among them) from which all relations follow by steps
 =========== ============================================= ======================================================
 
 CLAIMS ``{"path", "value", "rule", ..., "about", "cayley"}``. ``about`` (dof, velocity_dof): ``reference`` (the point
@@ -117,15 +115,22 @@ path                                    rule           fields
 /holonomic, /scleronomic                count          (of the verified entries)
 /redundant_equations                    count          (of verified /velocity_dof)
 /redundancies                           count          (of verified /redundant_equations: 0, or all equations are of
-                                                       one constraint, or 1 and one verified circuit)
+                                                       one constraint, or 1 and one verified circuit, at the
+                                                       point of a verified /redundant; or all are of one group
+                                                       where that was verified by ``without``)
 /feasible true                          point, regular at, or minor: equations as for /consistent; all inequalities
-                                                       hold at that point
+                                                       hold at that point (regular, and at its velocities, where they
+                                                       hold velocities)
+/feasible false                         nullstellensatz as for /consistent false, of all together; or number 0 and a
+                                                       strict inequality whose squares are a positive number
 /integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of
                                                        the texts of the basis, in order; /dof verified before at the
                                                        same point. Nothing more where the basis is null
 /generalized_coordinates                minor,         as above, minor: rows finite or integrals; the columns (and
-                                        frobenius,     free) are all the other coordinates; /dof verified before, at
-                                        isolated       the same point
+                                        frobenius,     the only one of speeds) are all the other coordinates; /dof
+                                        isolated       verified before, at the same point. isolated: fields [id] and
+                                                       pins [coordinate] besides: the fields are tangent to rows and
+                                                       zero, the pins, which are the value, a minor of them
 /growth_vector                          span           spans: for each entry {"words", "columns"}; at, fields, rows,
                                                        minor (regular: all rows). Upper bounds: their number, and /dof
                                                        verified before, at the same point
@@ -163,6 +168,7 @@ path                                    rule           fields
                                                        it has equations. last: of the last one, /dof before
 ======================================= ============== ==========================================================
 
+Euler angles are read at a point only where the sine of the second is not 0: else they are no chart of the poses.
 Local claims (holonomic, circuit, independent, ...) are made at the scene's configuration (with t = 0), where one is
 given that meets the relations; else at any point. Claims are verified in their order.
 """
@@ -190,7 +196,7 @@ Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
 #: The rules: paths of the report (fields of an entry, without ``/``), names of rules, and what looks at them.
 TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/consistent, /feasible", "point, regular", labels.consistent),
-    ("/consistent", "nullstellensatz", labels.refuted),
+    ("/consistent, /feasible", "nullstellensatz", labels.refuted),
     ("/conflicting", "conflict", labels.conflict),
     ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds),
     ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
@@ -242,12 +248,12 @@ def verify(scene: Mapping[str, Any] | str | None, certificate: Mapping[str, Any]
 
 def certificate_of(given: Any) -> dict[str, Any]:
     """A certificate from its text or mapping: of the right form, and not too large."""
-    if isinstance(given, (str, bytes)):
-        refuse(len(given) > LARGEST_TEXT, "the certificate is too long")
-        try:
-            given = json.loads(given)
-        except (ValueError, RecursionError) as error:
-            raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
+    told_in_text = isinstance(given, (str, bytes))
+    refuse(told_in_text and len(given) > LARGEST_TEXT, "the certificate is too long")
+    try:
+        given = json.loads(given if told_in_text else json.dumps(given))
+    except (TypeError, ValueError, RecursionError) as error:
+        raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
     form = isinstance(given, Mapping) and isinstance(given.get("scene"), Mapping) and given.get("certificate")
     refuse(type(form) is not int or form != 1, "a certificate is an object of version 1, with a scene")
     found: dict[str, Any] = {**{name: [] for name in LISTS}, **given}

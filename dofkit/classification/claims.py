@@ -12,6 +12,7 @@ from typing import Any
 from dofkit.base.verdicts import OPEN, VERDICTS, ArgumentKey, Claim, least, together
 from dofkit.classification.generalized_coordinates import orbit_at_reference, regular_at_witness
 from dofkit.classification.study import Study
+from dofkit.classification.turned_coordinates import are_coordinates, partly_turned, turned_together
 from dofkit.integrability.growth_vector import is_free
 from dofkit.relations.answer import BITS
 from dofkit.report import ConstraintEntry, FieldVerdict
@@ -142,7 +143,8 @@ def _chosen(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
     """Of the generalized coordinates: the others have independent rows, at the reference or at a generic point.
 
     Where the set may have several parts the point may lie on another one. At a singular reference the set is known
-    where it is the orbit of the whole as one body; elsewhere it may be no graph over any coordinates.
+    where it is the orbit of the whole as one body; elsewhere it may be no graph over any coordinates. Where
+    some angles of a body that turns are chosen, at a certified configuration.
     """
     parts = []
     for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
@@ -157,6 +159,10 @@ def _chosen(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
             parts.append(replace(a.claim, about="component"))
         else:
             parts.append(together(a.claim, Claim("probable", "generic points", bits=BITS)))
+    outcome, turning = study.outcome, partly_turned(chosen, study.system.rotations)
+    for group in turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning):
+        if not are_coordinates(group, chosen, study.setting, study.system.rotations):
+            parts.append(Claim("probable", "generic points", bits=BITS, about="component"))
     return together(*parts) if parts else _counted(free)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from dofkit.base.deadline import expired
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
+from dofkit.classification.turned_coordinates import ANYWHERE, partly_turned
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
@@ -21,6 +23,7 @@ from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
+from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
@@ -60,13 +63,17 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return direct if chosen is None or regular_at_witness(block.coordinates, a, chosen) is False else chosen
     if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
-    if len(block.coordinates) > MAX_COLUMNS or expired() or block.forms or block.nonlinear:
-        return direct if len(direct) == a.dof else None
+    whole = direct if len(direct) == a.dof and not partly_turned(direct, turning) else None
+    if len(block.coordinates) > MAX_COLUMNS or expired():
+        return whole
+    if block.forms or block.nonlinear:
+        finite = Block(block.coordinates, block.finite, block.conditions)
+        return whole or _nearby(finite, a.dof, setting, turning, a.hidden)
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
-    return found if found is not None else (direct if len(direct) == a.dof and not turning else None)
+    return found if found is not None or turning else whole
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
@@ -117,9 +124,11 @@ def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:
     return explicit(relations, block.coordinates, len(block.coordinates) - dof, most)
 
 
-def _nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
+def _nearby(
+    block: Block, dof: int, setting: Setting, turning: Sequence[Rotation], hidden: Sequence[Expr] = ()
+) -> list[str] | None:
     """From the tangent space at a regular point near the reference, or anywhere where there is none."""
-    chart = make_chart(block, setting)
+    chart = make_chart(block, setting, hidden)
     start = _start(chart, setting)
     drawn = _drawn_tangent(chart, start, setting, dof)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
@@ -266,7 +275,9 @@ def _euler_rates(basis: Any, places: Sequence[int], at: Any, chart: Chart, rotat
     g = np.array([_value(at, chart, n) for n in rotation.names])
     cross = np.array([[0, -g[2], g[1]], [g[2], 0, -g[0]], [-g[1], g[0], 0]])
     turned = np.eye(3) + 2 * (cross + cross @ cross) / (1 + g @ g)
-    axes = np.array([[0, 0, 1.0], np.cross([0, 0, 1.0], turned[:, 2]), turned[:, 2]]).T
+    phi, theta = (approximate(e) or 0.0 for e in rotation.initial[:2])
+    axis = turned @ [math.sin(theta) * math.sin(phi), -math.sin(theta) * math.cos(phi), math.cos(theta)]
+    axes = np.array([[0, 0, 1.0], np.cross([0, 0, 1.0], axis), axis]).T
     if abs(np.linalg.det(axes)) < ZERO:
         axes = np.array([[0, 1.0, 0], [1.0, 0, 0], [0, 0, 1.0]])
     rates = np.linalg.solve(axes, 2 * (np.eye(3) + cross) / (1 + g @ g))
@@ -277,7 +288,7 @@ def _euler_rates(basis: Any, places: Sequence[int], at: Any, chart: Chart, rotat
 
 def _value(at: Any, chart: Chart, name: str) -> float:
     index = chart.ring.var_index(ex.coordinate(name))
-    return 0.0 if index is None else float(at[chart.ring.var_node[index]])
+    return ANYWHERE if index is None else float(at[chart.ring.var_node[index]])
 
 
 def _rigid(block: Block, dof: int, setting: Setting) -> list[str] | None:

@@ -94,7 +94,10 @@ def _count(study: Study, told: Values) -> Values:
 
 def _choice(study: Study, told: Values) -> Values:
     del told
-    return {"generalized_coordinates": fields.generalized_coordinates(study)}
+    return {
+        "generalized_coordinates": fields.generalized_coordinates(study),
+        "joint_coordinates": fields.joint_coordinates(study),
+    }
 
 
 def _growth(study: Study, told: Values) -> Values:
@@ -153,7 +156,7 @@ PASSES: tuple[Pass, ...] = (
     Pass("redundant_equations redundant redundancies", _redundancy),
     Pass("constraints holonomic scleronomic", _entries),
     Pass("count", _count),
-    Pass("generalized_coordinates", _choice),
+    Pass("generalized_coordinates joint_coordinates", _choice),
     Pass("growth_vector", _growth),
     Pass("integrable_part", _integrable),
     Pass("verdict verdicts", _sureness),

@@ -12,13 +12,16 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.generalized_coordinates import generalized
 from dofkit.classification.labels.integrable_part import integrable_part
 from dofkit.classification.study import Study
+from dofkit.classification.turned_coordinates import partly_turned, turned_together
 from dofkit.expressions.text import to_text
+from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.mobility.textbook_count import CountedFacts, count
+from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import uses_time
 from dofkit.relations.integration_constants import about_constants
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
-from dofkit.system import System
+from dofkit.system import BINDING, System
 
 
 def instantaneous_dof(study: Study) -> int | None:
@@ -78,6 +81,13 @@ def generalized_coordinates(study: Study) -> list[str] | None:
     return unless_late(partial(_generalized, study), None)
 
 
+def joint_coordinates(study: Study) -> list[str] | None:
+    """Angles and displacements of joints that describe a tree; None for what is none, or has another freedom."""
+    dof = study.outcome.dof
+    found = None if dof is None else tree_coordinates(study.system)
+    return found if found is not None and len(found) == dof else None
+
+
 def _generalized(study: Study) -> list[str] | None:
     system, outcome = study.system, study.outcome
     if outcome.dof is None:
@@ -88,6 +98,16 @@ def _generalized(study: Study) -> list[str] | None:
         if own is None:
             return None
         chosen |= set(own)
+    turning = partly_turned(chosen, system.rotations)
+    for group in turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning):
+        if group.places == 1:
+            continue
+        free = chosen.intersection(group.block.coordinates)
+        whole = Answer(dof=len(free), dependent=group.block.coordinates, hidden=[*group.hidden])
+        own = generalized(group.block, whole, study.setting, system.rotations)
+        if own is None:
+            return None
+        chosen = chosen - free | set(own)
     return [c.name for c in system.coordinates if c.name in chosen]
 
 
@@ -155,6 +175,7 @@ def modelled(system: System, outcome: Outcome) -> str:
     parts += _looked_at(outcome)
     if system.forces:
         parts.append("forces are left out: they do not constrain")
+    parts += [f"left out: {told}" for told in system.left_out]
     return "; ".join(parts) or "nothing constrains anything"
 
 
@@ -176,17 +197,19 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
         yield f"{many(rigid, 'dependent set')} taken for one rigid body each"
     if followed and left_out:
         yield f"{many(followed, 'other dependent set')} followed apart from all else"
-    spared = sum(k.spared for k in looked)
-    if spared:
+    if any(k.spared for k in looked):
         yield (
-            f"{many(spared, 'coordinate')} fewer where motions were followed (welded bodies and rigid "
-            "clusters as one, bodies that do not turn as particles, what a linear relation gives explicitly)"
+            "fewer coordinates where motions were followed (welded bodies and rigid clusters as one, bodies that do "
+            "not turn as particles, what a linear relation gives explicitly)"
         )
 
 
 def warnings(study: Study) -> list[str]:
     """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
     told = list(study.system.warnings)
+    told += [
+        f"not read, so that there may be less freedom: {t}" for t in study.system.left_out if t.startswith(BINDING)
+    ]
     for r in study.reduced:
         for normal in r.normals:
             told += [f"'{r.constraint.name}': {note}" for note in normal.notes]

@@ -129,12 +129,12 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         return result
     if found.local.confined:
         return _confined_answer(chart, setting, result)
-    if found.rank < len(found.matrix):
-        result.reasons.append(found.local.reason)
     if found.local.dimension is None and chart.time is not None:
         result.consistent = None
     columns = len(chart.columns) - found.rank
     result.degenerate = found.local.dimension != columns - (len(chart.columns) - chart.coordinates)
+    if found.rank < len(found.matrix) and result.degenerate:
+        result.reasons.append(found.local.reason)
     return result
 
 

@@ -4,27 +4,35 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError, WrapValidator
+from pydantic import BeforeValidator, Field, ValidationError
 
 from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.key.own_coordinates import faults_of_own
-from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
+from dofkit.homework.problem import Problem, Variants, faults_of_names, weighted
+from dofkit.homework.questions import QuestionBase
+from dofkit.homework.review.rows import Decisions
 from dofkit.homework.sentences.said import Language
-from dofkit.scene.fields import WrittenModel, faults_of
+from dofkit.homework.statement import faults_of_places
+from dofkit.homework.variants.structure import Structure, structures
+from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
 from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
 from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene
-from dofkit.scene.tagged_union import TaggedUnion
 
+#: A scene of more constraints is refused: grading starts with working out all that may be asked of it.
+MOST_CONSTRAINTS = 5000
 FeedbackLevel = Literal["hint", "full"]
+Visibility = Literal["visible", "after_due_date", "after_published", "hidden"]
+UnreadablePolicy = Literal["review", "zero"]
 
 
 class AssignmentError(DofkitError):
@@ -39,30 +47,13 @@ class AssignmentError(DofkitError):
         return (AssignmentError, (self.faults, self.source))
 
 
-_QUESTION = TaggedUnion(
-    base=QuestionBase,
-    called="a question",
-    key="ask",
-    known=KINDS,
-    names="questions",
-    listing="what can be asked: ",
-    unknown="'{}' cannot be asked",
-    otherwise=("a question is a mapping with `id` and `ask`", "write {id: f, ask: dof} or the like"),
-)
-
-
-class Problem(WrittenModel):
-    """A scene and what is asked of it."""
-
-    id: Identifier = Field(description="its name, unique within the assignment")
-    title: str | None = Field(None, description="one line about it")
-    scene: str | dict[str, Any] = Field(description="a catalog name, a path beside the assignment, or a scene in place")
-    also: dict[str, str] = Field(
-        default_factory=dict, description="further coordinates that answers may use, by name: `theta: atan2(x, -y)`"
-    )
-    questions: Annotated[
-        tuple[Annotated[AnyQuestion, WrapValidator(_QUESTION.validated)], ...], Field(min_length=1)
-    ] = Field(description="what is asked")
+def _attempts(value: object) -> object:
+    """A number of attempts, 1 or more; without it they are unlimited."""
+    found = exact(value)
+    if found.denominator != 1 or found < 1:
+        hint = "leave it out where they are unlimited"
+        raise fault_error(f"attempts are a whole number, 1 or more, not {value}", hint)
+    return int(found)
 
 
 class Assignment(WrittenModel):
@@ -71,22 +62,51 @@ class Assignment(WrittenModel):
     title: str = Field(description="its title")
     convention: Convention = Field("configuration", description='which freedom a bare "degrees of freedom" means')
     feedback: FeedbackLevel = Field("hint", description="`hint` says what went wrong, `full` also what is right")
+    unreadable: UnreadablePolicy = Field(
+        "review", description="what cannot be read: `review`, a person looks at it, or `zero`, students hand in again"
+    )
     language: Language = Field("en", description="the language of the feedback: `en`, `de`, `fr` or `es`")
+    attempts: Annotated[int, BeforeValidator(_attempts)] | None = Field(
+        None, description="how often a student may hand in; without it as often as they like"
+    )
+    visibility: Visibility | None = Field(
+        None,
+        description="when students see points on Gradescope: `visible` (at once), `after_due_date`, `after_published`, "
+        "`hidden`; by default `after_due_date` where attempts are unlimited",
+    )
     problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
+    variants: Variants | None = Field(None, description="written by `dofkit assignment vary`: a sheet for each student")
+
+    @property
+    def shown(self) -> Visibility:
+        """When students see what their answers are worth."""
+        return self.visibility or ("after_due_date" if self.attempts is None else "visible")
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """An assignment with its scenes: everything that grading needs. ``keys`` by problem."""
+    """An assignment with its scenes: everything that grading needs. ``keys`` by problem; ``base``: its folder.
+
+    ``decisions``: what a person decided of answers, which goes before all that dofkit finds. ``structures``: of a sheet
+    with variants what each problem's may be; ``marks``: of one student's sheet what tells each problem from others'.
+    """
 
     assignment: Assignment
     keys: Mapping[str, Key]
+    base: Path = Path()
+    decisions: Decisions = field(default_factory=dict)
+    structures: Mapping[str, Sequence[Structure]] = field(default_factory=dict)
+    marks: Mapping[str, str] = field(default_factory=dict)
 
     def questions(self) -> Iterator[tuple[Problem, QuestionBase]]:
         """Every question with its problem, in order."""
         for problem in self.assignment.problems:
             for question in problem.questions:
                 yield problem, question
+
+    def most_points(self) -> dict[tuple[str, str], Fraction]:
+        """How many points each question is worth."""
+        return {(problem.id, question.id): question.points for problem, question in self.questions()}
 
     def columns(self) -> dict[str, tuple[str, str]]:
         """The problem and the question of every column ``PROBLEM.QUESTION`` of a table of answers."""
@@ -133,13 +153,14 @@ def _as_file(fault: Fault) -> Fault:
 def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -> Prepared:
     try:
         assignment = Assignment.model_validate(value)
+        assignment = assignment.model_copy(update={"problems": tuple(map(weighted, assignment.problems))})
     except ValidationError as error:
         raise _error(_without_shortness(without_echoes(faults_of(error))), document) from None
     faults: list[Fault] = list(_repeats(assignment))
     keys: dict[str, Key] = {}
     for i, problem in enumerate(assignment.problems):
         try:
-            key = Key(_scene(problem, base), assignment.convention, problem.also)
+            key = Key(_scene(problem, base), assignment.convention, problem.also, problem.other_names)
         except SceneError as error:
             faults += [_within(fault, i, problem) for fault in error.faults]
             continue
@@ -147,7 +168,13 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
         faults += _scene_faults(i, problem, key)
     if faults:
         raise _error(tuple(faults), document)
-    return Prepared(assignment, keys)
+    return Prepared(assignment, keys, base, structures=_structures(assignment, keys))
+
+
+def _structures(assignment: Assignment, keys: Mapping[str, Key]) -> dict[str, list[Structure]]:
+    if assignment.variants is None:
+        return {}
+    return {problem.id: structures(problem, keys[problem.id]) for problem in assignment.problems}
 
 
 def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
@@ -157,10 +184,20 @@ def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
 
 
 def _scene(problem: Problem, base: Path) -> Scene:
+    """The scene of a problem. Raises SceneError, for one of too many constraints before it is read whole, too."""
     if isinstance(problem.scene, dict):
+        _bounded(problem.scene.get("constraints"))
         return load(problem.scene, name=problem.id)
     path = base / problem.scene
-    return load(path if path.is_file() else problem.scene)
+    scene = load(path if path.is_file() else problem.scene)
+    _bounded(scene.constraints)
+    return scene
+
+
+def _bounded(constraints: object) -> None:
+    if isinstance(constraints, Sequence) and not isinstance(constraints, str) and len(constraints) > MOST_CONSTRAINTS:
+        message = f"the scene has {len(constraints)} constraints, more than an assignment takes ({MOST_CONSTRAINTS})"
+        raise SceneError((Fault(message, ("constraints",), hint="ask about a part of it; `dofkit classify` takes it"),))
 
 
 def _within(fault: Fault, i: int, problem: Problem) -> Fault:
@@ -179,6 +216,10 @@ def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
         return
     for fault in faults_of_own(key):
         yield replace(fault, where=("problems", i, "also", *fault.where))
+    for fault in faults_of_places(problem.text or "", key.scene):
+        yield replace(fault, where=("problems", i, "text"))
+    for fault in faults_of_names(problem, key):
+        yield replace(fault, where=("problems", i, *fault.where))
     for j, question in enumerate(problem.questions):
         for fault in question.faults(key):
             yield replace(fault, where=("problems", i, "questions", j, *fault.where))

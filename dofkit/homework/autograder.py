@@ -1,7 +1,11 @@
 """One submission, graded where a course platform has put it: ``python -m dofkit.homework.autograder SITE ASSIGNMENT``.
 
 A result is always written, first of all one in which every answer is open: it stands where the grading is cut short.
-What a student wrote says nothing of who the student is: that is the platform's to say, where it does.
+What a student wrote says nothing of who the student is: that is the platform's to say, where it does. Where a
+submission names another ``student`` than its user a person has to look at it, and the result says so.
+
+What a person decided comes back: a ``review.csv`` beside the assignment's file, or the one that ``--reviewed`` names,
+is applied to all who give those answers. So it is put there, and the submissions are graded again.
 """
 
 from __future__ import annotations
@@ -18,6 +22,8 @@ from typing import Any
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.workers.crews import StoppedError
+from dofkit.homework.answers.attribution import by_platform
+from dofkit.homework.answers.roster import Participant
 from dofkit.homework.answers.sources import DOCUMENTS, LINES, TABLES, Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, clean
 from dofkit.homework.assignment import Prepared, load_assignment
@@ -27,6 +33,8 @@ from dofkit.homework.judgement import needs_review
 from dofkit.homework.result import Item, Result
 from dofkit.homework.runs.batch import Orders
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.review_files import TABLE, RunReview
+from dofkit.homework.stand_ins import list_open
 
 #: A longer file of a platform is not read.
 MOST_BYTES = 8_000_000
@@ -41,24 +49,31 @@ class Site:
     """A platform: where things are, below ``root``, and what its result looks like.
 
     ``seconds``: after which a submission needs a review, within what the platform gives. ``excuses``: a result may say
-    that there is none, so that a grader that cannot work costs nobody points.
+    that there is none, so that a grader that cannot work costs nobody points. ``listed``: the table of answers that
+    count by a stand-in, where the platform takes nothing but a number.
     """
 
     root: Path
     folder: str
     results: str
     seconds: float
-    document: Callable[[Result], dict[str, Any]]
-    student: Callable[[Path], str]
+    document: Callable[[Result, Prepared | None], dict[str, Any]]
+    users: Callable[[Path], list[Participant]] = lambda root: []
     form: Callable[[Path, Prepared], Handed | None] = lambda root, prepared: None
     excuses: bool = True
+    listed: str | None = None
 
 
-def _gradescope_student(root: Path) -> str:
-    """The addresses of those who handed in, or their names."""
+def _gradescope_users(root: Path) -> list[Participant]:
+    """Those who handed in, called by their addresses, or by their names."""
     users = _object(_json(root / "submission_metadata.json")).get("users")
     known = [_object(user) for user in users] if isinstance(users, list) else []
-    return ", ".join(str(user.get("email") or user.get("name") or user.get("id")) for user in known)
+    found = [[clean(str(user.get(key) or "")) for key in ("email", "name", "sid", "id")] for user in known]
+    return [
+        Participant(email or name or own, name=name, email=email, number=sid, own=own)
+        for email, name, sid, own in found
+        if email or name or own
+    ]
 
 
 def _prairielearn_form(root: Path, prepared: Prepared) -> Handed | None:
@@ -78,14 +93,16 @@ def _prairielearn_form(root: Path, prepared: Prepared) -> Handed | None:
 
 SITES: dict[str, Site] = {
     "gradescope": Site(
-        Path("/autograder"), "submission", "results/results.json", 240.0, gradescope.document, _gradescope_student
+        Path("/autograder"), "submission", "results/results.json", 240.0,
+        lambda result, prepared: gradescope.document(result, gradescope.visibility_of(prepared)), _gradescope_users,
     ),
     "prairielearn": Site(
-        Path("/grade"), "student", "results/results.json", 25.0, prairielearn.document, lambda _: "",
-        _prairielearn_form,
+        Path("/grade"), "student", "results/results.json", 25.0, lambda result, _: prairielearn.document(result),
+        form=_prairielearn_form,
     ),
     "coursera": Site(
-        Path("/shared"), "submission", "feedback.json", 120.0, coursera.document, lambda _: "", excuses=False
+        Path("/shared"), "submission", "feedback.json", 120.0, lambda result, _: coursera.document(result),
+        excuses=False, listed="open.csv",
     ),
 }  # fmt: skip
 
@@ -102,27 +119,36 @@ def undecided(prepared: Prepared, student: str, reason: str) -> Result:
     return Result(student=student, score=0.0, max_score=most, items=items, needs_review=len(items))
 
 
-def grade_at(site: Site, assignment: Path, memory: int) -> Result:
+def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = None) -> Result:
     """Grade what was handed in and write the result. Raises AssignmentError, and OSError where nothing can be written.
 
-    ``memory``: the bytes that the process may take in which answers are judged.
+    ``memory``: the bytes that the process may take in which answers are judged. ``reviewed``: a table that a person
+    filled in, by default the ``review.csv`` beside the assignment; ReviewError where it cannot be used.
     """
-    student = clean(site.student(site.root)) or "student"
-    prepared = _prepared(site, assignment, student)
-    _write(site, undecided(prepared, student, "grading was cut short."))
+    users = site.users(site.root)
+    student = ", ".join(user.student for user in users) or "student"
+    prepared = _prepared(site, assignment, student, reviewed)
+    _write(site, undecided(prepared, student, "grading was cut short."), prepared)
     one = _only_hand_in(site, prepared)
     result = one if isinstance(one, Result) else _result(one, prepared, site.seconds, memory, student)
-    result = result.model_copy(update={"student": student})
-    _write(site, result)
+    named = isinstance(one, Handed) and result.student not in ("", student, *one.claims)
+    doubt = by_platform(users, result.student) if named else None
+    result = result.model_copy(update={"student": student, "doubt": doubt})
+    _write(site, result, prepared)
+    if site.listed is not None:
+        list_open(result.items, site.root / site.listed, "")
     return result
 
 
-def _prepared(site: Site, assignment: Path, student: str) -> Prepared:
+def _prepared(site: Site, assignment: Path, student: str, reviewed: Path | None) -> Prepared:
+    beside = assignment.with_name(TABLE)
     try:
-        return load_assignment(assignment)
-    except DofkitError:
+        prepared = load_assignment(assignment)
+        table = reviewed or (beside if beside.is_file() else None)
+        return RunReview.read(prepared, table, None).applied(prepared)
+    except (DofkitError, OSError):
         if site.excuses:
-            _write(site, Result(student=student, score=None, max_score=0.0, items=[], error=BROKEN))
+            _write(site, Result(student=student, score=None, max_score=0.0, items=[], error=BROKEN), None)
         raise
 
 
@@ -130,7 +156,7 @@ def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
     """The one thing that was handed in, or the result that says why there is none."""
     folder = site.root / site.folder
     most = sum(float(question.points) for _, question in prepared.questions())
-    files = sorted(p for p in folder.glob("*") if not p.name.startswith(".") and p.is_file() and not p.is_symlink())
+    files = sorted(path for path in folder.rglob("*") if _is_hand_in(path, folder))
     fit = [path for path in files if path.suffix.lower() in (*DOCUMENTS, *LINES, *TABLES)]
     named = [path for path in fit if path.stem.lower() in _NAMES]
     chosen = named if len(named) == 1 else fit
@@ -138,17 +164,25 @@ def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
         return typed
     if len(chosen) == 1:
         known = prepared.columns()
-        found = [
-            replace(one, place=replace(one.place, file=chosen[0].name)) for one in hand_ins([str(chosen[0])], known)
-        ]
+        shown = str(chosen[0].relative_to(folder))
+        found = [replace(one, place=replace(one.place, file=shown)) for one in hand_ins([str(chosen[0])], known)]
         if len(found) == 1:
             return found[0]
         why = f"{chosen[0].name} holds {len(found)} submissions, not one"
     elif chosen:
-        why = f"there is more than one file: {', '.join(path.name for path in chosen)}; call one of them answers.yaml"
+        names = ", ".join(str(path.relative_to(folder)) for path in chosen)
+        why = f"there is more than one file: {names}; call one of them answers.yaml"
     else:
         why = "there is no file with answers: hand in one called answers.yaml, answers.json or answers.csv"
     return Result(student="", score=None, max_score=most, items=[], error=clean(why))
+
+
+def _is_hand_in(path: Path, folder: Path) -> bool:
+    """Is it a file that was handed in, in whatever folder? Links are not followed, hidden files are nobody's."""
+    parts = path.relative_to(folder).parts
+    around = [folder.joinpath(*parts[:n]) for n in range(1, len(parts) + 1)]
+    hidden = any(part.startswith(".") or part == "__MACOSX" for part in parts)
+    return not hidden and path.is_file() and not any(place.is_symlink() for place in around)
 
 
 def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, student: str) -> Result:
@@ -173,12 +207,12 @@ def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, studen
     return Result.model_validate_json(lines[0].text)
 
 
-def _write(site: Site, result: Result) -> None:
+def _write(site: Site, result: Result, prepared: Prepared | None) -> None:
     """Write the result whole: it never stands there in part."""
     path = site.root / site.results
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".{path.name}.new")
-    beside.write_text(text(site.document(result)), encoding="ascii")
+    beside.write_text(text(site.document(result, prepared)), encoding="ascii")
     os.replace(beside, path)
 
 
@@ -202,12 +236,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("assignment", type=Path)
     parser.add_argument("--root", type=Path, help="the platform's folder, such as /autograder")
     parser.add_argument("--seconds", type=float, help="for the whole submission")
+    parser.add_argument("--reviewed", type=Path, metavar="CSV", help="points of a person, else review.csv beside it")
     parser.add_argument("--memory", type=int, default=2048, metavar="MB", help="address space for judging answers")
     given = parser.parse_args(arguments)
     site = SITES[given.site]
     site = replace(site, root=given.root or site.root, seconds=given.seconds or site.seconds)
     try:
-        result = grade_at(site, given.assignment, given.memory << 20)
+        result = grade_at(site, given.assignment, given.memory << 20, given.reviewed)
     except (DofkitError, OSError) as error:
         print(f"no result: {error}", file=sys.stderr)
         return 2

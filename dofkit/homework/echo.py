@@ -12,6 +12,7 @@ from dofkit.homework.assignment import Prepared
 from dofkit.homework.grading import ANSWER_SECONDS, unasked
 from dofkit.homework.judgement import Given
 from dofkit.homework.key.key import Key
+from dofkit.homework.own_sheets import NobodysSheetError, own
 from dofkit.homework.questions import QuestionBase
 from dofkit.report import ToldModel
 
@@ -39,6 +40,10 @@ def echo(prepared: Prepared, submission: Submission) -> Echo:
     """Read every answer, in the assignment's order; then those that were not asked for."""
     if submission.error is not None:
         return Echo(student=submission.student, items=[], error=submission.error)
+    try:
+        prepared = own(prepared, submission.student)
+    except NobodysSheetError as error:
+        return Echo(student=submission.student, items=[], error=str(error))
     items = [
         _reading(
             problem.id, question, prepared.keys[problem.id], submission.answers.get(problem.id, {}).get(question.id)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from typing import Any, cast
@@ -10,16 +12,33 @@ from typing import Any, cast
 from flint import ctx
 
 from dofkit.base.deadline import OutOfTimeError, by_processor
-from dofkit.base.errors import TextError
+from dofkit.base.errors import DofkitError, TextError
 from dofkit.base.spelling import nearest
 from dofkit.exact.points.balls import PRECISION
 from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
 from dofkit.homework.answers.submission import Submission
-from dofkit.homework.assignment import Prepared, Problem, load_assignment
-from dofkit.homework.judgement import NOTHING, DoubtError, Given, Judgement, needs_review, unreadable
-from dofkit.homework.questions import QuestionBase
-from dofkit.homework.result import Item, Result
+from dofkit.homework.answers.typed import in_whole, shown_text
+from dofkit.homework.assignment import Prepared, load_assignment
+from dofkit.homework.judgement import (
+    FULL,
+    NOTHING,
+    DoubtError,
+    Given,
+    JudgedReading,
+    Judgement,
+    needs_review,
+    partly,
+    unreadable,
+)
+from dofkit.homework.key.key import Key
+from dofkit.homework.own_sheets import NobodysSheetError, own_steps
+from dofkit.homework.problem import Problem
+from dofkit.homework.questions import NumberQuestion, QuestionBase
+from dofkit.homework.repairs import nearest_reading, parts_read
+from dofkit.homework.result import Item, PossibleReading, Result
+from dofkit.homework.review.identity import answer_id
+from dofkit.homework.review.rows import Decision
 from dofkit.homework.sentences.said import Said, say
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
@@ -61,6 +80,12 @@ class Grader:
         """The same, telling of every answer that takes work that it comes next."""
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
+        try:
+            sheet = yield from own_steps(self.prepared, submission.student)
+        except NobodysSheetError as error:
+            return self.refused(submission.student, str(error))
+        if sheet is not self.prepared:
+            return (yield from Grader(sheet, self.seconds, self.condemned).steps(submission))
         items: list[Item] = []
         for problem in self.prepared.assignment.problems:
             items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
@@ -73,7 +98,7 @@ class Grader:
 
     def _total(self, student: str, items: list[Item]) -> Result:
         score = sum((Fraction(item.score) for item in items if item.score is not None), Fraction(0))
-        review = sum(item.status == "needs_review" for item in items)
+        review = sum(item.score is None for item in items)
         return Result(
             student=student, score=float(score), max_score=float(self.max_score), items=items, needs_review=review
         )
@@ -86,14 +111,34 @@ class Grader:
             if answer is None or says_nothing(answer):
                 items.append(self._item(problem, question, _MISSING))
                 continue
-            spot = _spot(problem, question, answer, earlier)
+            decision = self._decision(problem, question, answer)
+            if decision is not None:
+                items.append(self._decided(problem, question, decision, answer))
+                if (number := _number(question, answer)) is not None:
+                    earlier.setdefault(question.kind(), number)
+                continue
+            spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get(problem.id, "")
             if spot not in self._known and spot not in self.condemned:
                 yield spot
             found, number = self.judge(spot, problem, question, answer, earlier)
-            items.append(self._item(problem, question, found))
+            items.append(self._item(problem, question, found, answer))
             if number is not None:
                 earlier.setdefault(question.kind(), number)
         return items
+
+    def _decision(self, problem: Problem, question: QuestionBase, answer: Given) -> Decision | None:
+        """What a person decided of this answer, whoever gave it."""
+        if not self.prepared.decisions:
+            return None
+        variant = self.prepared.marks.get(problem.id, "")
+        return self.prepared.decisions.get(answer_id(problem.id, question.id, shown_text(answer), variant))
+
+    def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
+        """An answer with the points that a person gave it."""
+        share = decision.points / question.points if question.points else FULL
+        found = partly(share, "", decision.remark or "A person has looked at this answer.")
+        item = self._item(problem, question, found, answer)
+        return item.model_copy(update={"score": float(decision.points), "decided_by": decision.by})
 
     def judge(
         self, spot: Spot, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
@@ -114,11 +159,7 @@ class Grader:
         key = self.prepared.keys[problem.id]
         try:
             with by_processor(self.seconds), ctx.workprec(PRECISION):
-                found = question.judge(answer, key, earlier)
-        except DoubtError as error:
-            return needs_review("", error.message)
-        except TextError as error:
-            return unreadable(error)
+                found = self._read(question, answer, key, earlier)
         except OutOfTimeError:
             return needs_review("", "the time for it was not enough.")
         except MemoryError:
@@ -129,18 +170,54 @@ class Grader:
             return found.saying(question.solution(key))
         return found
 
-    def _item(self, problem: Problem, question: QuestionBase, found: Judgement) -> Item:
+    def _read(self, question: QuestionBase, answer: Given, key: Key, earlier: Mapping[str, Fraction]) -> Judgement:
+        """What an answer is worth, or why it is open where it cannot be read in one way."""
+        try:
+            return question.judge(answer, key, earlier)
+        except DoubtError as error:
+            found = needs_review("", error.message)
+            with suppress(DofkitError):
+                found = replace(found, ways=_parts(question, answer, key))
+            return found
+        except TextError as error:
+            return self._unread(error, question, answer, key)
+
+    def _unread(self, error: TextError, question: QuestionBase, answer: Given, key: Key) -> Judgement:
+        """What could not be read, with what would be."""
+        error, nearest = in_whole(answer, error, lambda part: question.read(part, key)), None
+        parts: tuple[JudgedReading, ...] = ()
+        with suppress(DofkitError):
+            nearest = nearest_reading(answer, error, lambda text: question.judge(text, key, {}))
+            parts = _parts(question, answer, key) if nearest is None else ()
+        found = unreadable(error, (nearest,) if nearest is not None else parts)
+        return found if self.prepared.assignment.unreadable == "review" else replace(found, share=NOTHING)
+
+    def _item(self, problem: Problem, question: QuestionBase, found: Judgement, answer: Given | None = None) -> Item:
         return Item(
             problem=problem.id,
             question=question.id,
-            score=None if found.share is None else float(found.share * question.points),
+            score=_points(found.share, question),
             max_score=float(question.points),
             status=found.status,
             codes=list(found.codes),
             read_as=found.read_as,
             feedback=found.feedback(self.prepared.assignment.language),
             column=found.column,
+            answer=None if answer is None else shown_text(answer),
+            would_read=found.ways[0].read_as if found.status == "unreadable" and len(found.ways) == 1 else None,
+            variant=self.prepared.marks.get(problem.id),
+            readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in found.ways],
         )
+
+
+def _parts(question: QuestionBase, answer: Given, key: Key) -> tuple[JudgedReading, ...]:
+    """What an answer in doubt may mean."""
+    numbers = isinstance(question, NumberQuestion)
+    return parts_read(answer, numbers, lambda text: question.judge(text, key, {}))
+
+
+def _points(share: Fraction | None, question: QuestionBase) -> float | None:
+    return None if share is None else float(share * question.points)
 
 
 _MISSING = Judgement("missing", NOTHING, said=(Said("There is no answer."),))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.homework.result import Status
@@ -23,9 +24,19 @@ class DoubtError(TextError):
     """An answer that can be read, in more than one way: a person has to look."""
 
 
+class JudgedReading(NamedTuple):
+    """One way to read an answer that is open, and its share of the points; None where that is open too."""
+
+    read_as: str
+    share: Fraction | None
+
+
 @dataclass(frozen=True)
 class Judgement:
-    """``share``: of the question's points; None where it could not be decided. ``said``: the feedback."""
+    """``share``: of the question's points; None where it could not be decided. ``said``: the feedback.
+
+    ``ways``: of what is open the readings that it may have; of what is unreadable the nearest one.
+    """
 
     status: Status
     share: Fraction | None
@@ -33,6 +44,7 @@ class Judgement:
     codes: tuple[str, ...] = ()
     said: tuple[Said, ...] = ()
     column: int | None = None
+    ways: tuple[JudgedReading, ...] = ()
 
     def saying(self, *sentences: Sentence) -> Judgement:
         """The same with more feedback."""
@@ -71,10 +83,10 @@ def needs_review(read_as: str, reason: Sentence) -> Judgement:
     return Judgement("needs_review", None, read_as, (), told)
 
 
-def unreadable(error: TextError) -> Judgement:
-    """What could not be read, and where."""
+def unreadable(error: TextError, ways: tuple[JudgedReading, ...] = ()) -> Judgement:
+    """What could not be read, and where: open until a person decides. ``ways``: what it may mean."""
     hint = f" ({error.hint})" if error.hint else ""
-    return Judgement("unreadable", NOTHING, "", (), (Said(f"{error.message}{hint}"),), error.column or 1)
+    return Judgement("unreadable", None, "", (), (Said(f"{error.message}{hint}"),), error.column or 1, ways)
 
 
 def agreed(found: Sequence[Judgement]) -> Judgement:
@@ -83,4 +95,5 @@ def agreed(found: Sequence[Judgement]) -> Judgement:
     shown = " or ".join(dict.fromkeys(one.read_as for one in found))
     if all((one.status, one.share) == (first.status, first.share) for one in found):
         return replace(first, read_as=shown)
-    return needs_review(shown, "it can be read in more than one way.")
+    ways = tuple(dict.fromkeys(JudgedReading(one.read_as, one.share) for one in found))
+    return replace(needs_review(shown, "it can be read in more than one way."), ways=ways)

@@ -33,6 +33,10 @@ def item_of(assignment: Source, problem: str, question: str, answer: object, oth
     with warnings.catch_warnings(), redirect_stderr(StringIO()):
         warnings.simplefilter("ignore")
         grader = _grader_of(assignment)
+        if grader.prepared.assignment.variants is not None:
+            raise QuestionError(
+                "every student has a sheet of their own: grade them with `dofkit grade`, not in a notebook"
+            )
         if (problem, question) not in {(p.id, q.id) for p, q in grader.prepared.questions()}:
             raise QuestionError(f"the assignment has no question '{question}' of a problem '{problem}'")
         given = {"answers": {problem: {**others, question: answer}}}

@@ -4,17 +4,29 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import Field
+
 from dofkit.base.display import Displayed
 from dofkit.report import ToldModel
 
 Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review"]
 
 
-class Item(ToldModel):
-    """One answer. ``score`` is None where it needs a person's review: never zero then, never full marks.
+class PossibleReading(ToldModel):
+    """A way to read an answer that is open, and what it would earn; None where that is open too."""
 
-    ``codes`` are stable names of what went wrong, the most likely first; ``read_as`` is the answer as it was
-    understood; ``column`` is where an unreadable answer could not be read further, from 1.
+    read_as: str
+    score: float | None
+
+
+class Item(ToldModel):
+    """One answer. ``score`` is None where it waits for a person: never zero then, never full marks.
+
+    ``codes`` are stable names of what went wrong, the most likely first; ``answer`` is the answer as typed, at most
+    2 000 characters of it, and ``read_as`` the answer as it was understood. ``column`` is where an unreadable answer
+    could not be read further, from 1, and ``would_read`` what would be read, where that is known. ``readings``: the
+    ways to read an open answer, and what each would earn. ``decided_by``: the person who gave the points.
+    ``variant``: of the problem, where every student has another: its structure and a mark.
     """
 
     problem: str
@@ -26,12 +38,19 @@ class Item(ToldModel):
     read_as: str
     feedback: str
     column: int | None = None
+    answer: str | None = None
+    would_read: str | None = None
+    readings: list[PossibleReading] = Field(default_factory=list)
+    decided_by: str | None = None
+    variant: str | None = None
 
 
 class Result(Displayed, ToldModel):
-    """One student's submission. ``score`` is the sum of what is decided; ``needs_review`` answers are open beside it.
+    """One student's submission. ``score`` is the sum of what is decided; ``needs_review`` answers are open beside it:
+    those that could not be decided, and those that could not be read unless the assignment gives them zero points.
 
-    ``error``: why the submission could not be graded; then there are no items and ``score`` is None.
+    ``error``: why the submission could not be graded; then there are no items and ``score`` is None. ``doubt``: why a
+    person has to say whose it is, where its file and the ``student`` in it, or the platform's user, are not the same.
     """
 
     student: str
@@ -40,3 +59,4 @@ class Result(Displayed, ToldModel):
     items: list[Item]
     needs_review: int = 0
     error: str | None = None
+    doubt: str | None = None

@@ -11,11 +11,18 @@ from dofkit.exact.matrices.sparse import sparse
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import values
+from dofkit.integrability.lie_algebra import Span
 from dofkit.integrability.lie_algebra_at_points import ball_span
 from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.normal_form import Finite
+
+
+def _gap(span: Span) -> float:
+    """How far what is left of the Lie algebra lies below its smallest pivot, less what the pivots fall by anyway."""
+    part = ball_part(span.vectors)
+    return part.gap / part.fall
 
 
 def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> None:
@@ -31,15 +38,26 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         result.reasons.append("the only points found are singular")
         return
     span, _ = found
+    reached = span.dimension == total
+    gap = part.gap if reached else min(part.gap, _gap(span))
     result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
-    result.argument, result.gap = "Lie algebra with balls", part.gap
-    result.velocity_dof, result.dof = n - rank, n - (total - span.dimension)
+    result.argument, result.gap = "Lie algebra with balls", gap
+    result.velocity_dof = n - rank
+    if gap >= CLEAR:
+        result.dof = n - (total - span.dimension)
+        result.reasons.append(f"decided at real points of high precision, with a gap of {gap:.1e} between pivots")
+    else:
+        result.verdict = "undecided"
+        result.reasons.append(f"brackets of the velocities are found down to a gap of {gap:.1e} only: some may be lost")
     if "field" not in forms.chart.engines:
         result.matrix = sparse(dependencies(matrix, part))
         if real.consistent and len(real.rows) == forms.finite and rank == len(matrix):
-            result.verdict = "proved" if span.dimension == total or total - rank <= 1 else "numeric"
-    result.reasons.append(f"decided at real points of high precision, with a gap of {part.gap:.1e} between pivots")
+            result.verdict = "proved" if reached or total - rank <= 1 else result.verdict
     for i, row, place in linear_rows(block, forms):
+        finite = isinstance(row.piece, Finite)
         zero = all(v.contains(0) for v in pairing(matrix[place], span.vectors))
-        sure: Verdict = "proved" if isinstance(row.piece, Finite) or not zero else "numeric"
+        if zero and gap < CLEAR and not finite:
+            result.labels[i] = HolonomyLabel(None, "undecided", "a bracket that tells may be lost to the precision")
+            continue
+        sure: Verdict = "proved" if finite or not zero else "numeric"
         result.labels[i] = HolonomyLabel(zero, sure)

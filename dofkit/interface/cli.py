@@ -15,6 +15,7 @@ import typer
 
 from dofkit.base.version import __version__
 from dofkit.interface import options
+from dofkit.interface.assignment_commands import assignment_app
 from dofkit.interface.catalog_commands import catalog_app
 from dofkit.interface.failures import INTERRUPTED, UNREADABLE, failures_of, print_json
 from dofkit.interface.presentation import Telling
@@ -31,7 +32,6 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-assignment_app = typer.Typer(help="Write assignments.", no_args_is_help=True, rich_markup_mode=None)
 export_app = typer.Typer(
     help="Write what a course platform needs to grade an assignment.", no_args_is_help=True, rich_markup_mode=None
 )
@@ -72,6 +72,7 @@ def classify(
     budget: options.Budget = None,
     method: options.Method = "auto",
     certificate: options.CertificatePath = None,
+    limits: options.Limits = False,
 ) -> None:
     """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
     from dofkit.interface.classification import Asked, classified, watched
@@ -80,7 +81,7 @@ def classify(
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
     place = None if certificate is None else str(certificate)
     telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
-    telling = telling._replace(only=options.fields(only), without=options.listed(without))
+    telling = telling._replace(only=options.fields(only), without=options.listed(without), limits=limits)
     asked = Asked(tuple(files), telling, budget, cast("MethodName", method), place, options.failures(fail_on))
     with failures_of("--watch"):
         status = watched(asked) if watch else classified(asked)
@@ -104,6 +105,15 @@ def verify(files: options.CertificateFiles, strict: options.Strict = False, as_j
 
 
 @app.command()
+def convert(file: options.ModelPath, out: options.ScenePath = None, limits: options.Limits = False) -> None:
+    """Make a scene of a model: MJCF, URDF or a SolveSpace sketch, as a file to go on from."""
+    from dofkit.interface.conversion import write_converted
+
+    with failures_of(file):
+        typer.echo(write_converted(file, out, limits), nl=False)
+
+
+@app.command()
 def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: options.Linearize = False) -> None:
     """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
     from dofkit.interface.supervised import motions
@@ -111,28 +121,25 @@ def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: o
     _print(motions(files, linearize, Telling.here(as_json)))
 
 
-@app.command()
-def draw(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
-    """Draw scenes: ground, bodies, joints by their symbols, what moves, is redundant or contradicts."""
-    _pictures(files, "draw", out, kind)
+def _still(kind: str, about: str) -> None:
+    """A command for a kind of still picture."""
+
+    @app.command(kind, help=about)
+    def still(files: options.Files, out: options.PicturePath = None, form: options.StillKind = "svg") -> None:
+        _pictures(files, kind, out, form)
+
+
+_still("draw", "Draw scenes: ground, bodies, joints by their symbols, what moves, is redundant or contradicts.")
 
 
 @app.command()
-def animate(files: options.Files, out: options.PicturePath = None, kind: options.MovingKind = "html") -> None:
+def animate(files: options.Files, out: options.PicturePath = None, form: options.MovingKind = "html") -> None:
     """Draw scenes in motion: a page with a slider, a gif or an mp4."""
-    _pictures(files, "animate", out, kind)
+    _pictures(files, "animate", out, form)
 
 
-@app.command()
-def graph(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
-    """Draw constraints and what they hold as a graph, redundant ones marked."""
-    _pictures(files, "graph", out, kind)
-
-
-@app.command()
-def phase(files: options.Files, out: options.PicturePath = None, kind: options.StillKind = "svg") -> None:
-    """Draw the directions that differential constraints allow, and those that their brackets add."""
-    _pictures(files, "phase", out, kind)
+_still("graph", "Draw constraints and what they hold as a graph, redundant ones marked.")
+_still("phase", "Draw the directions that differential constraints allow, and those that their brackets add.")
 
 
 @app.command()
@@ -145,12 +152,15 @@ def grade(
     scheduler: options.Scheduler = None,
     check_only: options.CheckOnly = False,
     certificates: options.CertificateFolder = None,
+    reviewed: options.ReviewTable = None,
+    roster: options.RosterPath = None,
 ) -> None:
     """Grade submissions: a result for each, in the order given."""
     from dofkit.homework.runs.run import GradingOptions, run
 
+    chosen = GradingOptions(form, out, workers, scheduler, check_only, certificates, reviewed, roster)
     with failures_of(assignment):
-        clean = run(assignment, submissions, GradingOptions(form, out, workers, scheduler, check_only, certificates))
+        clean = run(assignment, submissions, chosen)
     if not clean:
         raise typer.Exit(UNREADABLE)
 
@@ -179,34 +189,27 @@ def chart(
         raise typer.Exit(INTERRUPTED)
 
 
-@assignment_app.command("new")
-def assignment_new(
-    scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Paths or catalog names.")],
-) -> None:
-    """Print a starting assignment: all the questions that the scenes can be asked."""
-    from dofkit.homework.starting import starting
-
-    with failures_of(None):
-        typer.echo(starting(scenes), nl=False)
-
-
 @export_app.command("gradescope")
 def export_gradescope(
     assignment: options.Assignment,
     out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The zip to upload.")] = Path("autograder.zip"),
     python: Annotated[
         list[str] | None,
-        typer.Option("--python", metavar="VERSION", help="The Python there; may be given again. By default 3.12."),
+        typer.Option(
+            "--python", metavar="VERSION", help="A Python there; may be given again. By default 3.11 to 3.13."
+        ),
     ] = None,
     wheels: Annotated[
         bool, typer.Option(help="Put in dofkit and all it needs, so that no network is needed there.")
     ] = True,
+    reviewed: options.ReviewTable = None,
 ) -> None:
     """Write the autograder of an assignment for Gradescope, as one zip to upload."""
     from dofkit.homework import export
 
     with failures_of(assignment):
-        notes = export.export_gradescope(assignment, out, python or (export.PYTHON,), wheels=wheels)
+        pythons = python or export.PYTHONS
+        notes = export.export_gradescope(assignment, out, pythons, wheels=wheels, reviewed=reviewed)
     for note in notes:
         typer.echo(f"{out}: {note}", err=True)
 
@@ -214,13 +217,13 @@ def export_gradescope(
 @export_app.command("otter")
 def export_otter(
     assignment: options.Assignment,
-    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where the test files go.")] = Path("tests"),
+    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where the notebook goes.")] = Path("otter"),
 ) -> None:
-    """Write otter-grader's test files for an assignment, and assignment.json beside their folder."""
-    from dofkit.homework import otter
+    """Write an assignment's master notebook for `otter assign`, and the two files that its tests read."""
+    from dofkit.homework import export
 
     with failures_of(assignment):
-        for path in otter.write_tests(assignment, out):
+        for path in export.export_otter(assignment, out):
             typer.echo(path)
 
 

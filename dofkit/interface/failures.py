@@ -20,7 +20,10 @@ UNREADABLE, INTERRUPTED = 2, 130
 
 @contextmanager
 def failures_of(file: str | None) -> Iterator[None]:
-    """Where nothing is done, tell why, of ``file`` (None: of what the error is about), and end the command."""
+    """Where nothing is done, tell why, of ``file`` (None: of what the error is about), and end the command.
+
+    An error that names a ``file`` of its own is told of that.
+    """
     try:
         yield
     except BrokenPipeError:
@@ -28,7 +31,7 @@ def failures_of(file: str | None) -> Iterator[None]:
     except (DofkitError, OSError) as error:
         faults = tuple(getattr(error, "faults", None) or (Fault(str(error)),))
         sys.stdout.flush()
-        about = file or getattr(error, "source", None) or "assignment"
+        about = getattr(error, "file", None) or file or getattr(error, "source", None) or "assignment"
         complaint = handed_on(__name__, {"complaint": "dofkit.interface.show.faults"}, "complaint")
         told = complaint(about, faults, None, colours_of(sys.stderr) is not None)
         typer.echo(told, err=True, color=True)

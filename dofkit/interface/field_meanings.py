@@ -24,6 +24,8 @@ OF_REPORT: dict[str, str] = {
     "redundancies": "groups of constraints that depend on each other, and how many equations each has too many",
     "conflicting": "a minimal set of constraints that contradict each other",
     "generalized_coordinates": "an independent choice among the scene's coordinates, one for each degree of freedom",
+    "joint_coordinates": "of a tree of bodies that joints alone hold: angles and displacements of joints that "
+    "describe it, one for each degree of freedom; null for any other",
     "growth_vector": "dimensions of the directions that differential constraints allow, then with their brackets, "
     "and so on",
     "integrable_part": "the finite relations that all differential constraints together amount to",

@@ -38,7 +38,7 @@ def _verified(given: CertificateGiven) -> Verification:
     data = find(given.scene).data
     try:
         return verify(data if isinstance(data, str) else data.decode("utf-8"), certificate)
-    except CheckError:
+    except (CheckError, UnicodeDecodeError):
         return certificates.verify(given.scene, certificate)
 
 

@@ -22,7 +22,7 @@ from dofkit.methods.classify import with_certificate
 from dofkit.methods.stages import stages
 from dofkit.motion import lagrange
 from dofkit.report import Report
-from dofkit.scene.found_files import find
+from dofkit.scene.found_files import FoundFile, find
 from dofkit.scene.reading import SceneFile
 from dofkit.scene.scene import Scene
 
@@ -64,8 +64,9 @@ def answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]])
     """Read a file and give its answer, or else its faults, each in its place: no file stops those that follow."""
     name, document = given.name, None
     try:
-        name, data = find(given.file) if given.data is None else (name, given.data)
-        read = SceneFile.read(data, name)
+        found = find(given.file) if given.data is None else FoundFile(name, given.data)
+        name = found.name
+        read = SceneFile.read(found.data, name, found.path, given.telling.limits)
         document = read.document
         scene = read.scene(checked=False)
         try:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -50,10 +50,15 @@ Budget = Annotated[
 ]
 
 
-def _known_method(name: str) -> str:
-    if name not in METHODS:
-        raise typer.BadParameter(f"'{name}' is none of {', '.join(METHODS)}")
-    return name
+def _one_of(known: Collection[str]) -> Callable[[str], str]:
+    """What checks that an option is one of some words."""
+
+    def checked(word: str) -> str:
+        if word not in known:
+            raise typer.BadParameter(f"'{word}' is none of {', '.join(known)}")
+        return word
+
+    return checked
 
 
 Brief = Annotated[bool, typer.Option("--brief", help="A line a scene; so it is for more than three.")]
@@ -70,6 +75,11 @@ Without = Annotated[
 FailOn = Annotated[
     list[str] | None,
     typer.Option("--fail-on", metavar="WHAT,...", help=f"Exit status 1 where a scene is {', '.join(FAILURES)}."),
+]
+Limits = Annotated[bool, typer.Option("--limits", help="Of models: ranges of joints as inequalities.")]
+ModelPath = Annotated[str, typer.Argument(metavar="FILE", help="MJCF, URDF, or a SolveSpace sketch.")]
+ScenePath = Annotated[
+    Path | None, typer.Option("--out", metavar="SCENE.yaml", help="Where to write; else it is printed.")
 ]
 Watch = Annotated[bool, typer.Option("--watch", help="Again whenever a file changes, until Ctrl-C.")]
 
@@ -103,7 +113,7 @@ def _known(names: tuple[str, ...], known: Iterable[str], what: str, option: str)
 Method = Annotated[
     str,
     typer.Option(
-        "--method", metavar="NAME", callback=_known_method, help=f"One way to answer alone: {', '.join(METHODS)}."
+        "--method", metavar="NAME", callback=_one_of(METHODS), help=f"One way to answer alone: {', '.join(METHODS)}."
     ),
 ]
 
@@ -140,27 +150,17 @@ PicturePath = Annotated[
 ]
 
 
-def _still_kind(name: str) -> str:
-    if name not in STILL_KINDS:
-        raise typer.BadParameter(f"'{name}' is none of {', '.join(STILL_KINDS)}")
-    return name
-
-
-def _moving_kind(name: str) -> str:
-    if name not in MOVING_KINDS:
-        raise typer.BadParameter(f"'{name}' is none of {', '.join(MOVING_KINDS)}")
-    return name
-
-
 STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4")
-StillKind = Annotated[
-    str,
-    typer.Option("--format", metavar="KIND", callback=_still_kind, help=f"In a folder: {', '.join(STILL_KINDS)}."),
-]
-MovingKind = Annotated[
-    str,
-    typer.Option("--format", metavar="KIND", callback=_moving_kind, help=f"In a folder: {', '.join(MOVING_KINDS)}."),
-]
+
+
+def _format(kinds: Collection[str]) -> Any:
+    """The option for the format of pictures in a folder."""
+    told = f"In a folder: {', '.join(kinds)}."
+    return typer.Option("--format", metavar="KIND", callback=_one_of(kinds), help=told)
+
+
+StillKind = Annotated[str, _format(STILL_KINDS)]
+MovingKind = Annotated[str, _format(MOVING_KINDS)]
 
 # of `lagrange`
 
@@ -177,7 +177,16 @@ ResultPath = Annotated[
     Path | None,
     typer.Option("--out", metavar="PATH", help="Where to write; an interrupted run goes on where it stopped."),
 ]
+ReviewTable = Annotated[
+    Path | None,
+    typer.Option("--reviewed", metavar="CSV", help="A review.csv with points that a person filled in."),
+]
 CheckOnly = Annotated[bool, typer.Option("--check-only", help="Tell how every answer is read, and grade none.")]
+
+RosterPath = Annotated[
+    Path | None,
+    typer.Option("--roster", metavar="TABLE.csv", help="Who is in the course: names, addresses, ids."),
+]
 
 # of `chart`
 

@@ -11,7 +11,8 @@ from dofkit.interface.streams import Colours, colours_of, columns
 class Telling(NamedTuple):
     """How a report is told: as JSON (``ascii_only``: no other characters), in ``brief`` or in full, ``how`` sure.
 
-    ``only``: these fields and no others; ``without``: constraints that are dropped before.
+    ``only``: these fields and no others; ``without``: constraints that are dropped before; ``limits``: ranges of the
+    joints of models are inequalities.
     ``columns`` and ``colours`` of standard output, ``loud``: are there colours on standard error?
     """
 
@@ -21,6 +22,7 @@ class Telling(NamedTuple):
     how: bool = False
     only: tuple[str, ...] = ()
     without: tuple[str, ...] = ()
+    limits: bool = False
     columns: int = 80
     colours: Colours | None = None
     loud: bool = False

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import networkx as nx
 
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.rows import LinearRow
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.twists import Located, Member
-from dofkit.system import GROUND, Connection, DrawnPoint, System
+from dofkit.system import GROUND, Connection, DrawnPoint, JointRate, Kinematics, System, TypeFacts
 
 #: Random numbers are below this where there is no prime.
 FREE = 1000
@@ -43,7 +44,7 @@ class Placement:
 def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
     """The connections where they are drawn, roots and angles as exact numbers modulo p; what is not given is random."""
     wanted = {part for vector in _vectors(system) for part in vector}
-    wanted |= {c.number for c in system.connections if c.number is not None}
+    wanted |= set(_factors(system))
     ring = Ring([e for e in wanted if e.op != "num"], positive)
     nodes = {e: ring.node(e) for e in wanted}
     for seed in range(DRAWS):
@@ -60,11 +61,11 @@ def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | No
 def measured_placement(system: System) -> Placement | None:
     """The drawing in floating point, lengths in units of the scene's size; None where it holds parameters."""
     wanted = {part for vector in _vectors(system) for part in vector}
-    wanted |= {c.number for c in system.connections if c.number is not None}
+    wanted |= set(_factors(system))
     known = {e: approximate(e) for e in wanted}
     if None in known.values():
         return None
-    return _placement(system, _Drawn(0, {e: float(v or 0) / system.size for e, v in known.items()}))
+    return _placement(system, _Drawn(0, {e: float(v or 0) / system.size for e, v in known.items()}, system.size))
 
 
 def general_placement(system: System, p: int, seed: int = 0) -> Placement:
@@ -73,10 +74,10 @@ def general_placement(system: System, p: int, seed: int = 0) -> Placement:
 
 
 class _Drawn:
-    """The numbers of the drawing; a particle that is not drawn stands at one random place."""
+    """The numbers of the drawing, in units of ``size``; a particle that is not drawn stands at one random place."""
 
-    def __init__(self, p: int, known: Mapping[Expr, Any]) -> None:
-        self.p, self._known = p, known
+    def __init__(self, p: int, known: Mapping[Expr, Any], size: float = 1.0) -> None:
+        self.p, self._known, self._size = p, known, size
         self._rng = random.Random("dofkit drawn")
         self._turn = self._rng.randrange(1, p or FREE)
         self._elsewhere: dict[str, Numbers] = {}
@@ -103,6 +104,11 @@ class _Drawn:
             return 0
         found: Any = self._known[given] * (self._turn if by_turn else 1)
         return found % self.p if self.p else found
+
+    def factor(self, rate: JointRate) -> Any:
+        """Of a rate about or along a direction in units of the size: of angles with displacements as they are."""
+        found: Any = self._known[rate.factor]
+        return found % self.p if self.p else found * self._size ** (1 + bool(rate.direction) + rate.slides)
 
 
 class _General:
@@ -141,9 +147,18 @@ class _General:
     def number(self, given: Expr | None, by_turn: bool) -> int:
         return self._rng.randrange(1, self.p)
 
+    def factor(self, rate: JointRate) -> int:
+        return self._rng.randrange(1, self.p)
+
 
 def _key(point: DrawnPoint) -> Hashable:
     return point.carrier if point.particle else (point.carrier, point.at)
+
+
+def _factors(system: System) -> Iterator[Expr]:
+    for c in system.connections:
+        yield from () if c.number is None else (c.number,)
+        yield from (rate.factor for rate in c.rates)
 
 
 def _vectors(system: System) -> Iterator[Vector]:
@@ -151,6 +166,7 @@ def _vectors(system: System) -> Iterator[Vector]:
     for c in system.connections:
         given = (*c.places, *c.directions, *(point.at for point in c.points))
         yield from (vector for vector in given if vector is not None)
+        yield from (vector for rate in c.rates for vector in (rate.place, rate.direction))
 
 
 def _placement(system: System, numbers: _Drawn | _General) -> Placement:
@@ -178,4 +194,15 @@ def _located_connection(c: Connection, members: Mapping[str, Member], numbers: _
         tuple(numbers.vector(c.directions[i] if i < len(c.directions) else None, d) for i in range(wanted)),
         numbers.number(c.number, c.facts.by_turn),
         c.driven,
+        tuple(_part(c.facts, rate, members, numbers, d) for rate in c.rates),
     )
+
+
+def _part(
+    facts: TypeFacts, rate: JointRate, members: Mapping[str, Member], numbers: _Drawn | _General, d: int
+) -> tuple[Callable[[Kinematics], LinearRow], Any, Located]:
+    """One joint of a coupling."""
+    pair = tuple(members[m] for m in rate.members)
+    place = numbers.place(rate.members[0], rate.place, d)
+    directions = (numbers.vector(rate.direction, d),) if rate.direction else ()
+    return rate.rate, numbers.factor(rate), Located(facts, d, pair, (), (place,), directions)

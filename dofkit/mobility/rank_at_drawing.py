@@ -83,7 +83,7 @@ def _copies(system: System) -> list[int]:
     seen: set[object] = set()
     found = []
     for c in system.connections:
-        alike = (c.facts.velocities, c.members, c.points, c.places, c.directions)
+        alike = (c.facts.velocities, c.members, c.points, c.places, c.directions, c.rates)
         if alike in seen and c.facts.placed and not c.facts.bars:
             found.append(c.constraint)
         seen.add(alike)
@@ -96,6 +96,8 @@ def _numbers(system: System) -> Iterator[Expr]:
     for c in system.connections:
         for vector in (*c.places, *c.directions, *(point.at for point in c.points)):
             yield from vector or ()
+        for rate in c.rates:
+            yield from (*rate.place, *rate.direction, rate.factor)
 
 
 def _still(system: System) -> bool:

@@ -7,11 +7,12 @@ coordinates is no singularity here. Numbers are of any kind: integers that stand
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from dofkit.exact.matrices.rows import LinearRow, Numbers, less
-from dofkit.system import TypeFacts
+from dofkit.system import Kinematics, TypeFacts
 
 #: Columns of the angular velocity by dimension.
 TURNS = {1: 0, 2: 1, 3: 3}
@@ -27,7 +28,10 @@ class Member:
 
 @dataclass(frozen=True)
 class Located:
-    """A connection with numbers: points that belong to members, places, directions, the screw's pitch or the ratio."""
+    """A connection with numbers: points that belong to members, places, directions, the screw's pitch or the ratio.
+
+    ``parts``: of a coupling the rate of each joint, its factor, and the joint alone.
+    """
 
     facts: TypeFacts
     dimension: int
@@ -37,6 +41,7 @@ class Located:
     directions: tuple[tuple[Any, ...], ...]
     number: Any = 0
     driven: bool = False
+    parts: tuple[tuple[Callable[[Kinematics], LinearRow], Any, Located], ...] = ()
 
     def shift(self) -> list[LinearRow]:
         """How the second body's point at the joint moves against the first's; anywhere, where they do not turn."""

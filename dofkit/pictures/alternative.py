@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
+from dofkit.pictures.states import sure
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
 #: So many names are told.
 MOST = 8
+OPEN = "undecided how many degrees of freedom"
 
 
 def answer(report: Report) -> str:
@@ -20,31 +22,40 @@ def answer(report: Report) -> str:
     """
     if report.consistent is False:
         told = f"no motion: {_names(report.conflicting)} contradict each other" if report.conflicting else "no motion"
-    elif report.dof is None:
-        told = "degrees of freedom undecided"
+    elif report.feasible is False:
+        told = f"no motion: {_names(report.infeasible)} cannot be met together"
     else:
-        told = f"{report.dof} degree{'' if report.dof == 1 else 's'} of freedom"
-        if report.velocity_dof is not None and report.velocity_dof != report.dof:
-            told += f", {report.velocity_dof} independent velocities"
-        if report.singular and report.instantaneous_dof is not None:
-            told += f", {report.instantaneous_dof} to first order at this singular drawing"
-    return f"{told} ({report.verdict})"
+        told = ", ".join(_freedom(report))
+    return told if told == OPEN else f"{told} ({report.verdict})"
+
+
+def _freedom(report: Report) -> Iterator[str]:
+    """The freedom, velocities where there are not as many, and what is not decided."""
+    dof, velocities = report.dof, report.velocity_dof
+    yield OPEN if dof is None else f"{dof} degree{'' if dof == 1 else 's'} of freedom"
+    if velocities is not None and velocities != dof:
+        yield f"{velocities} independent {'velocity' if velocities == 1 else 'velocities'}"
+    if report.singular and report.instantaneous_dof is not None:
+        yield f"{report.instantaneous_dof} to first order at this singular drawing"
+    if dof is not None and report.consistent is None:
+        yield "if all constraints can hold at once"
+    if report.feasible is None and not all(entry.bilateral for entry in report.constraints):
+        yield "if the inequalities can all be met"
 
 
 def alternative(scene: Scene, report: Report) -> str:
     """What is drawn, and the answer, in a few sentences."""
     parts = [f"{n} {one if n == 1 else many}" for n, one, many in _counts(scene) if n]
     told = [f"{scene.title or scene.name}: {', '.join(parts) or 'nothing is declared'}.", f"{answer(report)}."]
+    how = sure(report, "redundant")
     if report.redundant:
-        told.append(f"Redundant: {_names(report.redundant)}.")
+        told.append(f"Redundant{how}: {_names(report.redundant)}.")
     wholly = report.redundant or []
     in_part = [entry.name for entry in report.constraints if entry.redundant_equations and entry.name not in wholly]
     if in_part:
-        told.append(f"Redundant in part: {_names(in_part)}.")
-    if report.infeasible:
-        told.append(f"Cannot be met together: {_names(report.infeasible)}.")
+        told.append(f"Redundant in part{how}: {_names(in_part)}.")
     if report.growth_vector:
-        told.append(f"Growth vector ({', '.join(map(str, report.growth_vector))}).")
+        told.append(f"Growth vector ({', '.join(map(str, report.growth_vector))}){sure(report, 'growth_vector')}.")
     return " ".join(told)
 
 

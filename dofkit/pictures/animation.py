@@ -7,24 +7,23 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from dofkit.base.errors import ArgumentError
-from dofkit.base.spelling import no_such
 from dofkit.methods.classify import classify
 from dofkit.pictures.coordinates import MOST, gauge_sketch, is_bare
 from dofkit.pictures.layout import page_of, standpoint_of
 from dofkit.pictures.motion import clips_of
 from dofkit.pictures.paper import Page
-from dofkit.pictures.player import framed, page_html
+from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.raster import ExtraMissingError, draw_marks, figure_of, require_matplotlib
 from dofkit.pictures.shapes import Clip, Sketch
-from dofkit.pictures.still import Picture, staged, whole_sketch
+from dofkit.pictures.states import can_hold
+from dofkit.pictures.still import Picture, saved, staged, whole_sketch
 from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 
 #: Frames by second, and dots by inch of films.
 RATE, DOTS = 20, 100
 NO_FFMPEG = "an mp4 needs the program ffmpeg, which is not on the path: install it, or save a gif or html"
-STILL = "Nothing moves: no free motion was found."
+STILL, NOT_SHOWN = "Nothing moves.", "No motion was found that could be shown."
 
 
 @dataclass(frozen=True)
@@ -63,15 +62,10 @@ class Animation:
 
         Raises ArgumentError for any other ending, ExtraMissingError where matplotlib or ffmpeg is missing, OSError.
         """
-        target = Path(path)
-        write = _WRITERS.get(target.suffix.lower())
-        if write is None:
-            raise ArgumentError(no_such(target.suffix or str(path), list(_WRITERS), "ending"))
-        write(self, target)
-        return target
+        return saved(self, path, _WRITERS)
 
     def _repr_html_(self) -> str:
-        return framed(self.html())
+        return framed(self.html(), page_height(self.sketch, self.clips))
 
 
 def animate(scene: SceneLike, report: Report | None = None) -> Animation:
@@ -90,7 +84,8 @@ def animate(scene: SceneLike, report: Report | None = None) -> Animation:
     many = is_bare(stage.system) and len(stage.system.coordinates) > MOST
     sketch = gauge_sketch(stage) if many else whole_sketch(stage)[0]
     clips = tuple(clips_of(stage, sketch))
-    notes = sketch.notes if clips else (*sketch.notes, STILL)
+    held = (told.velocity_dof == 0 and told.scleronomic) or not can_hold(told)
+    notes = sketch.notes if clips else (*sketch.notes, STILL if held else NOT_SHOWN)
     return Animation(replace(sketch, notes=notes), clips)
 
 

@@ -75,7 +75,10 @@ def arrangement_of(system: System) -> Arrangement:
         told = configurations(system, steps=0)[0]
     except DofkitError:
         return Arrangement(system, numbers | _start(system, 0) | _known(system.pose, numbers), SCHEMATIC, False)
-    return Arrangement(system, numbers | _symbols(system, told), CHOSEN, True)
+    found = numbers | _symbols(system, told)
+    limits = values_at(finite_relations(system, (">=", ">")), found)
+    met = bool(np.all(limits >= -MET))
+    return Arrangement(system, found, CHOSEN if met else SCHEMATIC, met)
 
 
 def _known(given: Mapping[Expr, Expr], numbers: Mapping[Expr, float]) -> dict[Expr, float]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from dofkit.pictures.alternative import alternative, answer
 from dofkit.pictures.shapes import AT_REST, Place, Shape, Sketch, State, Vertex, place
-from dofkit.pictures.states import state_of
+from dofkit.pictures.states import meanings, state_of, sure
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, Constraint, System
@@ -19,6 +19,7 @@ from dofkit.system import GROUND, Constraint, System
 MOST_SPREAD = 450
 #: More nodes than this have no names.
 MOST_NAMES = 90
+WHAT = "A graph: dots are bodies, particles and coordinates, boxes constraints."
 
 
 def graph_sketch(scene: Scene, system: System, report: Report, reason: str | None = None) -> Sketch:
@@ -44,8 +45,9 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
         poses={GROUND: AT_REST},
         size=2.0,
         answer=answer(report),
-        alternative=f"{alternative(scene, report)} A graph: dots are what moves, boxes constraints.",
+        alternative=f"{alternative(scene, report)} {WHAT}",
         notes=(*notes, *_circuits_told(report)),
+        meanings=meanings(report, looked=False),
         axes=(),
     )
 
@@ -108,7 +110,8 @@ def circuits_of(report: Report) -> Mapping[str, list[str]]:
 def _circuits_told(report: Report) -> Iterator[str]:
     circuits = circuits_of(report)
     for name, members in list(circuits.items())[:3]:
-        yield f"{name} follows from {', '.join(members[1:13])}{' and others' if len(members) > 13 else ''}."
+        others = " and others" if len(members) > 13 else ""
+        yield f"{name} follows from {', '.join(members[1:13])}{others}{sure(report, 'redundant')}."
     if len(circuits) > 3:
         yield f"and {len(circuits) - 3} further circuits; point at a constraint to see its own"
 

@@ -12,6 +12,7 @@ from dofkit.pictures.arrangement import POINT, finite_relations
 from dofkit.pictures.fields import Distribution, elements
 from dofkit.pictures.loci import curve, lines_of_plane, lines_of_space
 from dofkit.pictures.mechanism import notes_of
+from dofkit.pictures.rates import is_linear
 from dofkit.pictures.shapes import Array, Role, Shape, Sketch, State, Vertex, place
 from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND, System
@@ -46,6 +47,7 @@ def coordinate_sketch(stage: StagedScene) -> Sketch:
         answer=answer(stage.report),
         alternative=f"{alternative(stage.scene, stage.report)} The axes are the coordinates.",
         notes=tuple(notes_of(stage)),
+        meanings=stage.meanings,
         axes=(),
     )
 
@@ -89,6 +91,7 @@ def gauge_sketch(stage: StagedScene) -> Sketch:
         answer=answer(stage.report),
         alternative=f"{alternative(stage.scene, stage.report)} Each line is a coordinate, from -1 over 0 to 1.",
         notes=("Each coordinate on a line of its own; the marks are -1, 0 and 1.", *notes_of(stage)),
+        meanings=stage.meanings,
         axes=(),
     )
 
@@ -125,7 +128,7 @@ def _sets(stage: StagedScene, symbols: Sequence[Expr], half: float) -> Iterator[
         role: Role = "surface" if thin else "locus"
         for line in lines(stage.arrangement, relation.expr, symbols, bounds):
             yield Shape("line", _grounded(line), role, stage.state(name), name)
-    if any(r.expr not in finite for _, r in relations) and len(symbols) > 1:
+    if any(r.expr not in finite for _, r in relations) and len(symbols) > 1 and is_linear(stage.arrangement):
         distribution = Distribution(stage.arrangement)
         yield from elements(distribution, range(len(symbols)), 0.9 * half)
 

@@ -11,8 +11,11 @@ from dofkit.base.errors import DofkitError
 from dofkit.pictures.alternative import alternative, answer
 from dofkit.pictures.fields import Distribution, element, elements
 from dofkit.pictures.mechanism import notes_of
+from dofkit.pictures.rates import is_linear
 from dofkit.pictures.shapes import AT_REST, Array, Role, Shape, Sketch, Vertex, place
 from dofkit.pictures.stage import StagedScene
+from dofkit.pictures.states import sure
+from dofkit.report import Report
 from dofkit.system import GROUND
 
 #: Half of the box that is shown, the length of directions, the step of brackets, and the sides of their square.
@@ -45,20 +48,23 @@ def phase_sketch(stage: StagedScene) -> Sketch:
         raise NoFormsError(
             "a picture of directions needs differential constraints, and two coordinates or more; `draw` shows the rest"
         )
+    if not is_linear(stage.arrangement):
+        raise NoFormsError("a picture of directions needs constraints that are linear in the velocities")
     distribution = Distribution(stage.arrangement)
     if not distribution.fields:
-        raise NoFormsError("nothing can move here: there are no directions to show")
+        raise NoFormsError("no direction was found in which something can move here")
     found = directions_of(distribution)
     shown = _shown(distribution, found)
     shapes = [*elements(distribution, shown, HALF)] if len(shown) > 1 else []
     shapes += _at_start(distribution, found, shown)
     shapes += _square(distribution, shown)
     names = [distribution.names[k] for k in shown]
-    growth = [sum(d.order <= k for d in found) for k in range(1, 1 + max((d.order for d in found), default=0))]
-    told = report.growth_vector or growth
-    note = f"Growth vector ({', '.join(map(str, told))}); shown: {', '.join(names)}."
+    axes = f"hown: {', '.join(names)}."
     if len(names) < len(distribution.names):
-        note += f" Left out: {', '.join(n for n in distribution.names if n not in names)}."
+        axes += f" Left out: {', '.join(n for n in distribution.names if n not in names)}."
+    if distribution.timed:
+        axes += " Time stands still here."
+    note = f"{_growth(report, found)}; s{axes}"
     return Sketch(
         title=f"{stage.scene.title or stage.scene.name}: directions",
         dimension=max(2, len(shown)),
@@ -66,10 +72,18 @@ def phase_sketch(stage: StagedScene) -> Sketch:
         poses={GROUND: AT_REST},
         size=2 * HALF,
         answer=answer(report),
-        alternative=f"{alternative(stage.scene, report)} {note}",
+        alternative=f"{alternative(stage.scene, report)} {note if report.growth_vector is None else f'S{axes}'}",
         notes=(note, *(f"{d.name}: {_told(distribution, d)}" for d in found[:4]), *notes_of(stage)),
         axes=tuple(names),
     )
+
+
+def _growth(report: Report, found: Sequence[Direction3]) -> str:
+    """The report's growth vector; where it has none, what the brackets at this place make likely."""
+    if report.growth_vector is not None:
+        return f"Growth vector ({', '.join(map(str, report.growth_vector))}){sure(report, 'growth_vector')}"
+    seen = (str(sum(d.order <= k for d in found)) for k in range(1, 1 + max(d.order for d in found)))
+    return f"No growth vector was decided; in floating point, at this place: ({', '.join(seen)})"
 
 
 def _told(distribution: Distribution, direction: Direction3) -> str:

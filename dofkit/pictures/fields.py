@@ -22,6 +22,7 @@ class Distribution:
     """The directions that all constraints allow at a point, as smooth vector fields near one.
 
     ``names`` are the coordinates, in order. ``fields`` is the number of independent ones there.
+    ``timed``: does time occur? It stands still.
     """
 
     def __init__(self, arrangement: Arrangement) -> None:
@@ -29,6 +30,7 @@ class Distribution:
         self.names = [c.name for c in arrangement.system.coordinates]
         self.symbols = [coordinate(n) for n in self.names]
         self.start = np.array([arrangement.numbers.get(s, 0.0) for s in self.symbols])
+        self.timed = TIME in velocity_rows(arrangement.system, arrangement.numbers)[1]
         found = self.basis(self.start)
         self.pivots = _pivots(found)
         self.fields = len(found)

@@ -110,7 +110,7 @@ def _legend(sketch: Sketch) -> list[list[Mark]]:
     """A sample and a word for each state that occurs, in rows."""
     rows: list[list[Mark]] = [[]]
     x = MARGIN
-    for ink, text in keys_of(sketch.shapes):
+    for ink, text in keys_of(sketch.shapes, sketch.meanings):
         wide = 22 + width_of(text, NOTE) + 14
         if x + wide > WIDTH - MARGIN and rows[-1]:
             rows.append([])

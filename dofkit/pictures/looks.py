@@ -7,9 +7,19 @@ from typing import NamedTuple
 
 from dofkit.pictures.shapes import Role, Shape, State
 
-BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
+SKY, GREEN = "#56B4E9", "#009E73"
 BLUE, VERMILLION, PURPLE, GREY, WHITE = "#0072B2", "#D55E00", "#CC79A7", "#6E6E6E", "#FFFFFF"
-PALE, INK = "#D9D9D9", "#222222"
+INK = "#222222"
+
+
+#: Each colour as it is on dark paper; on light paper it is as named.
+ON_DARK: Mapping[str, str] = {
+    WHITE: "#151B23", "#F1F1F1": "#1E2630", "#EFEFEF": "#2A333D", "#A8A8A8": "#7D8792",
+    "#8A8A8A": "#78828D", GREY: "#97A1AC", "#555555": "#A9B3BD", "#444444": "#C3CBD3", "#333333": "#CBD3DB",
+    INK: "#E6EDF3", BLUE: "#6CB6F0", SKY: "#56B4E9", GREEN: "#2FC99E", "#8CCDB9": "#3E8A75",
+    "#7A5C2E": "#CBA56A", "#B87A00": "#E8AC3C", "#FBE3B5": "#4B3B17", "#8A5A00": "#EDB44E",
+    VERMILLION: "#FF8B45", "#F7CDB4": "#55321D", "#B34700": "#FF955A", PURPLE: "#E3A0C5",
+}  # fmt: skip
 
 
 class Ink(NamedTuple):
@@ -50,13 +60,6 @@ _LOUD: Mapping[State, Ink] = {
     "redundant": Ink("#B87A00", 2.2, (5.0, 2.5), fill="#FBE3B5", layer=6),
     "conflicting": Ink(VERMILLION, 3.2, (2.2, 1.4), fill="#F7CDB4", layer=6),
 }
-#: What the legend says of each state that occurs.
-MEANINGS: Mapping[State, str] = {
-    "moving": "moves",
-    "plain": "held still",
-    "redundant": "redundant, wholly or in part",
-    "conflicting": "contradicts others",
-}
 
 
 def ink_of(shape: Shape) -> Ink:
@@ -79,16 +82,20 @@ def ink_of(shape: Shape) -> Ink:
     return plain
 
 
-def keys_of(shapes: Iterable[Shape]) -> list[tuple[Ink, str]]:
-    """What the legend explains: the states that occur."""
+def keys_of(shapes: Iterable[Shape], meanings: Mapping[State, str] | None) -> list[tuple[Ink, str]]:
+    """What the legend explains: what occurs, and of states those that have a meaning; without meanings nothing."""
+    if meanings is None:
+        return []
     found: dict[str, Ink] = {}
     for shape in shapes:
         ink = ink_of(shape)
         if shape.role in ("body", "point") and shape.state in ("moving", "plain"):
+            if shape.state not in meanings:
+                continue
             box = _PLAIN["body"] if shape.state == "plain" else ink._replace(dense=0.5)
-            found.setdefault(MEANINGS[shape.state], box)
-        elif shape.state in _LOUD and ink.dash == _LOUD[shape.state].dash:
-            found.setdefault(MEANINGS[shape.state], ink._replace(fill=None, width=2.4))
+            found.setdefault(meanings[shape.state], box)
+        elif shape.state in meanings and shape.state in _LOUD and ink.dash == _LOUD[shape.state].dash:
+            found.setdefault(meanings[shape.state], ink._replace(fill=None, width=2.4))
         elif shape.role == "bracket":
             found.setdefault("bracket", ink)
         elif shape.role in ("locus", "surface") and shape.state == "plain":

@@ -35,6 +35,7 @@ def sketch_of(stage: StagedScene) -> Sketch:
         answer=answer(stage.report),
         alternative=alternative(stage.scene, stage.report),
         notes=tuple(notes_of(stage)),
+        meanings=stage.meanings,
         units="of the scene's units of length" if stage.measurable else "",
     )
 
@@ -71,6 +72,8 @@ def _anchor(stage: StagedScene, number: int) -> tuple[Vertex, ...]:
 
 def notes_of(stage: StagedScene) -> Iterator[str]:
     """What is told below a picture."""
+    if stage.unseen is not None:
+        yield stage.unseen
     if stage.schematic:
         yield FREE_PLACES
     elif stage.arrangement.note is not None:

@@ -14,6 +14,7 @@ from dofkit.pictures.arrangement import poses_of
 from dofkit.pictures.rates import swings
 from dofkit.pictures.shapes import Clip, Poses, Sketch
 from dofkit.pictures.stage import StagedScene
+from dofkit.pictures.states import can_hold
 from dofkit.system import GROUND
 
 #: Steps of a sampled motion to either side, their length, and the most frames that are kept.
@@ -30,9 +31,11 @@ SECONDS = 12.0
 
 def clips_of(stage: StagedScene, sketch: Sketch) -> list[Clip]:
     """All motions that are shown: a finite one where there is, and where there are several freedoms or none, each."""
+    if not can_hold(stage.report):
+        return []
     finite = _finite(stage, _Seen(sketch))
     several = len(stage.motions) > 1 or not finite
-    if stage.report.consistent is False or not several:
+    if not several:
         return finite
     return [*finite, *swings(stage.arrangement, stage.motions, stage.size)]
 

@@ -7,13 +7,17 @@
   const pen = canvas.getContext("2d");
   const solid = data.dimension === 3;
   const state = { clip: 0, frame: 0, playing: false, azimuth: data.view[0], elevation: data.view[1] };
-  const hatch = makeHatch();
+  const night = window.matchMedia("(prefers-color-scheme: dark)");
+  let hatch = makeHatch();
+
+  /* A colour as it is on the paper that is shown: light, or dark where the reader has it so. */
+  function tone(colour) { return night.matches && data.dark[colour] || colour; }
 
   function makeHatch() {
     const tile = document.createElement("canvas");
     tile.width = tile.height = 7;
     const ink = tile.getContext("2d");
-    ink.strokeStyle = "#8A8A8A";
+    ink.strokeStyle = tone("#8A8A8A");
     ink.lineWidth = 0.8;
     ink.beginPath();
     for (const shift of [-7, 0, 7]) { ink.moveTo(shift, 7); ink.lineTo(shift + 7, 0); }
@@ -108,12 +112,12 @@
   function paint(look, closed) {
     if (closed && look[3]) {
       pen.globalAlpha = look[4];
-      pen.fillStyle = look[3];
+      pen.fillStyle = tone(look[3]);
       pen.fill();
       pen.globalAlpha = 1;
       if (look[5]) { pen.globalAlpha = 0.6; pen.fillStyle = hatch; pen.fill(); pen.globalAlpha = 1; }
     }
-    pen.strokeStyle = look[0];
+    pen.strokeStyle = tone(look[0]);
     pen.lineWidth = look[1];
     pen.setLineDash(look[2]);
     pen.stroke();
@@ -147,9 +151,9 @@
     pen.setLineDash([]);
     pen.lineJoin = "round";
     pen.lineWidth = 2.6;
-    pen.strokeStyle = "#FFFFFF";
+    pen.strokeStyle = tone("#FFFFFF");
     pen.strokeText(text, x, y);
-    pen.fillStyle = colour;
+    pen.fillStyle = tone(colour);
     pen.fillText(text, x, y);
   }
 
@@ -157,7 +161,7 @@
     const root = [data.margin + 26, data.height - data.margin - 22];
     data.axes.forEach(function (name, k) {
       const way = [view[0][k], -view[1][k]];
-      pen.strokeStyle = "#6E6E6E";
+      pen.strokeStyle = tone("#6E6E6E");
       pen.lineWidth = 1;
       pen.setLineDash([]);
       trace([root, [root[0] + 18 * way[0], root[1] + 18 * way[1]]], false);
@@ -168,7 +172,7 @@
 
   function drawRuler() {
     const right = data.width - data.margin, left = right - data.ruler[0] * data.scale, y = data.height - 18;
-    pen.strokeStyle = "#6E6E6E";
+    pen.strokeStyle = tone("#6E6E6E");
     pen.lineWidth = 1;
     pen.setLineDash([]);
     for (const spots of [[[left, y], [right, y]], [[left, y - 3], [left, y + 3]], [[right, y - 3], [right, y + 3]]]) {
@@ -183,7 +187,7 @@
     const wide = Math.round(data.width * ratio), high = Math.round(data.height * ratio);
     if (canvas.width !== wide || canvas.height !== high) { canvas.width = wide; canvas.height = high; }
     pen.setTransform(wide / data.width, 0, 0, high / data.height, 0, 0);
-    pen.fillStyle = "#FFFFFF";
+    pen.fillStyle = tone("#FFFFFF");
     pen.fillRect(0, 0, data.width, data.height);
     pen.lineJoin = "round";
     const here = poses(), view = rows();
@@ -276,5 +280,6 @@
     });
   }
   window.addEventListener("resize", draw);
+  night.addEventListener("change", function () { hatch = makeHatch(); draw(); });
   draw();
 })();

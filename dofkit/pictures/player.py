@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -11,12 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.pictures.layout import HEIGHT, MARGIN, WIDTH, Standpoint, margins_of, name_size, ruler_of, standpoint_of
-from dofkit.pictures.looks import Ink, ink_of, keys_of
+from dofkit.base.themes import schemes
+from dofkit.pictures.layout import MARGIN, WIDTH, Standpoint, margins_of, name_size, ruler_of, standpoint_of
+from dofkit.pictures.looks import ON_DARK, Ink, ink_of, keys_of
 from dofkit.pictures.shapes import Array, Clip, Displacement, Poses, Sketch
+from dofkit.pictures.vector import CLASS, dark_style
 
-#: Pixels of an inline page beyond its picture.
-BESIDE = 190
+#: An inline page in pixels: how wide it is at most, its edge, and a line of its text.
+FRAME, EDGE, LINE = int(WIDTH * 1.5), 12.0, 22.0
 #: Part of the panel that a sketch of space fills, so that it can be turned.
 FILL = 0.94
 
@@ -38,13 +41,22 @@ def page_html(sketch: Sketch, clips: Sequence[Clip]) -> str:
     return re.sub("@([a-z]+)@", lambda found: parts[found[1]], frame)
 
 
-def framed(page: str) -> str:
-    """A page inside another one, which its script and style do not touch."""
-    height = int(HEIGHT * 1.2) + BESIDE
+def framed(page: str, height: float) -> str:
+    """A page inside another one, so many pixels high, which its script and style do not touch."""
     return (
-        f'<iframe srcdoc="{escape(page, quote=True)}" sandbox="allow-scripts" title="dofkit" '
-        f'style="width:100%;max-width:{int(WIDTH * 1.5)}px;height:{height}px;border:0"></iframe>'
+        f'<style>{schemes("." + CLASS)}</style><iframe class="{CLASS}" srcdoc="{escape(page, quote=True)}" '
+        f'sandbox="allow-scripts" title="dofkit" '
+        f'style="width:100%;max-width:{FRAME}px;height:{math.ceil(height)}px;border:0"></iframe>'
     )
+
+
+def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
+    """How many pixels `page_html` takes within a frame: title, answer, panel, buttons, legend, notes."""
+    margins = margins_of(sketch)
+    panel = (FRAME - 2 * EDGE) * (margins.high - margins.low) / WIDTH
+    lines = [1 + len(sketch.title) // 70, 1 + len(sketch.answer) // 85, *(1 + len(note) // 95 for note in sketch.notes)]
+    lines.append(bool(keys_of(sketch.shapes, sketch.meanings)) + 2 * bool(clips))
+    return panel + LINE * sum(lines) + 4 * EDGE
 
 
 def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
@@ -70,6 +82,7 @@ def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
         "dimension": sketch.dimension,
         "axes": list(sketch.axes[: sketch.dimension]),
         "shapes": shapes,
+        "dark": dict(ON_DARK),
         "looks": [[k.line, k.width, list(k.dash), k.fill, k.dense, k.hatch, k.layer] for k in looks],
         "names": name_size(sketch),
         "still": _told_poses(sketch, carriers, sketch.poses),
@@ -132,10 +145,13 @@ def _rounded(values: Array | Sequence[float]) -> list[float]:
 
 def _legend(sketch: Sketch) -> str:
     rows = []
-    for ink, text in keys_of(sketch.shapes):
+    for ink, text in keys_of(sketch.shapes, sketch.meanings):
         dash = f' stroke-dasharray="{" ".join(map(str, ink.dash))}"' if ink.dash else ""
         line = f'stroke="{ink.line}" stroke-width="{ink.width}"{dash}'
         fill = f'<rect x="1" y="2" width="18" height="9" fill="{ink.fill}" {line}/>' if ink.fill else None
         sample = fill or f'<path d="M1 6.5H19" {line}/>'
-        rows.append(f'<span><svg width="20" height="13" aria-hidden="true">{sample}</svg> {escape(text)}</span>')
-    return "".join(rows)
+        rows.append(
+            f'<span><svg class="{CLASS}" width="20" height="13" aria-hidden="true">{sample}</svg> {escape(text)}</span>'
+        )
+    samples = "".join(rows)
+    return f"{dark_style(samples)}{samples}"

@@ -65,6 +65,19 @@ def velocity_rows(system: System, numbers: Mapping[Expr, float]) -> tuple[Array,
     return np.vstack([derivatives(finite, columns, numbers), rows]), columns
 
 
+def is_linear(arrangement: Arrangement) -> bool:
+    """Are all relations with velocities linear in them, as far as two velocities show?"""
+    system = arrangement.system
+    rates = [velocity(c.name) for c in system.coordinates]
+    written = [r.expr for c in system.constraints for r in c.relations if r.expr.symbols & set(rates)]
+    if not written:
+        return True
+    random = np.random.default_rng(1)
+    at_rest = derivatives(written, rates, arrangement.numbers)
+    moving = {rate: float(random.standard_normal()) for rate in rates}
+    return bool(np.allclose(derivatives(written, rates, {**arrangement.numbers, **moving}), at_rest, atol=1e-5))
+
+
 def movers(arrangement: Arrangement, motions: Sequence[FreeMotion]) -> frozenset[str]:
     """The bodies and particles that some motion moves."""
     found: set[str] = set()

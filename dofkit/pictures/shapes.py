@@ -78,7 +78,8 @@ class Sketch:
 
     ``dimension`` of the world drawn; ``poses`` of what carries its shapes; ``size``: how far it reaches; ``notes`` are
     told below it, ``alternative`` to who cannot see it. ``axes``: names of the three directions; ``units``: of lengths,
-    empty where lengths mean nothing.
+    empty where lengths mean nothing. ``meanings``: what the legend says of states; None:
+    there is no legend.
     """
 
     title: str
@@ -91,7 +92,7 @@ class Sketch:
     notes: tuple[str, ...] = ()
     axes: tuple[str, ...] = ("x", "y", "z")
     units: str = ""
-    clips: tuple[Clip, ...] = field(default=())
+    meanings: Mapping[State, str] | None = field(default_factory=dict)
 
     def at(self, vertex: Vertex, poses: Poses | None = None) -> Array:
         """Where a vertex is."""

@@ -9,9 +9,9 @@ import networkx as nx
 import numpy as np
 
 from dofkit.pictures.arrangement import EXAMPLES, Arrangement, arrangement_of
-from dofkit.pictures.rates import FreeMotion, free_motions, movers
+from dofkit.pictures.rates import FreeMotion, free_motions, is_linear, movers
 from dofkit.pictures.shapes import AT_REST, Array, Place, State, Vertex, place
-from dofkit.pictures.states import state_of
+from dofkit.pictures.states import can_hold, meanings, state_of
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
@@ -24,13 +24,15 @@ SYMBOL, CROWDED, LEAST = 0.032, 0.2, 0.014
 APART = 7.0
 #: More coordinates than this, and what moves is not looked for.
 MOST_COLUMNS = 300
+TOO_MANY = f"More than {MOST_COLUMNS} coordinates: it was not looked for what moves."
+NOT_LINEAR = "Not linear in the velocities: single motions are not shown."
 
 
 @dataclass(frozen=True)
 class StagedScene:
     """A scene with its places. ``places``: of each constraint's symbol in the drawing (None: it has none); ``unit``:
     the size of symbols, ``size`` that of the whole, ``schematic``: some places are made up; ``measurable``: lengths
-    mean something.
+    mean something; ``unseen``: why it was not looked for what moves.
     """
 
     scene: Scene
@@ -44,6 +46,7 @@ class StagedScene:
     centre: Place
     schematic: bool
     measurable: bool
+    unseen: str | None
 
     @property
     def system(self) -> System:
@@ -66,6 +69,11 @@ class StagedScene:
     def state_of_body(self, name: str) -> State:
         """Does a body or particle move?"""
         return "moving" if name in self.moving else "plain"
+
+    @property
+    def meanings(self) -> Mapping[State, str]:
+        """What the legend says of states."""
+        return meanings(self.report, self.unseen is None and can_hold(self.report))
 
     def here(self, vertex: Vertex) -> Array:
         """Where a vertex is."""
@@ -111,7 +119,8 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
     unit = _unit(known, size)
     places, schematic = _all_places(scene, arrangement, given, unit)
     size, centre = _extent([*known, *(p for p, told in zip(places, given, strict=True) if p and told is None)])
-    motions = _motions(arrangement, report)
+    unseen = _unseen(arrangement)
+    motions = () if unseen or not can_hold(report) else _motions(arrangement, report)
     apart = len({tuple(np.round(p, 9)) for p in known}) > 1
     return StagedScene(
         scene=scene,
@@ -125,12 +134,18 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
         centre=centre,
         schematic=schematic,
         measurable=apart and arrangement.met and not (schematic or system.generic or arrangement.note == EXAMPLES),
+        unseen=unseen,
     )
 
 
+def _unseen(arrangement: Arrangement) -> str | None:
+    """Why it is not looked for what moves, where it is not."""
+    if len(arrangement.system.coordinates) > MOST_COLUMNS:
+        return TOO_MANY
+    return None if is_linear(arrangement) else NOT_LINEAR
+
+
 def _motions(arrangement: Arrangement, report: Report) -> tuple[FreeMotion, ...]:
-    if report.consistent is False or len(arrangement.system.coordinates) > MOST_COLUMNS:
-        return ()
     drawn = arrangement.system.reference is not None
     freedom = report.instantaneous_dof if drawn else report.velocity_dof
     return tuple(free_motions(arrangement, report.generalized_coordinates or (), freedom))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,10 +17,10 @@ from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
 from dofkit.pictures.coordinates import MOST, coordinate_sketch, is_bare
 from dofkit.pictures.directions import phase_sketch
-from dofkit.pictures.layout import page_of
+from dofkit.pictures.layout import WIDTH, page_of
 from dofkit.pictures.mechanism import sketch_of
 from dofkit.pictures.paper import Page
-from dofkit.pictures.player import framed, page_html
+from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.raster import has_matplotlib, png_of, write_pdf
 from dofkit.pictures.shapes import Sketch
 from dofkit.pictures.stage import StagedScene, stage_of
@@ -28,6 +29,8 @@ from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
 
+#: Pixels around a still picture on a page of its own.
+BESIDE = 20.0
 #: A picture that reaches so much further than its places has larger symbols.
 WIDER = 1.6
 NOTHING = "The scene declares nothing that could move."
@@ -69,24 +72,38 @@ class Picture:
 
         Raises ArgumentError for any other ending, ExtraMissingError where matplotlib is needed and missing, OSError.
         """
-        target = Path(path)
-        write = _WRITERS.get(target.suffix.lower())
-        if write is None:
-            raise ArgumentError(no_such(target.suffix or str(path), list(_WRITERS), "ending"))
-        write(self, target)
-        return target
+        return saved(self, path, _WRITERS)
 
     def _repr_html_(self) -> str:
-        return framed(self.html()) if self.sketch.dimension == 3 or self.script else self.svg()
+        if self.sketch.dimension == 3:
+            return framed(self.html(), page_height(self.sketch, ()))
+        return framed(self.html(), self.page.height + 2 * BESIDE) if self.script else self.svg()
 
     def _repr_png_(self) -> bytes | None:
         return png_of(self.page) if has_matplotlib() else None
 
 
+_Drawn = TypeVar("_Drawn")
+
+
+def saved(picture: _Drawn, path: str | Path, writers: Mapping[str, Callable[[_Drawn, Path], None]]) -> Path:
+    """Write a picture with the one of the ``writers`` that the path's ending asks for; returns the path.
+
+    Raises ArgumentError for any other ending, and what the writer raises.
+    """
+    target = Path(path)
+    write = writers.get(target.suffix.lower())
+    if write is None:
+        raise ArgumentError(no_such(target.suffix or str(path), list(writers), "ending"))
+    write(picture, target)
+    return target
+
+
 _PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title>
 <meta name="viewport" content="width=device-width">
-<style>body {{ margin: 1em; font-family: sans-serif; }} svg {{ max-width: 100%; height: auto; }}</style></head>
+<style>:root {{ color-scheme: light dark; }}
+body {{ margin: 1em; font-family: sans-serif; }} svg {{ max-width: 100%; height: auto; }}</style></head>
 <body>
 {body}</body></html>
 """
@@ -182,7 +199,7 @@ def phase(scene: SceneLike, report: Report | None = None) -> Picture:
     return Picture(phase_sketch(stage_of(given, told)))
 
 
-def svg(scene: SceneLike, report: Report | None = None, width: float = 360.0) -> str:
+def svg(scene: SceneLike, report: Report | None = None, width: float = WIDTH) -> str:
     """A small picture of a scene as the text of an ``svg`` element, for inside of another page; it is `draw`'s.
 
     ``width`` is in the page's pixels. Raises as `draw` does.

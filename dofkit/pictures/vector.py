@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from xml.sax.saxutils import escape, quoteattr
 
-from dofkit.pictures.looks import Ink
+from dofkit.base.themes import schemes
+from dofkit.pictures.looks import ON_DARK, Ink
 from dofkit.pictures.paper import Mark, Page, Spot
 
+#: Of everything that is drawn, for its style.
+CLASS = "dofkit-picture"
 FONT = "DejaVu Sans, Verdana, Arial, sans-serif"
+#: Typesetters that do not know the colours of style sheets would take them for black: they pass over this.
+_AS_MODERN = "@supports (color:light-dark(#fff,#000))"
+_COLOUR = re.compile('(fill|stroke)="(#[0-9A-F]{6})"')
 _HATCH = (
     '<pattern id="hatch" width="6" height="6" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">'
     '<line x1="0" y1="0" x2="0" y2="6" stroke="#6E6E6E" stroke-width="0.9"/></pattern>'
@@ -16,17 +23,31 @@ _HATCH = (
 
 
 def svg_of(page: Page, width: float | None = None, script: str = "") -> str:
-    """The page as an ``svg`` element, ``width`` wide on a screen (by default its own); ``script`` runs in it."""
+    """The page as an ``svg`` element, ``width`` wide on a screen (by default its own); ``script`` runs in it.
+
+    Where it is shown in the dark its colours are those of dark paper; what knows of no style sheets has light paper.
+    """
     shown = page.width if width is None else width
     head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {page.width:g} {page.height:g}" width="{shown:g}" '
-        f'height="{shown * page.height / page.width:g}" role="img" font-family="{FONT}">'
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="{CLASS}" viewBox="0 0 {page.width:g} {page.height:g}" '
+        f'width="{shown:g}" height="{shown * page.height / page.width:g}" role="img" font-family="{FONT}">'
     )
     told = f"<title>{escape(page.title)}</title><desc>{escape(page.alternative)}</desc>"
     ground = f'<rect width="{page.width:g}" height="{page.height:g}" fill="#FFFFFF"/>'
     body = "\n".join(_element(mark, page.height) for mark in page.marks)
+    parts = f"<defs>{_HATCH}</defs>{ground}\n{body}"
     ending = f"<script>//<![CDATA[\n{script}\n//]]></script>" if script else ""
-    return f"{head}\n{told}<defs>{_HATCH}</defs>{ground}\n{body}\n{ending}</svg>\n"
+    return f"{head}\n{told}{dark_style(parts)}{parts}\n{ending}</svg>\n"
+
+
+def dark_style(parts: str) -> str:
+    """The style that gives each colour in parts of a picture its tone on dark paper; they are of its class."""
+    rules = (
+        f'.{CLASS} [{paint}="{colour}"]{{{paint}:light-dark({colour},{ON_DARK[colour]})}}'
+        for paint, colour in sorted(set(_COLOUR.findall(parts)))
+        if colour in ON_DARK
+    )
+    return f"<style>{_AS_MODERN}{{{schemes('.' + CLASS)}{''.join(rules)}}}</style>"
 
 
 def _element(mark: Mark, height: float) -> str:

@@ -34,7 +34,8 @@ class Setting:
     ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
     that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the constraints that weld;
     ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``; then ``bodies``
-    and the ``centre`` of all that is drawn are told too.
+    and the ``centre`` of all that is drawn are told too. ``tilts``: the second of the Euler angles of bodies whose
+    angles texts name; where its sine is 0 the other two turn alike.
     """
 
     positive: frozenset[Expr]
@@ -55,3 +56,4 @@ class Setting:
     geometric: frozenset[int] = frozenset()
     bodies: tuple[TurnedBody, ...] = ()
     centre: tuple[float, ...] = ()
+    tilts: frozenset[str] = frozenset()

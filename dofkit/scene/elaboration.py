@@ -27,9 +27,10 @@ def elaborations(constraints: Sequence[ConstraintBase], drawing: Drawing, faults
     """Each constraint in its turn; ``faults``: how many were found in what was read earlier."""
     names = names_by_position("c", [c.name for c in constraints])
     drawn, generic = set(drawing.drawn), 0
+    entries = dict(zip(names, constraints, strict=True))
     for index, constraint in enumerate(constraints):
         out_of_time()
-        world = World(drawing, ("constraints", index), Before(faults, generic, drawn))
+        world = World(drawing, ("constraints", index), Before(faults, generic, drawn), entries)
         lowered = _constraint_of(world, constraint, names[index])
         found = world.findings()
         yield Elaboration(lowered, _connection(world.mentioned, index, lowered), found)
@@ -86,6 +87,7 @@ def _connection(mentioned: Mentioned, index: int, constraint: Constraint) -> Con
         tuple(mentioned.directions),
         mentioned.number,
         any(relation.part == "drive" for relation in constraint.relations),
+        tuple(mentioned.rates),
     )
 
 

@@ -13,10 +13,11 @@ from dofkit.scene.catalog import catalog_names, catalog_text, nearest_hint
 
 
 class FoundFile(NamedTuple):
-    """What was found under a path or a catalog name."""
+    """What was found under a path or a catalog name; ``path`` is None for what is of the catalog."""
 
     name: str
     data: bytes | str
+    path: Path | None = None
 
 
 def find(source: str | os.PathLike[str]) -> FoundFile:
@@ -26,7 +27,7 @@ def find(source: str | os.PathLike[str]) -> FoundFile:
     try:
         if path.exists() and not path.is_dir():
             with path.open("rb") as file:
-                return FoundFile(_printable(path.stem), file.read(MOST_BYTES + 1))
+                return FoundFile(_printable(path.stem), file.read(MOST_BYTES + 1), path)
         if shown in catalog_names():
             return FoundFile(shown, catalog_text(shown))
         folder = path.is_dir()

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from dofkit.base.errors import Fault
+from dofkit.base.spelling import nearest
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.synonyms import dimension_of, other_keys
@@ -34,7 +35,7 @@ LINES: dict[str, str | tuple[str, str, str]] = {
     "axes": "axes: [[1, 0, 0], [0, 1, 0]]", "between": "between: [A, B]", "members": "members: [A, B, C]",
     "along": ("along: [A, [0], B]", "along: [A, [0, 0], B]", "along: [A, [0, 0, 0], B]"),
     "length": "length: 2", "radius": "radius: 1", "ratio": "ratio: -2", "pitch": "pitch: 2", "drive": 'drive: "2 t"',
-    "carrier": "carrier: arm", "point": "point: A", "body": "body: crank",
+    "joints": "joints: [shoulder, elbow]", "carrier": "carrier: arm", "point": "point: A", "body": "body: crank",
     "text": 'text: "x^2 + y^2 = 4"', "surface": 'surface: "y - x^2"', "curve": 'curve: ["y - x^2"]',
     "coordinates": "coordinates: [x, y]", "particles": "particles: [A, B]", "bodies": "bodies: [crank]",
     "parameters": "parameters: {l: positive, b: 3/2}", "functions": "functions: {f: [t]}",
@@ -63,8 +64,10 @@ def without_echoes(faults: Iterable[Fault]) -> list[Fault]:
 
 def _meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
     """The constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
+    words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
     word = word.lower() if isinstance(word, str) else ""
-    fields = {kind: cls.model_fields for kind, cls in TYPES.items() if word in (kind, *cls.synonyms, *cls.understood)}
+    near = nearest(word, dict.fromkeys(one for known in words.values() for one in known))
+    fields = {kind: TYPES[kind].model_fields for kind, known in words.items() if near in known}
     return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
 
 
@@ -88,8 +91,8 @@ def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
 
 
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
-    twice = _said_twice(fault, value)
-    told = twice or fault.hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
+    told = _said_twice(fault, value) or _direction(fault, value) or fault.hint
+    told = told or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
     if told is not None and _ENOUGH.search(told):
         return told
     line = _line(fault, told or "", value)
@@ -108,6 +111,13 @@ def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
     return (
         None if meant is None else f"`{key}` is another word for `{meant}`, which is given too: leave one of them out"
     )
+
+
+def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
+    """What a direction is, where something else is given for one."""
+    if fault.where[-1:] != ("axis",) or "a list is needed" not in fault.message:
+        return None
+    return f"a direction is {' or '.join('xyz'[: dimension_of(value)])}, or its components"
 
 
 def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from pydantic import ValidationError
@@ -14,6 +16,8 @@ from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
 from dofkit.base.documents.fast_flow import DEEPEST
 from dofkit.base.errors import ArgumentError, Fault, SceneError
+from dofkit.models.formats import is_model, read_model
+from dofkit.models.model_document import ModelFile
 from dofkit.scene.constraints.equations import as_equation
 from dofkit.scene.found_files import find
 from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, with_hint, without_echoes
@@ -26,7 +30,7 @@ __all__ = ["SceneFile", "SceneLike", "load", "loads", "scene_or_system"]
 #: More faults than this are counted, not listed.
 MOST_FAULTS = 200
 #: Parts of a scene without which its other parts can still be checked.
-_DROPPED_WHOLE = frozenset({"name", "title", "source", "notes", "expect", "energies", "configuration"})
+_DROPPED_WHOLE = frozenset({"name", "title", "source", "notes", "left_out", "expect", "energies", "configuration"})
 _DROPPED_BY_ENTRY = ("constraints", "forces")
 _TAKEN = "a Scene, a path, a catalog name or a mapping"
 
@@ -35,12 +39,13 @@ _TAKEN = "a Scene, a path, a catalog name or a mapping"
 SceneLike = Scene | str | os.PathLike[str] | Mapping[str, Any]
 
 
-def load(source: SceneLike, *, name: str | None = None) -> Scene:
+def load(source: SceneLike, *, name: str | None = None, limits: bool = False) -> Scene:
     """The scene of a YAML or JSON file, of the catalog, or of a mapping; a Scene is returned as it is.
 
     ``source``: a path (a text or an ``os.PathLike``), a catalog name, or a mapping with a scene's keys. ``name``
-    stands where the scene itself gives none: by default the file's stem. Raises SceneError with every fault at once,
-    each with its line and column, and ArgumentError for a ``source`` of any other kind.
+    stands where the scene itself gives none: by default the file's stem. A path may lead to a model too (MJCF, URDF,
+    a SolveSpace sketch); with ``limits`` the ranges of its joints become inequalities. Raises SceneError with every
+    fault at once, each with its line and column, and ArgumentError for a ``source`` of any other kind.
 
     >>> import dofkit
     >>> dofkit.load({"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}).dimension
@@ -55,7 +60,7 @@ def load(source: SceneLike, *, name: str | None = None) -> Scene:
     if not isinstance(source, str | os.PathLike):
         raise ArgumentError(f"a scene is given as {_TAKEN}, not {description_of(source)}")
     found = find(source)
-    return SceneFile.read(found.data, name or found.name).scene()
+    return SceneFile.read(found.data, name or found.name, found.path, limits).scene()
 
 
 def loads(data: bytes | str, name: str = "scene") -> Scene:
@@ -86,9 +91,14 @@ class SceneFile:
     document: Document
 
     @classmethod
-    def read(cls, data: bytes | str, name: str) -> SceneFile:
-        """Take the text of a scene apart; nothing is raised yet."""
-        return cls(read_document(data, name))
+    def read(cls, data: bytes | str, name: str, path: Path | None = None, limits: bool = False) -> SceneFile:
+        """Take the text of a scene, or a model, apart; nothing is raised yet.
+
+        ``path``: where it stands, for what a model includes; ``limits``: ranges of a model's joints are inequalities.
+        """
+        if not is_model(data):
+            return cls(read_document(data, name))
+        return cls(_model_document(ModelFile(data, name, path, limits)))
 
     def scene(self, *, checked: bool = True) -> Scene:
         """The scene. Raises SceneError with all faults; texts and geometry are looked at only if ``checked``."""
@@ -134,6 +144,18 @@ class SceneFile:
         line, column = self.document.place(self._words.written(where), key=key, column=fault.column)
         told = with_hint(fault, self._words.value)
         return replace(told, where=self._words.written(fault.where), line=line, column=column)
+
+
+def _model_document(file: ModelFile) -> Document:
+    """The document that a model stands for, its parts placed by the lines of the model."""
+    starts = [0, *(match.end() for match in re.finditer("\n", file.text))]
+    try:
+        model = read_model(file)
+    except SceneError as error:
+        return Document(file.name, file.text, None, error.faults, lambda places: None)
+    found = {path: (starts[line - 1], -1) for path, line in model.lines.items() if line <= len(starts)}
+    value = {"name": file.name, **model.value}
+    return Document(file.name, file.text, value, (), lambda places: places.update(found))
 
 
 def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:

@@ -119,6 +119,9 @@ class Scene(Displayed, WrittenModel):
     title: str | None = Field(None, description="one line about it")
     source: str | None = Field(None, description="where it is from")
     notes: str | None = Field(None, description="what is remarkable about it")
+    left_out: Annotated[tuple[str, ...], Listed] = Field(
+        (), description="what the model that it was made of has besides, and why it is left out"
+    )
     dimension: Annotated[Literal[1, 2, 3], BeforeValidator(_dimension)] = Field(
         3, description="d, the dimension of the world"
     )

@@ -24,7 +24,7 @@ _TELLING = ("point", "body", "members")
 _SECTIONS = ("constraints", "joints")
 _AXIS = re.compile(r"\s*([-+−]?)\s*([xyz])\s*")
 #: What is said of a scene: prose, in which nothing is replaced.
-SAID = frozenset({"title", "source", "notes"})
+SAID = frozenset({"title", "source", "notes", "left_out"})
 _NAME = re.compile(
     rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}]*[{''.join(SUBSCRIPTS)}][A-Za-z0-9_{GREEK_LETTERS}{''.join(SUBSCRIPTS)}]*"
 )

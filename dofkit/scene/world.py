@@ -8,7 +8,7 @@ come to light at once. Geometry that is left out is asked for here too and becom
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
@@ -25,7 +25,7 @@ from dofkit.scene.fields import Vector
 from dofkit.scene.frames import Frame, Placed
 from dofkit.scene.ledger import Texts
 from dofkit.scene.parts import BodyPoint, show_point
-from dofkit.system import GROUND, Distance, DrawnPoint, Place
+from dofkit.system import GROUND, Distance, DrawnPoint, JointRate, Place
 
 #: A distance as people write it: |A - B| = 3.
 _APART = re.compile(r"\s*\|\s*(\w+)\s*-\s*(\w+)\s*\|\s*=\s*([\w./()*]+)\s*")
@@ -91,13 +91,24 @@ class Mentioned:
     places: list[Vec | None] = field(default_factory=list)
     directions: list[Vec | None] = field(default_factory=list)
     number: Expr | None = None
+    rates: list[JointRate] = field(default_factory=list)
 
 
 class World(Texts):
-    """The world as one entry of the scene sees it: what names stand for, and what comes of reading that entry."""
+    """The world as one entry of the scene sees it: what names stand for, and what comes of reading that entry.
 
-    def __init__(self, drawing: Drawing, here: tuple[str | int, ...], before: Before | None = None) -> None:
+    ``entries``: the constraints of the scene by their names.
+    """
+
+    def __init__(
+        self,
+        drawing: Drawing,
+        here: tuple[str | int, ...],
+        before: Before | None = None,
+        entries: Mapping[str, object] | None = None,
+    ) -> None:
         self.before = before or Before()
+        self.entries: Mapping[str, object] = entries or {}
         super().__init__(drawing.vocabulary.texts, here, self.before.faults)
         self.dimension, self.tolerance = drawing.dimension, drawing.tolerance
         self.table, self.particles = drawing.vocabulary.table, drawing.particles
@@ -166,6 +177,19 @@ class World(Texts):
             self.fault("a direction cannot be zero", *where, hint="give at least one component that is not 0")
         n = (ONE, *(ZERO,) * (self.dimension - 1))
         return Direction(n, across(n, 0))
+
+    def drawn_vector(self, values: Vector | None) -> Vec | None:
+        """A place or direction that another entry gives, and that its faults are told of there."""
+        texts = Texts(self._reader, self.here)
+        found = None if values is None else texts.vector(values, self.dimension)
+        return None if texts.faults else found
+
+    def drawn_direction(self, values: Vector | None) -> Direction | None:
+        """A direction that another entry gives; None where it is none."""
+        found = self.drawn_vector(values)
+        sizes = [_size(part) for part in found or ()]
+        pivot = max(range(len(sizes)), key=sizes.__getitem__, default=0)
+        return Direction(found, across(found, pivot)) if found is not None and sizes[pivot] > 0 else None
 
     def fresh(self, stem: str = "a") -> Expr:
         """A new generic parameter."""

@@ -78,13 +78,13 @@ def scene_of(cls: type[ConstraintBase]) -> str:
     """
     spaces = [d for d in cls.examples if d] or [d for d in cls.dimensions if d > 1]
     dimension = 2 if 2 in spaces else max(spaces)
-    line = cls.example(dimension)
-    words = set(re.findall(r"[A-Za-z]+", line))
+    lines = (cls.example(dimension), *cls.beside.get(dimension, ()))
+    words = {word for line in lines for word in re.findall(r"[A-Za-z]+", line)}
     sections = {key: [name for name in names if name in words] for key, names in DECLARED.items()}
     if sections["particles"] or sections["bodies"]:
         sections["coordinates"] = []
     declared = [f"{key}: [{', '.join(names)}]" for key, names in sections.items() if names]
-    return "\n".join([f"dimension: {dimension}", *declared, "constraints:", f"- {line}"])
+    return "\n".join([f"dimension: {dimension}", *declared, "constraints:", *(f"- {line}" for line in lines)])
 
 
 def equations_of(written: str) -> Iterator[str]:

@@ -7,7 +7,6 @@ import math
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -319,7 +318,6 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         storing.read(tmp_path / "none")
 
 
-@pytest.mark.skipif(find_spec("matplotlib") is None, reason="needs matplotlib")
 def test_every_figure_is_drawn(tmp_path: Path) -> None:
     chart = summary(DATA)
     bits = replace(SWEEPS[0], knob="bits", method="balls", value=16.0, group="1/9")

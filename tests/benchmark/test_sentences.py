@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib.util import find_spec
 from itertools import combinations
 
-import pytest
 from benchmark.test_chart import DATA, line
 
 from dofkit.benchmark.record import AUTO, Fit, Outcome, TrialLine
 from dofkit.benchmark.sentences import sentences
 from dofkit.benchmark.summary import summary
 from dofkit.benchmark.trials import FAMILIES, GLOSSES, HEADINGS
-
-drawn = pytest.mark.skipif(find_spec("matplotlib") is None, reason="needs matplotlib")
 
 
 def step(knob: str, value: float, group: str, outcomes: Sequence[Outcome]) -> list[TrialLine]:
@@ -68,7 +64,6 @@ def test_every_family_has_its_heading_and_says_what_it_is() -> None:
     assert all(GLOSSES.values())
 
 
-@drawn
 def test_families_stand_under_their_headings_the_hardest_last() -> None:
     from dofkit.benchmark.figures import matrix
 
@@ -83,7 +78,6 @@ def test_families_stand_under_their_headings_the_hardest_last() -> None:
     assert (cells["all", "count"].trials, cells["all", "count"].wrong) == (6, 3)
 
 
-@drawn
 def test_an_exponent_stands_where_a_power_law_fits() -> None:
     from dofkit.benchmark.figures import cost
 
@@ -94,7 +88,6 @@ def test_an_exponent_stands_where_a_power_law_fits() -> None:
     assert not cost.holds(fit.model_copy(update={"exponent": -0.15, "error": 0.07}))
 
 
-@drawn
 def test_labels_cover_no_mark_and_no_other_label() -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

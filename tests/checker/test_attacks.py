@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import pytest
-from checker.certified import faults
+from checker.certified import branch, faults, squares
 
 from dofkit.checker import CheckError
 
@@ -49,7 +49,7 @@ def along_y(most: Any) -> dict[str, Any]:
 
 BOTH = {"id": "m", "at": "P", "rows": ["c1", "k"], "columns": ["x", "y"]}
 IN_Y = {"id": "m", "at": "P", "rows": ["c1"], "columns": ["y"]}
-FACTOR_X = {"id": "k", "by": "factor", "of": "c1", "factor": "x", "rest": "y"}
+FACTOR_X = {"id": "k", "by": "implied", "function": "y", "h": "x", "c": {"c1": "1"}}
 #: x = 0 leaves y free.
 A_LINE: dict[str, Attack] = {
     "a cofactor y/x at x = 0": (
@@ -74,7 +74,7 @@ A_LINE: dict[str, Attack] = {
         plane("x = 0"),
         [regular(0)],
         {
-            "relations": [{"id": "k", "by": "sos", "of": "c1", "terms": [["1", "y"], ["1", "sqrt(x - y^2)"]]}],
+            "relations": squares("k", "c1", [["1", "y"], ["1", "sqrt(x - y^2)"]]),
             "points": [POINT],
             "minors": [{**BOTH, "rows": ["c1", "k.1"]}],
         },
@@ -82,7 +82,7 @@ A_LINE: dict[str, Attack] = {
     "a square of what is not real": (
         plane("x = 0"),
         [consistent(False, "nullstellensatz", number="1", c={"k.1": "-1"})],
-        {"relations": [{"id": "k", "by": "sos", "of": "c1", "terms": [["1", "1"], ["1", "sqrt(x - 1)"]]}]},
+        {"relations": squares("k", "c1", [["1", "1"], ["1", "sqrt(x - 1)"]])},
     ),
     "an integral of nothing": (
         plane("x dy = y dx"),
@@ -100,7 +100,7 @@ A_LINE: dict[str, Attack] = {
         plane("x + y = 0"),
         [regular(0)],
         {
-            "relations": [{"id": "k", "by": "branch", "of": "c1", "factors": ["2*x + 2*y", "1/2"], "chosen": 0}],
+            "relations": branch("k", "c1", ["2*x + 2*y", "1/2"], 0),
             "points": [POINT],
             "minors": [BOTH],
         },
@@ -117,13 +117,13 @@ A_LINE: dict[str, Attack] = {
     "a factor x that is said to be nowhere 0": (
         plane("x*y = 0", "y = 1"),
         [consistent(False, "nullstellensatz", number="1", c={"k": "-1", "c2": "1"})],
-        {"relations": [{**FACTOR_X, "nonzero": {"exp": "log(x)"}}]},
+        {"relations": [FACTOR_X]},
     ),
     "a factor x that is said to be a square and 1": (
         plane("x*y = 0", "y = 1"),
         [consistent(False, "nullstellensatz", number="1", c={"k": "-1", "c2": "1"})],
         {
-            "relations": [{**FACTOR_X, "nonzero": {"sos": [["1", "sqrt(x - 1)"]], "plus": "1"}}],
+            "relations": [{**FACTOR_X, "h": "1", "power": 2, "sos": [["1", "sqrt(x - 1)*y"]], "c": {"c1": "y"}}],
         },
     ),
 }
@@ -229,9 +229,9 @@ NOT_AT_THE_POINT: dict[str, Attack] = {
         ],
         {
             "relations": [
-                {"id": "b", "by": "branch", "of": "c1", "factors": ["x", "y^2 + z^2"], "chosen": 0},
-                {"id": "w", "by": "branch", "of": "c1", "factors": ["x", "y^2 + z^2"], "chosen": 1},
-                {"id": "s", "by": "sos", "of": "w", "terms": [["1", "y"], ["1", "z"]]},
+                *branch("b", "c1", ["x", "y^2 + z^2"], 0),
+                *branch("w", "c1", ["x", "y^2 + z^2"], 1),
+                *squares("s", "w", [["1", "y"], ["1", "z"]]),
             ],
             "points": [{"id": "P", "values": {"x": "1", "y": "0", "z": "0"}}],
             "fields": [ALONG_Y, {"id": "Z", "components": {"z": "1"}}],
@@ -265,15 +265,17 @@ NOT_AT_THE_POINT: dict[str, Attack] = {
                 "value": ["c1", "c2"],
                 "rule": "cofactors",
                 "at": "P",
-                "minimal": {"c1": {"at": "Q"}, "c2": {"at": "R"}},
+                "minimal": {
+                    "c1": {"minor": {"at": "Q", "rows": ["c2", "c3"], "columns": ["z", "x"]}},
+                    "c2": {"minor": {"at": "Q", "rows": ["c1"], "columns": ["x"]}},
+                },
             }
         ],
         {
             "relations": [{"id": "i", "by": "implied", "of": "c3", "h": "y - 1", "c": {"c1": "y"}}],
             "points": [
                 {"id": "P", "values": {"x": "0", "y": "0", "z": "0"}},
-                {"id": "Q", "values": {"x": "1", "y": "2", "z": "0"}},
-                {"id": "R", "values": {"x": "5", "y": "1", "z": "0"}},
+                {"id": "Q", "values": {"x": "0", "y": "2", "z": "0"}},
             ],
         },
     ),
@@ -288,16 +290,7 @@ TIME: dict[str, Attack] = {
         plane("x = t"),
         [scleronomic("s")],
         {
-            "relations": [
-                {
-                    "id": "s",
-                    "by": "factor",
-                    "of": "c1",
-                    "factor": "x - t",
-                    "rest": "1",
-                    "nonzero": {"exp": "log(x - t)"},
-                }
-            ]
+            "relations": branch("s", "c1", ["1", "x - t"], 0),
         },
     ),
     "another step of the name": (
@@ -305,8 +298,8 @@ TIME: dict[str, Attack] = {
         [scleronomic("s")],
         {
             "relations": [
-                {"id": "s", "by": "factor", "of": "c1", "factor": "x - t", "rest": "1"},
-                {"id": "s.1", "by": "implied", "of": "c1", "c": {"c1": "0"}, "nonzero": {"number": True}},
+                {"id": "s", "by": "implied", "function": "1", "c": {"c1": "1/(x - t)"}},
+                {"id": "s", "by": "implied", "of": "c1", "c": {"c1": "0"}},
             ]
         },
     ),

@@ -16,6 +16,8 @@ from shared.tampering import put
 
 from dofkit.checker import CheckError, verify
 from dofkit.checker.problem import canonical, document_of, sha256_of
+from dofkit.checker.ring import CheckedRing
+from dofkit.checker.trees import Effort
 from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
@@ -147,8 +149,17 @@ NO_CERTIFICATES = {
     "no letters": b"\xff\xfe\x00",
     "a list": "[]",
     "true": "true",
+    "a number that is too long to be written": {"certificate": 1, "scene": {}, "claims": [{"path": 10**5000}]},
+    "what JSON does not know": {"certificate": 1, "scene": {}, "claims": [{"path": {1, 2}}]},
     "another version": '{"certificate": 2, "scene": {}}',
 }
+
+
+def test_roots_of_products_of_large_primes_have_their_price():
+    """Each is factored: a tenth of a second."""
+    ring, left = CheckedRing(Effort()), Effort().left
+    ring.root(ring.constant((2**61 - 1) * (2**61 + 15)), 2)
+    assert left - ring.effort.left > 50_000
 
 
 @pytest.mark.parametrize("name", NO_CERTIFICATES)

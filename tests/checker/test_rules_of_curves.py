@@ -1,4 +1,4 @@
-"""Claims near points at which a relation is stationary: isolated zeros, crossings; false ones must fail."""
+"""Claims near points at which a relation is stationary: isolated zeros, families; false ones must fail."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ AT_TOUCH = {
     ],
     "fields": [{"id": "turn", "components": {"x": "-y", "y": "x"}}],
 }
-ALONE = {"rule": "isolated", "minor": "m", "fields": [], "pins": [], "free": "y", "zero": "c2", "order": 2}
+ALONE = {"rule": "isolated", "minor": "m", "speeds": {"y": "1"}, "zero": "c2", "order": 2}
 STILL = {"rule": "span", "at": "P", "fields": [], "rows": ["c1", "c2"], "words": [], "columns": []}
 DOF = {"path": "/dof", "value": 0, "rule": "squeeze", "about": "component", "most": ALONE, "least": STILL}
 
@@ -33,10 +33,12 @@ DOF = {"path": "/dof", "value": 0, "rule": "squeeze", "about": "component", "mos
         ({"order": True}, False),
         ({"zero": "c1"}, False),
         ({"zero": "c9"}, False),
-        ({"free": "x"}, False),
-        ({"free": "z"}, False),
-        ({"pins": ["y"]}, False),
-        ({"fields": ["turn"], "pins": ["y"]}, False),
+        ({"speeds": {"x": "1"}}, False),
+        ({"speeds": {"z": "1"}}, False),
+        ({"speeds": {}}, False),
+        ({"speeds": {"y": "0"}}, False),
+        ({"speeds": {"y": "y"}}, False),
+        ({"speeds": {"y": "-3/2"}}, True),
         ({"minor": "n", "zero": "c1"}, True),
     ],
 )
@@ -66,7 +68,7 @@ def test_the_order_is_that_of_the_touch() -> None:
             "minors": [{"id": "m", "at": "P", "rows": ["c1"], "columns": ["y"]}],
         }
         for order in (2, 3, 4):
-            claim = {**DOF, "most": {**ALONE, "free": "x", "order": order}}
+            claim = {**DOF, "most": {**ALONE, "speeds": {"x": "1"}, "order": order}}
             assert accepted(scene, [claim], **parts) is (order == k)
 
 
@@ -97,50 +99,98 @@ def test_an_orbit_is_all_where_fields_keep_the_set() -> None:
             {"id": "half", "components": {"x": "-y", "y": "x"}},
         ],
     }
-    alone = {**ALONE, "fields": ["turn"], "pins": ["v"], "free": "y", "zero": "c3"}
+    alone = {**ALONE, "zero": "c3"}
     still = {**STILL, "fields": ["turn"], "rows": ["c1", "c2", "c3"], "words": [["turn"]], "columns": ["v"]}
     claim = {**DOF, "value": 1, "most": alone, "least": still}
     assert faults(scene, [claim], **parts) == {}
-    chart = {"path": "/generalized_coordinates", "value": ["v"], **alone}
+    chart = {"path": "/generalized_coordinates", "value": ["v"], **alone, "fields": ["turn"], "pins": ["v"]}
     assert faults(scene, [claim, chart], **parts) == {}
-    assert not accepted(scene, [claim, {**chart, "value": ["y"]}], **parts)
     assert not accepted(scene, [chart], **parts)
-    assert not accepted(scene, [{**claim, "most": {**alone, "fields": ["half"]}}], **parts)
-    assert not accepted(scene, [{**claim, "most": {**alone, "pins": ["u"]}}], **parts)
-    assert not accepted(scene, [{**claim, "value": 0, "most": {**alone, "fields": [], "pins": []}}], **parts)
+    assert not accepted(scene, [claim, {**chart, "minor": "n"}], **parts)
+    for change in (
+        {"value": ["y"]},
+        {"pins": ["u"]},
+        {"pins": ["y"]},
+        {"fields": ["half"]},
+        {"fields": []},
+        {"fields": [], "pins": []},
+        {"speeds": {"y": "1", "v": "1"}},
+        {"speeds": {"v": "1"}},
+        {"value": [], "pins": []},
+    ):
+        assert not accepted(scene, [claim, {**chart, **change}], **parts), change
+    assert not accepted(scene, [{**claim, "value": 0}], **parts)
 
 
-CROSS = {"rule": "crossing", "minor": "m", "zero": "c2", "speeds": [{"x": "1", "y": "1"}, {"x": "1", "y": "-1"}]}
+#: The axis of y, and that of x: along (x, y) = (s, s) the second relation grows.
+AXES = {"rule": "isolated", "minor": "m", "zero": "c2", "speeds": {"x": "1", "y": "1"}, "order": 2}
+ON_Y = [{"id": "a", "by": "assumed", "function": "x"}]
+ALONG = {"rule": "family", "minor": {"at": "P", "rows": ["a", "c1"], "columns": ["x", "z"]}}
+
+
+def _crossing(second: str, *more: str) -> dict[str, Any]:
+    return {"coordinates": ["x", "y", "z"], "constraints": ["z = 0", second, *more], "parameters": ["k"]}
+
+
+def _follows(of: str, **c: str) -> dict[str, Any]:
+    return {"id": f"{of} follows", "by": "implied", "of": of, "c": c}
+
+
+CROSSED: dict[str, Any] = {
+    "points": [{"id": "P", "values": {"x": "0", "y": "0", "z": "0", "t": "0", "k": "0"}}],
+    "minors": [{"id": "m", "at": "P", "rows": ["c1"], "columns": ["z"]}],
+    "relations": [*ON_Y, _follows("c2", a="y", c1="z")],
+}
+ONE = {**DOF, "value": 1, "most": AXES, "least": ALONG}
+
+
+def test_a_family_at_a_crossing() -> None:
+    scene = _crossing("x*y + z^2 = 0")
+    assert faults(scene, [ONE], **CROSSED) == {}
+    for value in (0, 2):
+        assert not accepted(scene, [{**ONE, "value": value}], **CROSSED)
+    assert not accepted(scene, [{**ONE, "most": {"rule": "minor", "minor": "m"}}], **CROSSED)
+    for change in ({"speeds": {"x": "1"}}, {"speeds": {"y": "1"}}, {"order": 3}, {"zero": "c1"}):
+        assert not accepted(scene, [{**ONE, "most": {**AXES, **change}}], **CROSSED), change
 
 
 @pytest.mark.parametrize(
-    ("second", "change", "good"),
+    ("second", "relations"),
     [
-        ("x*y + z^2 = 0", {}, True),
-        ("x*y = z", {}, True),
-        ("x*y + z^2 = 0", {"speeds": [{"x": "1"}, {"x": "1", "y": "-1"}]}, False),
-        ("x*y + z^2 = 0", {"speeds": [{"x": "1", "y": "-1"}, {"x": "1", "y": "1"}]}, False),
-        ("x*y + z^2 = 0", {"speeds": [{"x": "1", "y": "1"}]}, False),
-        ("x*y + z^2 = 0", {"speeds": [{"x": "1", "y": "1"}, {"z": "1"}]}, False),
-        ("x^2 + y^2 = z", {}, False),
-        ("x^2 = z", {}, False),
-        ("z = 0*x", {}, False),
-        ("x*y = z*t", {}, False),
+        ("x*y + z^2 = 0", []),
+        ("x*y + z^2 = 0", ON_Y),
+        ("x*y + z^2 = 0", [_follows("c2", c1="z")]),
+        ("x*y + z^2 = 0", [{"id": "a", "by": "assumed", "function": "x + xdot"}, _follows("c2", a="y", c1="z")]),
+        ("x*y + z^2 = 0", [{"id": "a", "by": "assumed", "function": "x + 1"}, _follows("c2", a="y", c1="z")]),
+        ("x*y + z^2 = 0", [{"id": "a", "by": "assumed", "function": "x^2"}, _follows("c2", a="y/x", c1="z")]),
+        # x = k y is no motion of x^2 = y^2 but for k = 1 or k = -1, and of x y = 0 but for k = 0
+        ("x*y + z^2 = 0", [{"id": "a", "by": "assumed", "function": "x - k*y"}, _follows("c2", a="y", c1="z")]),
+        ("x*y = k", [*ON_Y, _follows("c2", a="y")]),
+        ("x^2 + y^2 = z", [*ON_Y, _follows("c2", a="x")]),
     ],
 )
-def test_a_crossing(second: str, change: dict[str, Any], good: bool) -> None:
-    scene = {"coordinates": ["x", "y", "z"], "constraints": ["z = 0", second]}
-    parts = {
-        "points": [{"id": "P", "values": {"x": "0", "y": "0", "z": "0", "t": "0"}}],
-        "minors": [{"id": "m", "at": "P", "rows": ["c1"], "columns": ["z"]}],
-    }
-    way = {**CROSS, **change}
-    assert accepted(scene, [{**DOF, "value": 1, "most": way, "least": way}], **parts) is good
-    assert not accepted(scene, [{**DOF, "value": 2, "most": way, "least": way}], **parts)
-    # a crossing is one less than its rows leave, whatever bounds from above: z = 0 = x y is no plane
-    assert not accepted(scene, [{**DOF, "value": 2, "most": {"rule": "minor", "minor": "m"}, "least": way}], **parts)
-    more = {**scene, "constraints": [*scene["constraints"], "x = y"]}
-    assert not accepted(more, [{**DOF, "value": 1, "most": way, "least": way}], **parts)
+def test_a_broken_family_is_refused(second: str, relations: list[dict[str, Any]]) -> None:
+    assert not accepted(_crossing(second), [ONE], **{**CROSSED, "relations": relations})
+
+
+def test_a_family_meets_every_relation_and_shows_nothing_else() -> None:
+    # with x = y there is only the origin, and with y = k that is not 0 no point
+    for more in ("x = y", "y = k", "y = t", "dy = 0"):
+        assert not accepted(_crossing("x*y + z^2 = 0", more), [ONE], **CROSSED), more
+    scene = _crossing("x*y + z^2 = 0")
+    shown = {"path": "/constraints/c1/holonomic", "value": True, "rule": "finite"}
+    assert accepted(scene, [shown], **CROSSED)
+    never = {"path": "/consistent", "value": False, "rule": "nullstellensatz", "number": "1", "c": {"a": "1"}}
+    steps = [{"id": "a", "by": "assumed", "function": "-1"}]
+    assert not accepted(scene, [never], **{**CROSSED, "relations": steps})
+    rows = {"at": "P", "rows": ["a", "c1"], "columns": ["x", "z"]}
+    for claim in (
+        {**DOF, "value": 1, "rule": "regular", "minor": rows},
+        {**ONE, "most": {"rule": "minor", "minor": rows}},
+        {"path": "/consistent", "value": True, "rule": "regular", "minor": rows},
+        {**ONE, "least": {"rule": "regular", "minor": rows}},
+    ):
+        assert not accepted(scene, [claim], **CROSSED), claim
 
 
 def test_what_the_last_constraint_takes_away_and_that_all_are_needed() -> None:

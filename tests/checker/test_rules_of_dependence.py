@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from checker.certified import accepted, certificate, faults
+from checker.certified import accepted, branch, certificate, faults, squares
 
 from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import verify
@@ -176,42 +176,100 @@ def test_no_more_is_called_redundant_than_a_degenerate_relation_allows():
 
 def test_squares_products_and_powers():
     scene = {"coordinates": ["x", "y"], "constraints": ["(x-y)^2 + 2*(x-1)^2 = 0", "(x-1)*(y+5) = 0", "(y-1)^3 = 0"]}
-    steps = [
-        {"id": "s", "by": "sos", "of": "c1", "terms": [["1", "x-y"], ["2", "x-1"]]},
-        {"id": "b", "by": "branch", "of": "c2", "factors": ["x-1", "y+5"], "chosen": 0},
-        {"id": "p", "by": "branch", "of": "c3", "factors": ["y-1"], "chosen": 0, "power": 3},
-        {"id": "i", "by": "implied", "of": "p", "c": {"s.1": "-1", "s.2": "1"}},
-        {"id": "j", "by": "implied", "of": "b", "c": {"s.2": "1"}},
+    terms = [["1", "x-y"], ["2", "x-1"]]
+    good = [
+        squares("s", "c1", terms),
+        branch("b", "c2", ["x-1", "y+5"], 0),
+        branch("p", "c3", ["y-1"], 0, power=3),
+        [{"id": "i", "by": "implied", "of": "p", "c": {"s.1": "-1", "s.2": "1"}}],
+        [{"id": "j", "by": "implied", "of": "b", "c": {"s.2": "1"}}],
     ]
     parts = {
         "points": [{"id": "P", "values": {"x": "1", "y": "1"}}],
         "minors": [{"id": "m", "at": "P", "rows": ["s.1", "s.2"], "columns": ["x", "y"]}],
     }
     claim = {"path": "/dof", "value": 0, "rule": "regular", "minor": "m", "about": "component"}
+    steps = [one for part in good for one in part]
     assert faults(scene, [claim], **parts, relations=steps) == {}
-    for i in range(5):
-        assert not accepted(scene, [claim], **parts, relations=steps[:i] + steps[i + 1 :]), i
-    for i, change in (
-        (0, {"terms": [["1", "x-y"], ["1", "x-1"]]}),
-        (0, {"terms": [["1", "x-y"], ["-2", "x-1"]]}),
-        (1, {"chosen": 1}),
-        (1, {"chosen": 2}),
-        (1, {"factors": ["x-1", "y-5"]}),
-        (2, {"power": 2}),
-        (2, {"factors": ["y+1"]}),
-        (3, {"c": {"s.1": "1", "s.2": "1"}}),
+    for i in range(len(steps)):
+        assert not accepted(scene, [claim], **parts, relations=steps[:i] + steps[i + 1 :]), steps[i]
+    for i, broken in (
+        (0, squares("s", "c1", [["1", "x-y"], ["1", "x-1"]])),
+        (0, squares("s", "c1", [["1", "x-y"], ["-2", "x-1"]])),
+        (0, [{**one, "power": 1} for one in good[0]]),
+        (0, [{**one, "sos": []} for one in good[0]]),
+        (1, branch("b", "c2", ["x-1", "y+5"], 1)),
+        (1, branch("b", "c2", ["x-1", "y-5"], 0)),
+        (2, branch("p", "c3", ["y-1"], 0, power=2)),
+        (2, branch("p", "c3", ["y+1"], 0, power=3)),
+        *((2, [{**good[2][0], "power": power}, good[2][1]]) for power in (0, -1, 65, "3", 3.0, True, None)),
+        (3, [{**good[3][0], "c": {"s.1": "1", "s.2": "1"}}]),
     ):
-        broken = [*steps[:i], {**steps[i], **change}, *steps[i + 1 :]]
-        assert not accepted(scene, [claim], **parts, relations=broken), change
+        steps = [one for j, part in enumerate(good) for one in (broken if j == i else part)]
+        assert not accepted(scene, [claim], **parts, relations=steps), broken
+
+
+@pytest.mark.parametrize(
+    ("function", "change", "shown"),
+    [
+        ("x", {"sos": [["1", "y"]]}, True),
+        ("x", {"sos": [["1", "y"]], "power": 1}, False),
+        ("x", {"sos": [["1", "y"]], "power": 3}, False),
+        ("x", {"sos": [["1", "y"]], "h": "-1"}, False),
+        ("x", {"sos": [["1", "y"]], "h": "x^2 + 1"}, False),
+        ("x", {"sos": [["-1", "y"]]}, False),
+        ("x", {"sos": [["1", "sqrt(x)"]]}, False),
+        ("y", {"sos": [["1", "y"]]}, False),
+        ("x", {}, False),
+    ],
+)
+def test_a_term_of_a_sum_of_squares(function: str, change: dict[str, Any], shown: bool):
+    scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 0"]}
+    step = {"id": "k", "by": "implied", "function": function, "power": 2, "c": {"c1": "1"}, **change}
+    never = {
+        "path": "/consistent",
+        "value": False,
+        "rule": "nullstellensatz",
+        "number": "1",
+        "c": {"k": "1", "c2": "-1"},
+    }
+    apart = {**scene, "constraints": [*scene["constraints"], "x = -1"]}
+    assert accepted(apart, [never], relations=[step]) is shown
 
 
 def test_an_indefinite_sum_of_squares_is_none():
     scene = {"coordinates": ["x", "y"], "constraints": ["x^2 - y^2 = 0"]}
-    step = {"id": "s", "by": "sos", "of": "c1", "terms": [["1", "x"], ["-1", "y"]]}
+    steps = squares("s", "c1", [["1", "x"], ["-1", "y"]])
     minor = {"id": "m", "at": "P", "rows": ["s.1", "s.2"], "columns": ["x", "y"]}
     claim = {"path": "/dof", "value": 0, "rule": "regular", "minor": "m", "about": "component"}
     points = [{"id": "P", "values": {"x": "0", "y": "0"}}]
-    assert not accepted(scene, [claim], points=points, minors=[minor], relations=[step])
+    assert not accepted(scene, [claim], points=points, minors=[minor], relations=steps)
+
+
+@pytest.mark.parametrize(
+    ("text", "change", "shown"),
+    [
+        ("2 x^2 + y^2 = 0", {"h": "2"}, True),
+        ("x^4 + y^2 = 0", {"power": 4}, True),
+        ("a x^2 + y^2 = 0", {"h": "a"}, False),
+        ("x^3 + y^2 = 0", {"power": 3}, False),
+        ("x + y^2 = 0", {"power": 1}, False),
+        ("y^2 - x^2 = 0", {"h": "-1"}, False),
+        ("(y^2 + 2 x)*x^2 + y^2 = 0", {"h": "y^2 + 2*x"}, False),
+    ],
+)
+def test_a_sum_is_zero_with_its_terms_where_none_is_negative(text: str, change: dict[str, Any], shown: bool):
+    # x = -1 meets the second relation beside each of the last five, with a = -1
+    scene = {"coordinates": ["x", "y"], "parameters": {"a": "nonzero"}, "constraints": [text, "x = -1"]}
+    step = {"id": "k", "by": "implied", "function": "x", "power": 2, "sos": [["1", "y"]], "c": {"c1": "1"}, **change}
+    never = {
+        "path": "/consistent",
+        "value": False,
+        "rule": "nullstellensatz",
+        "number": "1",
+        "c": {"k": "1", "c2": "-1"},
+    }
+    assert accepted(scene, [never], relations=[step]) is shown
 
 
 def test_a_certificate_of_an_edited_scene_is_refused():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from checker.certified import accepted, faults
+from checker.certified import accepted, branch, faults
 
 
 def about(name: str, field: str, value: Any, rule: str, **evidence: Any) -> dict[str, Any]:
@@ -198,19 +198,19 @@ def test_time():
     state = {"xdot": "0", "ydot": "1", "zdot": "1"}
     parts = {
         "points": [{"id": "P", "values": {"x": "2", "y": "3", "z": "0", "t": "1", "v": "1", **state}}],
-        "relations": [
-            {"id": "g", "by": "branch", "of": "c3", "factors": ["1+t^2", "xdot+ydot"], "chosen": 1},
-        ],
+        "relations": branch("g", "c3", ["1+t^2", "xdot+ydot"], 1),
     }
     on = {**parts, "points": [{"id": "P", "values": {**parts["points"][0]["values"], "x": "1", "y": "1"}}]}
-    square = {"plus": "1", "sos": [["1", "t"]]}
+    # f (1 + t^2) f = f^2 + (t f)^2 for f = xdot + ydot
+    made = {**parts["relations"][0], "h": "1", "power": 2, "c": {"c3": "xdot+ydot"}}
     dropped = about("c3", "scleronomic", True, "timeless", steps=["g"])
-    for positive, good in (
-        (square, True),
-        ({**square, "plus": "2"}, False),
-        ({"plus": "1+2*t^2", "sos": [["-1", "t"]]}, False),
+    for change, good in (
+        ({"sos": [["1", "t*(xdot+ydot)"]]}, True),
+        ({"sos": [["1", "t*(xdot+ydot)"]], "h": "2"}, False),
+        ({"sos": [["-1", "t*(xdot+ydot)"]], "h": "1+2*t^2"}, False),
+        ({"sos": [], "h": "1+t^2"}, False),
     ):
-        steps = [{**parts["relations"][0], "positive": [positive]}]
+        steps = [{**made, **change}, parts["relations"][1]]
         assert accepted(scene, [dropped], **{**on, "relations": steps}) is good
         assert not accepted(scene, [{**dropped, "path": "/constraints/c6/scleronomic"}], **{**on, "relations": steps})
     good = [

@@ -135,3 +135,25 @@ def test_where_branches_cross_the_choice_is_not_told_as_proved(scene: str) -> No
     report = dofkit.classify(next(path for path in SCENES if path.stem == scene))
     assert report.verdicts["dof"].verdict == "proved"
     assert report.verdicts["generalized_coordinates"].verdict == "probable"
+
+
+@pytest.mark.parametrize(
+    ("axis", "theta", "wanted"),
+    [
+        # a turn by u about a level axis has the angles c, u, -c, where c is that of the axis to x; about z it is psi
+        ([1, 0, 0], 0, "theta_B"),
+        ([0, 1, 0], 0, "theta_B"),
+        ([1, 1, 0], 0, "theta_B"),
+        ([0, 0, 1], 0, "psi_B"),
+        # the line of nodes lies along x, and the body's axis along -y
+        ([1, 0, 0], "pi/2", "theta_B"),
+        ([0, 1, 0], "pi/2", "psi_B"),
+        ([0, 0, 1], "pi/2", "phi_B"),
+    ],
+)
+def test_of_a_hinge_the_angle_that_turns_is_chosen(axis: list[int], theta: object, wanted: str) -> None:
+    """Euler's angles, and not a component of what stands for them in the relations."""
+    hinge = {"type": "revolute", "between": ["ground", "B"], "at": [0, 0, 0], "axis": axis}
+    standing = {**dict.fromkeys(("x_B", "y_B", "z_B", "phi_B", "psi_B"), 0), "theta_B": theta}
+    report = dofkit.classify({"bodies": ["B"], "configuration": standing, "constraints": [hinge]})
+    assert report.generalized_coordinates == [wanted]

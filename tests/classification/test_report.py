@@ -39,6 +39,17 @@ def test_the_drawing_tells_the_part_of_the_set() -> None:
     assert (seen.dof, seen.verdict) == (1, "proved")
 
 
+def test_what_shows_an_answer_is_no_warning() -> None:
+    """A door on two hinges: the second says nothing new, and nothing is open or singular."""
+    hinges = [
+        {"name": n, "type": "hinge", "between": ["ground", "door"], "at": [0, 0, z], "axis": "z"}
+        for n, z in (("lower", 0), ("upper", 2))
+    ]
+    report = dofkit.classify({"bodies": ["door"], "constraints": hinges})
+    assert (report.dof, report.singular, report.warnings) == (1, False, [])
+    assert "All its 5 equations follow from those before" in report.constraints[1].reason
+
+
 def test_one_coordinate_and_one_equation_are_singular() -> None:
     report = dofkit.classify({"coordinates": ["x"], "constraints": ["x = 1", "2 x = 2"]})
     assert "1 coordinate in 1 independent part" in report.modelled

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import pytest
@@ -100,3 +101,30 @@ def test_a_fault_in_the_file_of_a_scene_says_where_it_is(tmp_path: Path) -> None
 def test_a_missing_file_beside_the_assignment(tmp_path: Path) -> None:
     with pytest.raises(AssignmentError, match="there is no file"):
         load_assignment(tmp_path / "none.yaml")
+
+
+@pytest.mark.parametrize("points", ["1e400", "1e7", "1e-400", "0.0001", '"2/3000"', "-1"])
+def test_points_that_nobody_can_give(points: str, tmp_path: Path) -> None:
+    path = tmp_path / "sheet.yaml"
+    path.write_text(
+        "title: x\nproblems:\n- id: p\n  scene: spherical-pendulum\n  questions:\n"
+        f"  - {{id: a, ask: dof}}\n  - {{id: b, ask: dof, points: {points}}}\n"
+    )
+    with pytest.raises(AssignmentError) as found:
+        load_assignment(path)
+    (fault,) = found.value.faults
+    assert (fault.line, fault.column) == (7, 31)
+    assert "points" in fault.message
+
+
+@pytest.mark.sweep
+def test_a_scene_of_too_many_constraints_is_refused_in_time(tmp_path: Path) -> None:
+    rods = "".join(f"    - {{name: c{i}, type: link, between: [A, B], length: 1}}\n" for i in range(10**5))
+    scene = f"  scene:\n    dimension: 2\n    particles: [A, B]\n    constraints:\n{rods}"
+    (tmp_path / "sheet.yaml").write_text(f"title: x\nproblems:\n- id: p\n{scene}  questions: [{{id: f, ask: dof}}]\n")
+    start = time.process_time()
+    with pytest.raises(AssignmentError) as found:
+        load_assignment(tmp_path / "sheet.yaml")
+    assert time.process_time() - start < 30
+    (fault,) = found.value.faults
+    assert (fault.message, fault.line) == ("the scene has 100000 constraints, more than an assignment takes (5000)", 8)

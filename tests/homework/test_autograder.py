@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import ast
 import base64
+import csv
 import doctest
 import hashlib
 import importlib
+import io
 import json
 import os
+import shutil
 import subprocess
 import sys
 import threading
-import types
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -23,21 +24,24 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from dofkit.homework import notebooks, otter
+from dofkit.homework import export, notebooks, otter, stand_ins
 from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.autograder import SITES, grade_at, main, undecided
-from dofkit.homework.export import ExportError, export_gradescope, wheels
+from dofkit.homework.export import ExportError, OtterError, export_gradescope, export_otter, wheels
 from dofkit.homework.export.inline import exact_json, inlined
+from dofkit.homework.export.names_only import names_only
 from dofkit.homework.formats.wording import standing
 from dofkit.homework.judgement import needs_review
 from dofkit.homework.nbgrader import points
 from dofkit.homework.notebooks import QuestionError
 from dofkit.homework.questions import QuestionBase
+from dofkit.homework.readings import reading_of
 from dofkit.interface.cli import app
 
 MEMORY = 2 << 30
 ASSIGNMENT = """\
 title: Sheet 1
+visibility: visible
 problems:
 - id: pendulum
   scene: pendulum.yaml
@@ -57,6 +61,13 @@ constraints:
 """
 #: f = 1 is right; the squared equation is worth half; the disc has f = 4, not 2.
 ANSWERS: dict[str, dict[str, Any]] = {"pendulum": {"f": "f = 1", "rod": "(x_A^2 + y_A^2 - 0.01)^2"}, "disc": {"f": 2}}
+
+
+@pytest.fixture(autouse=True)
+def working_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where lists of open answers go by default."""
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
 
 
 @pytest.fixture
@@ -91,12 +102,78 @@ def test_gradescope(sheet: Path, tmp_path: Path) -> None:
     found = written(root, "gradescope")
     assert found["score"] == 6.0
     assert found["extra_data"]["student"] == "ada@uni.example"
+    assert "ada@uni.example's, and names 'somebody else'" in found["extra_data"]["doubt"]
+    assert found["output"].startswith("This is not final, for it was handed in as ada@uni.example's")
     assert [(t["number"], t["score"], t["max_score"], t["status"]) for t in found["tests"]] == [
         ("1.1", 2.0, 2.0, "passed"),
         ("1.2", 4.0, 8.0, "failed"),
         ("2.1", 0.0, 0.5, "failed"),
     ]
     assert sorted(path.name for path in (root / "results").iterdir()) == ["results.json"]
+
+
+@pytest.mark.parametrize("student", ["Ada", "ada@UNI.example", "1", "Lovelace, Ada"])
+def test_gradescope_knows_its_user(student: str, sheet: Path, tmp_path: Path) -> None:
+    root = hand_in(tmp_path / "autograder" / "submission", anything__json=submission(student=student))
+    users = [{"email": "ada@uni.example", "name": "Ada Lovelace", "id": 1}]
+    (root / "submission_metadata.json").write_text(json.dumps({"users": users}))
+    assert grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY).doubt is None
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("answers.csv", "pendulum.f,disc.f\n1,4\n"),
+        ("x.csv", "disc.f;pendulum.f\n4;1\n"),
+        ("hw.yaml", "pendulum: {f: 1}\ndisc: {f: 4}\n"),
+        ("hw.yml", "pendulum.f: 1\ndisc.f: 4\n"),
+        ("folder/within/answers.json", '{"pendulum": {"f": 1}, "disc": {"f": 4}}'),
+    ],
+)
+def test_what_says_nothing_of_its_student_is_the_submitters(name: str, text: str, sheet: Path, tmp_path: Path) -> None:
+    path = tmp_path / "autograder" / "submission" / name
+    path.parent.mkdir(parents=True)
+    path.write_text(text)
+    for left in (".git/config.yaml", "__MACOSX/folder/._answers.json"):
+        other = tmp_path / "autograder" / "submission" / left
+        other.parent.mkdir(parents=True)
+        other.write_text("a: 1")
+    root = tmp_path / "autograder"
+    (root / "submission_metadata.json").write_text('{"users": [{"email": "ada@uni.example", "name": "Ada", "id": 1}]}')
+    found = grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY)
+    assert (found.student, found.score, found.doubt, found.error) == ("ada@uni.example", 2.5, None, None)
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [("", "after_due_date"), ("attempts: 2\n", "visible"), ("visibility: after_published\n", "after_published"),
+     ("attempts: 2\nvisibility: hidden\n", "hidden")],
+)  # fmt: skip
+def test_when_points_are_shown(line: str, expected: str, sheet: Path, tmp_path: Path) -> None:
+    sheet.write_text(line + ASSIGNMENT.replace("visibility: visible\n", ""))
+    given = {"pendulum": {"f": 1, "rod": "x_A + ("}}
+    root = hand_in(tmp_path / "root" / "submission", answers__json=json.dumps({"answers": given}))
+    grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY)
+    found = written(root, "gradescope")
+    judged = [test for test in found["tests"] if "number" in test]
+    read = [test for test in found["tests"] if "number" not in test]
+    assert {found["visibility"], *(test["visibility"] for test in judged)} == {expected}
+    if expected == "visible":
+        assert read == []
+        return
+    assert all(test["visibility"] == "visible" and not {"score", "status"} & set(test) for test in read)
+    outputs = {test["name"]: test["output"] for test in read}
+    assert outputs["pendulum.f: how it was read"] == "Read as: 1"
+    assert outputs["pendulum.rod: how it was read"].startswith("Could not be read (column ")
+    assert outputs["disc.f: how it was read"] == "There is no answer."
+    assert "point" not in found["output"].lower()
+
+
+@pytest.mark.parametrize("attempts", ["0", "1.5", "-3", "many"])
+def test_attempts_are_counted(attempts: str, sheet: Path) -> None:
+    sheet.write_text(f"attempts: {attempts}\n{ASSIGNMENT}")
+    with pytest.raises(AssignmentError, match=r"attempts|number"):
+        load_assignment(sheet)
 
 
 @pytest.mark.parametrize("sign", [".", "_", "-"])
@@ -286,8 +363,8 @@ def test_the_zip(sheet: Path, tmp_path: Path) -> None:
 
 def test_wheels_that_cannot_be_had_are_no_failure(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "executable", "/bin/false")
-    (note,) = export_gradescope(sheet, tmp_path / "a.zip")
-    assert note.startswith("wheels for Python 3.12 could not be had")
+    notes = export_gradescope(sheet, tmp_path / "a.zip")
+    assert [note.split(" could")[0] for note in notes] == [f"wheels for Python {version}" for version in PYTHONS]
     with zipfile.ZipFile(tmp_path / "a.zip") as packed:
         assert [name for name in packed.namelist() if name.endswith(".whl")] == ["wheels/dofkit-0.1.0-py3-none-any.whl"]
 
@@ -385,45 +462,164 @@ def test_a_changed_assignment_is_read_again(sheet: Path) -> None:
     notebooks._grader.cache_clear()
 
 
-class Case:
-    """What otter's decorator keeps."""
+def otter_tests(notebook: Path) -> dict[str, list[tuple[bool, float, str]]]:
+    """Of every question of a master notebook its tests: hidden?, points, code."""
+    found: dict[str, list[tuple[bool, float, str]]] = {}
+    name = ""
+    for cell in json.loads(notebook.read_text())["cells"]:
+        source = "".join(cell["source"])
+        if source.startswith("# BEGIN QUESTION"):
+            name = source.split("name: ")[1].strip()
+            found[name] = []
+        elif "# BEGIN TEST CONFIG" in source:
+            said, code = source.split('""" # END TEST CONFIG')
+            fields = dict(line.split(": ") for line in said.splitlines() if ": " in line)
+            found[name].append((fields["hidden"] == "true", float(fields["points"]), code))
+    return found
 
-    def __init__(self, **fields: Any) -> None:
-        self.fields = fields
-        self.run: Callable[[object], None] = lambda answers: None
 
-    def __call__(self, run: Callable[[object], None]) -> Case:
-        self.run = run
-        return self
+def passes(code: str, answers: object) -> str:
+    """Nothing where a test passes, else what it says."""
+    scope: dict[str, Any] = {}
+    exec(compile(code, "test", "exec"), scope)
+    (test,) = (value for name, value in scope.items() if name.startswith("test_"))
+    try:
+        test(answers)
+    except AssertionError as error:
+        return str(error)
+    return ""
 
 
 def test_otter(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    files = otter.write_tests(sheet, tmp_path / "otter" / "tests")
-    assert [path.name for path in files] == ["pendulum_f.py", "pendulum_rod.py", "disc_f.py"]
-    stand_in = types.ModuleType("otter.test_files")
-    monkeypatch.setattr(stand_in, "test_case", Case, raising=False)
-    monkeypatch.setitem(sys.modules, "otter", types.ModuleType("otter"))
-    monkeypatch.setitem(sys.modules, "otter.test_files", stand_in)
+    files = export_otter(sheet, tmp_path / "otter")
+    assert [path.name for path in files] == ["assignment.ipynb", "names.json", "assignment.json"]
     monkeypatch.chdir(tmp_path / "otter")
+    found = otter_tests(files[0])
+    assert list(found) == ["pendulum_f", "pendulum_rod", "disc_f"]
     given = {}
-    for path in files:
-        ast.parse(path.read_text())
-        scope: dict[str, Any] = {}
-        exec(compile(path.read_text(), str(path), "exec"), scope)
-        assert scope["OK_FORMAT"] is False
-        cases = [value for value in scope.values() if isinstance(value, Case)]
-        assert sum(case.fields["points"] for case in cases) == scope["points"]
-        assert all(set(case.fields) == {"name", "points", "hidden"} for case in cases)
-        given[scope["name"]] = sum(case.fields["points"] * passes(case) for case in cases)
+    for name, tests in found.items():
+        (public,) = (code for hidden, points, code in tests if not hidden and not points)
+        assert passes(public, ANSWERS) == ""
+        assert "assignment.json" not in public
+        given[name] = sum(points for hidden, points, code in tests if hidden and not passes(code, ANSWERS))
+    assert {name: sum(points for _, points, _ in tests) for name, tests in found.items()} == {
+        "pendulum_f": 2.0, "pendulum_rod": 8.0, "disc_f": 0.5,
+    }  # fmt: skip
     assert given == {"pendulum_f": 2.0, "pendulum_rod": 4.0, "disc_f": 0.0}
+    assert not (tmp_path / "otter" / stand_ins.NAME).exists()
+
+
+def test_what_students_get_has_no_key(tmp_path: Path) -> None:
+    scene = {
+        "name": "secret", "dimension": 2, "title": "SECRET", "notes": "SECRET", "parameters": {"l": "12345/7"},
+        "functions": {"h": ["s"]}, "particles": [{"name": "A", "at": [0, "-l"], "mass": 777}], "expect": {"dof": 1},
+        "constraints": [{"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": "l"}],
+        "energies": {"kinetic": "9876 x_Adot^2"}, "configuration": {"x_A": 0, "y_A": "-l"},
+    }  # fmt: skip
+    asked = [{"id": "q", "ask": "coordinates"}, {"id": "r", "ask": "redundant"}, {"id": "e", "ask": "motion"}]
+    problem = {"id": "p", "text": "SECRET", "scene": scene, "also": {"phi": "atan2(x_A, -y_A)"}, "questions": asked}
+    prepared = load_assignment({"title": "Sheet", "problems": [problem]})
+    found = names_only(prepared)
+    (given,) = found["problems"]
+    assert sorted(given) == ["id", "names", "questions", "scene"]
+    assert given["scene"] == {
+        "coordinates": ["x_A", "y_A", "phi"], "parameters": ["l"], "functions": {"h": ["s"]},
+        "constraints": [{"name": "rod", "text": "0 = 0"}],
+    }  # fmt: skip
+    for secret in ("SECRET", "12345", "777", "9876", "expect", "link", "atan2"):
+        assert secret not in json.dumps(found)
+
+
+@pytest.mark.parametrize(
+    ("answer", "readable", "told"),
+    [
+        ("f = 3 - 2 = 1", True, "pendulum.f is read as: 1"),
+        ("7", True, "pendulum.f is read as: 7"),
+        ("$$((", False, "pendulum.f: Could not be read (column "),
+        (..., False, "pendulum.f: there is no answer."),
+        (None, False, "pendulum.f: there is no answer."),
+        (1, True, "pendulum.f is read as: 1"),
+    ],
+)
+def test_the_public_test_says_how_an_answer_is_read(
+    answer: object, readable: bool, told: str, sheet: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    names = tmp_path / "names.json"
+    names.write_text(json.dumps(names_only(load_assignment(sheet))))
+    found = reading_of(names, "pendulum", "f", answer)
+    assert found.readable is readable
+    assert found.told.startswith(told)
+    if readable:
+        otter.readable(names, {"pendulum": {"f": answer}}, "pendulum", "f")
+        assert capsys.readouterr().out == f"{told}\n"
+    else:
+        with pytest.raises(AssertionError, match=r"pendulum\.f: "):
+            otter.readable(names, {"pendulum": {"f": answer}}, "pendulum", "f")
+    with pytest.raises(QuestionError, match="has no question"):
+        reading_of(names, "pendulum", "g", answer)
+
+
+def test_where_reading_stops_is_shown_with_what_would_be_read(sheet: Path, tmp_path: Path) -> None:
+    names = tmp_path / "names.json"
+    names.write_text(json.dumps(names_only(load_assignment(sheet))))
+    told = reading_of(names, "pendulum", "rod", "x_A = sin(y_A").told.splitlines()
+    assert told[1:3] == ["x_A = sin(y_A", f"{' ' * 9}^"]
+    assert told[-1] == "It would be read as: x_A = sin(y_A)"
+
+
+def test_two_questions_of_one_test(tmp_path: Path) -> None:
+    problems = [{"id": f"a{sign}b", "scene": "disc-rolling-on-plane", "questions": [{"id": "f", "ask": "dof"}]}
+                for sign in "-."]  # fmt: skip
+    (tmp_path / "sheet.json").write_text(json.dumps({"title": "x", "problems": problems}))
+    with pytest.raises(OtterError, match="two questions would have the test 'a_b_f'"):
+        export_otter(tmp_path / "sheet.json", tmp_path / "out")
+
+
+def listed(path: Path) -> list[list[str]]:
+    return [row[1:] for row in csv.reader(io.StringIO(path.read_text(), newline=""))][1:]
+
+
+def test_what_counts_by_a_stand_in_is_listed(
+    sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    table = tmp_path / stand_ins.NAME
+    assert points(sheet, "pendulum", "f", "=1+$$") == 0.0
+    printed = capsys.readouterr().out
+    assert "=1+$$\n" in printed
+    assert "^" in printed
+    assert "hand in again" in printed
+    assert [row[:5] for row in listed(table)] == [["pendulum", "f", "unreadable", "0", "2"]]
+    assert listed(table)[0][5] == "'=1+$$"
+    with pytest.raises(AssertionError, match="Could not be read"):
+        otter.check(sheet, {"pendulum": {"rod": "x_A = ("}}, "pendulum", "rod", 1, 2)
+    assert [row[1] for row in listed(table)] == ["f", "rod"]
+    assert points(sheet, "pendulum", "f", 1) == 2.0
+    assert [row[1] for row in listed(table)] == ["rod"]
+    monkeypatch.setenv(stand_ins.VARIABLE, str(tmp_path / "other.csv"))
+    assert points(sheet, "pendulum", "f", "$$") == 0.0
+    assert [row[1] for row in listed(tmp_path / "other.csv")] == ["f"]
+    monkeypatch.setenv(stand_ins.VARIABLE, str(tmp_path / "none" / "other.csv"))
+    assert points(sheet, "pendulum", "f", "$$") == 0.0
+
+
+def test_coursera_lists_what_counts_by_a_stand_in(sheet: Path, tmp_path: Path) -> None:
+    given = json.dumps({"answers": {"pendulum": {"f": "$$((", "rod": "x_A^2 + y_A^2 = 0.01"}, "disc": {"f": 4}}})
+    root = hand_in(tmp_path / "shared" / "submission", answers__json=given)
+    assert main(["coursera", str(sheet), "--root", str(root)]) == 0
+    found = written(root, "coursera")
+    assert found["fractionalScore"] == pytest.approx(8.5 / 10.5)
+    assert "$$((\n" in found["feedback"]
+    assert [row[:5] for row in listed(root / "open.csv")] == [["pendulum", "f", "unreadable", "0", "2"]]
 
 
 def test_the_commands(sheet: Path, tmp_path: Path) -> None:
     runner = CliRunner()
     zipped = runner.invoke(app, ["export", "gradescope", str(sheet), "--no-wheels", "--out", str(tmp_path / "a.zip")])
     assert (zipped.exit_code, zipfile.is_zipfile(tmp_path / "a.zip")) == (0, True)
-    tests = runner.invoke(app, ["export", "otter", str(sheet), "--out", str(tmp_path / "otter" / "tests")])
-    assert [Path(line).name for line in tests.stdout.split()] == ["pendulum_f.py", "pendulum_rod.py", "disc_f.py"]
+    tests = runner.invoke(app, ["export", "otter", str(sheet), "--out", str(tmp_path / "otter")])
+    names = [Path(line).name for line in tests.stdout.split()]
+    assert names == ["assignment.ipynb", "names.json", "assignment.json"]
     for command in ("gradescope", "otter"):
         refused = runner.invoke(app, ["export", command, str(tmp_path / "none.yaml"), "--out", str(tmp_path / "no")])
         assert refused.exit_code == 2
@@ -432,14 +628,6 @@ def test_the_commands(sheet: Path, tmp_path: Path) -> None:
         printed = runner.invoke(app, ["schema", what] if what != "scene" else ["schema"])
         assert json.loads(printed.stdout)["title"].lower() == what
     assert runner.invoke(app, ["schema", "homework"]).exit_code == 2
-
-
-def passes(case: Case) -> bool:
-    try:
-        case.run(ANSWERS)
-    except AssertionError:
-        return False
-    return True
 
 
 @pytest.mark.parametrize("answers", [None, 3, {}, {"pendulum": 3}, {"pendulum": {}}])
@@ -459,3 +647,70 @@ def test_parts_of_questions() -> None:
     prepared = load_assignment({"title": "x", "problems": [{"id": "p", "scene": scene, "questions": asked}]})
     assert [otter.parts_of(question) for _, question in prepared.questions()] == [6, 2, 2]
     assert standing(undecided(prepared, "a", "b")).startswith("So far 0 of 3")
+
+
+PYTHONS = {version: shutil.which(f"python{version}") for version in export.PYTHONS}
+
+
+def runs(python: str | None) -> bool:
+    """Is there such a Python, and not a stand-in for one?"""
+    if python is None:
+        return False
+    return subprocess.run([python, "-c", ""], capture_output=True, check=False).returncode == 0
+
+
+@pytest.mark.sweep
+def test_the_zip_installs_on_every_python_without_a_network(sheet: Path, tmp_path: Path) -> None:
+    found = {version: python for version, python in PYTHONS.items() if python is not None and runs(python)}
+    if len(found) < 2:
+        pytest.skip("there are no other Pythons: python3.11, python3.12 and python3.13")
+    notes = export_gradescope(sheet, tmp_path / "a.zip", list(found))
+    if notes:
+        pytest.skip(f"pip finds no wheels here: {notes[0]}")
+    for version, python in found.items():
+        root = hand_in(tmp_path / version / "submission", answers__json=submission())
+        with zipfile.ZipFile(tmp_path / "a.zip") as packed:
+            packed.extractall(root / "source")
+        offline = {
+            **os.environ,
+            "DOFKIT_PYTHON": python,
+            "DOFKIT_AUTOGRADER": str(root),
+            "PIP_INDEX_URL": "file:///none",
+        }
+        offline.pop("PYTHONPATH", None)
+        for script in ("setup.sh", "run_autograder"):
+            done = subprocess.run(
+                ["bash", str(root / "source" / script)], cwd=root, env=offline, capture_output=True, text=True,
+                timeout=300, check=False,
+            )  # fmt: skip
+            assert done.returncode == 0, (version, done.stderr[-2000:])
+        assert written(root, "gradescope")["score"] == 6.0, version
+
+
+def test_what_a_person_decided_comes_back(sheet: Path, tmp_path: Path) -> None:
+    given = json.dumps({"answers": {"pendulum": {"f": "$$((", "rod": "x_A^2 + y_A^2 = 0.01"}, "disc": {"f": 4}}})
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "ada.json").write_text(given)
+    ran = CliRunner().invoke(app, ["grade", str(sheet), str(tmp_path / "in"), "--out", str(tmp_path / "out.jsonl")])
+    assert ran.exit_code == 0
+    table = tmp_path / "out.review.csv"
+    rows = list(csv.reader(io.StringIO(table.read_text(encoding="utf-8-sig"), newline="")))
+    place = rows[0].index("points")
+    rows[1][place] = "1.5"
+    with (sheet.parent / "review.csv").open("w", newline="") as stream:
+        csv.writer(stream).writerows(rows)
+    root = hand_in(tmp_path / "grade" / "student", answers__json=given)
+    assert main(["prairielearn", str(sheet), "--root", str(root)]) == 0
+    found = written(root, "prairielearn")
+    assert (found["gradable"], found["score"]) == (True, pytest.approx(10 / 10.5))
+    assert [test["points"] for test in found["tests"]] == [1.5, 8.0, 0.5]
+    archive = tmp_path / "a.zip"
+    export_gradescope(sheet, archive, wheels=False, reviewed=sheet.parent / "review.csv")
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(tmp_path / "source")
+    root = hand_in(tmp_path / "autograder" / "submission", answers__json=given)
+    assert main(["gradescope", str(tmp_path / "source" / "assignment.json"), "--root", str(root)]) == 0
+    assert written(root, "gradescope")["score"] == 10.0
+    (sheet.parent / "review.csv").write_text("no table")
+    assert main(["gradescope", str(sheet), "--root", str(root)]) == 2
+    assert "not your fault" in written(root, "gradescope")["output"]

@@ -56,7 +56,7 @@ def lines_of(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, 
 def read(path: Path, data: str | bytes) -> list[tuple[str, Any]]:
     """Every submission in a file: its student with its answers, or with its error."""
     path.write_bytes(data if isinstance(data, bytes) else data.encode())
-    found = [one for h in hand_ins([str(path)], KNOWN) for one in h.submissions()]
+    found = [one for h in hand_ins([str(path)], KNOWN) for one in h.submissions(KNOWN)]
     return [(s.student, s.error.removeprefix(f"{path}") if s.error else dict(s.answers)) for s in found]
 
 
@@ -99,7 +99,27 @@ TABLES: dict[str, tuple[str | bytes, Any]] = {
         [(name, f", line {n}: the header (line 1) has the column 'p.f' twice") for n, name in ((2, "ana"), (3, "bo"))],
     ),
     "no name": ("student,p.f\n,1\n", [("", ", line 2: the row names no student")]),
-    "unknown columns": ("student,email\nana,a@b\n", [("ana", {"email": {"": "a@b"}})]),
+    "unknown columns": ("student,p.f,email\nana,1,a@b\n", [("ana", {"p": {"f": "1"}, "email": {"": "a@b"}})]),
+    "no question": (
+        "student,p1\nana,1\nbo,2\n",
+        [
+            (n, f", line {i}: the header (line 1) names no question: write p.f, p.q.a")
+            for i, n in ((2, "ana"), (3, "bo"))
+        ],
+    ),
+    "nearly a question": (
+        "student,p.g\nana,1\n",
+        [("ana", ", line 2: the header (line 1) names no question: write 'p.f' for 'p.g'")],
+    ),
+    "nothing but students": (
+        "student\nana\n",
+        [("ana", ", line 2: the header (line 1) names no question: write p.f, p.q.a")],
+    ),
+    "one person's": ("p.f;p.q.a\n1;x\n", [("t", {"p": {"f": "1"}, "p.q": {"a": "x"}})]),
+    "one person's of two": (
+        "p.f\n1\n2\n",
+        [("t", ", line 1: its header has no column 'student', and there is more than one row")],
+    ),
     "no student": ("name,p.f\nana,1\n", [("t", ", line 1: its header has no column 'student' but name, p.f")]),
     "empty": ("", [("t", ", line 1: it is empty")]),
 }
@@ -132,6 +152,11 @@ DOCUMENTS = {
         ("ana", ", line 2, column 21: the key 'f' is written twice (keep one of the two)")
     ],
     '{"student": "ana", "answers': [("ana", ", line 1, column 20: a quoted text is never closed (close the quotes)")],
+    "p: {f: 1}\nstudent: ana": [("ana", {"p": {"f": 1}})],
+    "p.q.a: x\np.f: 1": [("s", {"p.q": {"a": "x"}, "p": {"f": 1}})],
+    "p: {f: 1}\nzz: {f: 2}": [("s", {"p": {"f": 1}, "zz": {"f": 2}})],
+    "answers: {p.f: 1, p: {g: 2}}": [("s", {"p": {"f": 1, "g": 2}})],
+    "p: {f: 1}\nname: ana": [("s", ", line 1, column 1: unknown key 'p': there are 'student' and 'answers'")],
     "": [("s", f", line 1, column 1: the file is empty {SHAPE}")],
     "[]": [("s", f": there is no submission in it {SHAPE}")],
     "3": [("s", f": a submission is a mapping with 'student' and 'answers' {SHAPE}")],
@@ -158,10 +183,45 @@ def test_a_folder_is_read_in_order_and_nobody_in_it_is_lost(tmp_path: Path) -> N
     (tmp_path / "d.pdf").write_bytes(b"%PDF")
     (tmp_path / "e.yaml").symlink_to("/etc/hostname")
     (tmp_path / ".DS_Store").write_text("")
-    found = [one for h in hand_ins([str(tmp_path), str(tmp_path / "no.csv")], KNOWN) for one in h.submissions()]
+    found = [one for h in hand_ins([str(tmp_path), str(tmp_path / "no.csv")], KNOWN) for one in h.submissions(KNOWN)]
     assert [(s.student, s.error is None) for s in found] == [
         ("one", True), ("two", True), ("three", True), ("d", False), ("e", False), ("no", False),
     ]  # fmt: skip
+
+
+def test_a_file_called_answers_is_its_folders(tmp_path: Path) -> None:
+    for folder in ("Ada Lovelace_12_assignsubmission_file_", "bob"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "Answers.yaml").write_text("p: {f: 2}")
+    (tmp_path / "Eve_9_assignsubmission_file_hw.yaml").write_text("p: {f: 2}")
+    handed = list(hand_ins([str(tmp_path)], KNOWN))
+    assert [(h.name, h.claims) for h in handed] == [
+        ("Ada Lovelace", ("Answers", "Ada Lovelace_12_assignsubmission_file_")),
+        ("Eve", ("Eve_9_assignsubmission_file_hw",)),
+        ("bob", ("Answers", "bob")),
+    ]
+    (direct,) = hand_ins([str(tmp_path / "bob" / "Answers.yaml")], KNOWN)
+    assert (direct.name, direct.claims) == ("bob", ("Answers", "bob"))
+
+
+def test_gradescopes_export_says_whose_each_folder_is(tmp_path: Path) -> None:
+    (tmp_path / "submission_metadata.yml").write_text(
+        "---\nsubmission_12:\n  :submitters:\n  - :name: Ada Lovelace\n    :sid: ''\n    :email: ada@x\n  :score: 1.0\n"
+        'submission_13:\n  :submitters:\n  - :name: "Bob"\n    :sid: 7\n'
+        "submission_14:\n  :submitters:\n  - :name: C\n    :email: c@x\n  - :name: D\n    :email: d@x\n"
+    )
+    for folder in ("submission_12", "submission_13", "submission_14", "submission_15"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "answers.yaml").write_text("p: {f: 2}")
+    (tmp_path / "submission_12" / "answers.yaml").write_text("student: zoe\np: {f: 2}")
+    handed = list(hand_ins([str(tmp_path)], KNOWN))
+    assert [(h.name, h.claims) for h in handed] == [
+        ("ada@x", ("answers", "submission_12", "ada@x")),
+        ("Bob", ("answers", "submission_13", "Bob")),
+        ("c@x, d@x", ("answers", "submission_14", "c@x, d@x")),
+        ("submission_15", ("answers", "submission_15")),
+    ]
+    assert [s.student for s in handed[0].submissions(KNOWN)] == ["zoe"]
 
 
 # the command
@@ -181,6 +241,42 @@ def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys:
     second = f"{table}, line 4: 'ana' has handed in before, at {table}, line 2: only the first is graded"
     assert told[2]["error"] == second
     assert told[3]["error"] == f"{table}, line 5: the row has 2 cells, the header 5"
+
+
+def test_a_header_that_names_no_question_gives_nobody_zeros(
+    assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table = tmp_path / "t.csv"
+    table.write_text("student,p1\nana,1\nbo,2\n")
+    status, told, _ = lines_of(capsys, "grade", assignment, str(table), "--workers", "1")
+    assert (status, [line["score"] for line in told]) == (2, [None, None])
+    assert "names no question: write" in told[0]["error"]
+
+
+def test_a_roster_says_whose_a_submission_is(
+    assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder, roster = tmp_path / "in", tmp_path / "roster.csv"
+    folder.mkdir()
+    roster.write_text("name,email\nAda Lovelace,ada@x\nBob,bob@x\nEve,eve@x\n")
+    for name, student in (("bob", "Ada Lovelace"), ("eve@x", "EVE"), ("Ada Lovelace", "ada@x"), ("zoe", "zoe")):
+        (folder / f"{name}.yaml").write_text(f"student: {student}\np: {{f: 1}}")
+    command = ("grade", assignment, str(folder), "--workers", "1", "--roster", str(roster))
+    status, told, _ = lines_of(capsys, *command)
+    assert [(line["student"], line["doubt"] is None, line["score"]) for line in told] == [
+        ("ada@x", True, 2.0), ("bob@x", False, 2.0), ("eve@x", True, 2.0), ("zoe", True, 2.0),
+    ]  # fmt: skip
+    assert status == 0
+    assert "bob.yaml: it was handed in as bob@x's, and names 'Ada Lovelace'" in told[1]["doubt"]
+    out = tmp_path / "grades.csv"
+    assert lines_of(capsys, *command, "--format", "moodle", "--out", str(out))[0] == 0
+    table = [line.split(",")[:2] for line in out.read_text().splitlines()]
+    assert [row for row in table if "@" in row[0] or row[0].startswith("user")] == [
+        ["useremail", "A circle"], ["ada@x", "2"], ["eve@x", "2"],
+    ]  # fmt: skip
+    assert [line.split(",")[0] for line in (tmp_path / "grades.apart.csv").read_text().splitlines()] == [
+        "student", "bob@x", "zoe",
+    ]  # fmt: skip
 
 
 def test_results_within_the_folder_are_no_submissions(
@@ -300,7 +396,7 @@ def test_a_starting_assignment_asks_all_there_is(tmp_path: Path, capsys: pytest.
         "name: skate\ncoordinates: [x, y, theta]\nconstraints:\n"
         "- {name: blade, type: equation, text: xdot sin(theta) = ydot cos(theta)}\n- x^2 <= 4\n"
     )
-    cli.app(["assignment", "new", str(scene), str(scene)], standalone_mode=False)
+    cli.app(["assignment", "new", "--all", str(scene), str(scene)], standalone_mode=False)
     made = tmp_path / "made.yaml"
     made.write_text(capsys.readouterr().out)
     prepared = dofkit.load_assignment(made)
@@ -495,3 +591,26 @@ def test_too_little_time_needs_a_review_and_makes_nothing_wrong(name: str, secon
         result = here.grade(of_value({"student": "s", "answers": {problem: {question: answer}}}, "s"))
         found = next(item.status for item in result.items if (item.problem, item.question) == (problem, question))
         assert found in (status, "needs_review"), answer
+
+
+def test_what_is_doubtful_is_told_on_standard_error(
+    assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "roster.csv").write_text("name\nAda\nBob\n")
+    (tmp_path / "Ada.yaml").write_text("student: Bob\np: {f: 1}")
+    given = (
+        "grade",
+        assignment,
+        str(tmp_path / "Ada.yaml"),
+        "--workers",
+        "1",
+        "--roster",
+        str(tmp_path / "roster.csv"),
+    )
+    status, (told,), err = lines_of(capsys, *given)
+    assert (status, told["student"]) == (0, "Ada")
+    assert err == "a person has to say whose they are: 1 of the submissions have a 'doubt'\n"
+    (tmp_path / "roster.csv").write_text("grade\n1\n")
+    status, told, err = lines_of(capsys, *given)
+    assert (status, told) == (2, [])
+    assert "tells nobody apart" in err

@@ -19,7 +19,7 @@ from dofkit.homework.runs.in_order import in_order
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.interface import cli
 
-distributed: Any = pytest.importorskip("distributed")
+distributed: Any = pytest.importorskip("distributed", reason="a cluster needs the extra `cluster`")
 
 SCENE = {"coordinates": ["x", "y"], "constraints": [{"name": "circle", "type": "equation", "text": "x^2 + y^2 = 1"}]}
 QUESTIONS = [{"id": "f", "ask": "dof"}, {"id": "eq", "ask": "equation", "constraint": "circle"}]

@@ -21,6 +21,7 @@ TOLD = [
     *(path for path in (ROOM / "key").glob("*.py") if path.name != "codes.py"),
     *(ROOM / "answers").glob("*.py"),
     ROOM / "grading.py",
+    ROOM / "handout" / "composition.py",
     ROOM / "judgement.py",
 ]
 #: Calls whose texts are for lecturers, or are no sentences.

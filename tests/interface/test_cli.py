@@ -198,7 +198,7 @@ def test_a_closed_pipe_is_no_failure(files: Path) -> None:
     assert told.stderr == ""
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals")
+@pytest.mark.skipif(os.name == "nt", reason="Windows cannot interrupt one process alone")
 def test_an_interrupt_is_no_traceback() -> None:
     """It comes while the standard input is read: more is written than a pipe holds, and still more is waited for."""
     code = "import signal\nfrom dofkit.interface import cli\nsignal.signal(2, signal.default_int_handler)\ncli.main()"

@@ -61,6 +61,14 @@ def test_a_report_is_the_same_with_and_without_what_it_is_about() -> None:
     assert repr(report).startswith("Report(scene=")
 
 
+def test_what_a_notebook_offers_of_a_report_are_its_fields() -> None:
+    report = dofkit.classify(DISC)
+    offered = {name for name in dir(report) if not name.startswith("_")}
+    own = {"beside", "text", "model_copy", "model_dump", "model_dump_json", "model_validate", "model_validate_json"}
+    assert offered == {*Report.model_fields, *own}
+    assert {"constraints", "title", "parse_raw"} - set(dir(dofkit.load(DISC))) == {"parse_raw"}
+
+
 def test_a_report_in_a_notebook() -> None:
     html = shown(dofkit.classify(DISC))
     assert "<math" in html
@@ -68,8 +76,8 @@ def test_a_report_in_a_notebook() -> None:
     assert "non-holonomic, scleronomic" in words(html)
     assert "degrees of freedom 4 dimension of the configuration space" in words(html)
     style = dofkit.classify(DISC)._repr_html_().partition("</style>")[0]
-    assert "prefers-color-scheme:dark" in style
-    assert "data-jp-theme-light" in style
+    assert "light-dark(" in style
+    assert "[data-jp-theme-light=false] .dofkit" in style
 
 
 def test_joints_are_words_and_equations_are_mathematics() -> None:

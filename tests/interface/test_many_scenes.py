@@ -21,8 +21,11 @@ import dofkit
 import dofkit.interface.one_file
 from dofkit.interface import cli
 from dofkit.interface.progress import Progress
+from dofkit.interface.show.changes import changed
+from dofkit.interface.show.sheet import Remark
 from dofkit.interface.streams import colours_of
 from dofkit.interface.summary import Summary
+from dofkit.report import FieldVerdict
 
 FOUR = ("atwood-machine", "disc-rolling-on-plane", "five-particles-ten-links", "four-bar-linkage")
 DOOR = """
@@ -166,9 +169,25 @@ def test_a_redundant_one_is_not_missed(capsys: pytest.CaptureFixture[str], tmp_p
     file = tmp_path / "twice.yaml"
     file.write_text("coordinates: [x]\nconstraints: [x >= 0, 2 x >= 0]\n", encoding="utf-8")
     _, out, _ = called(capsys, "classify", "--without", "c2", str(file))
-    assert "Without c2\n  nothing changes: what is left says as much\n" in out
+    assert "Without c2\n  no number and no label that is compared here changes\n" in out
     _, out, _ = called(capsys, "classify", "--without", "c2,c1", str(file))
     assert "Without c2, c1\n  the system: non-holonomic, scleronomic -> holonomic, scleronomic\n" in out
+
+
+def test_what_is_no_number_is_missed_all_the_same(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """A second inequality bounds the motion, though it changes no number and no label."""
+    file = tmp_path / "quarter.yaml"
+    file.write_text("coordinates: [x, y]\nconstraints: [x >= 0, y >= 0]\n", encoding="utf-8")
+    _, out, _ = called(capsys, "classify", "--without", "c2", str(file))
+    assert "Without c2\n  no number and no label that is compared here changes\n" in out
+
+
+def test_what_is_undecided_is_not_said_to_be_the_same() -> None:
+    report = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x = y"]})
+    sure = {**report.verdicts, "dof": FieldVerdict(verdict="undecided")}
+    unsure = report.model_copy(update={"dof": None, "verdicts": sure})
+    said = changed(unsure, unsure, ["c1"]).parts
+    assert said == [Remark("undecided", "whether this changes: degrees of freedom")]
 
 
 # Exit status
@@ -344,7 +363,7 @@ def test_forced_colours_are_in_reports_lines_and_faults(monkeypatch: pytest.Monk
 # Watching
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals")
+@pytest.mark.skipif(os.name == "nt", reason="Windows cannot interrupt one process alone")
 def test_a_file_is_watched(tmp_path: Path) -> None:
     file = tmp_path / "scene.yaml"
     file.write_text("coordinates: [x, y]\n", encoding="utf-8")

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 import dofkit
 from dofkit.base.verdicts import VERDICTS
+from dofkit.benchmark.trials.chains import car
 from dofkit.exact.engines import BOTH
 from dofkit.interface.cli import app
 from dofkit.methods.names import MethodName
@@ -151,6 +152,14 @@ def test_zero_is_never_proved_by_one_engine() -> None:
         report = told(method, text)
         assert (report.constraints[0].exact, report.constraints[0].holonomic, report.dof) == (True, True, 2)
         assert verdicts(report) == (sure,)
+
+
+def test_balls_alone_tell_no_freedom_where_brackets_may_be_lost_to_the_precision() -> None:
+    """A car with trailers reaches everything [Laumond1993]: f = n + 4; each bracket is smaller than the one before."""
+    few, many = (dofkit.classify(car(n), method="balls") for n in (4, 20))
+    assert few.dof == 8
+    assert (many.dof, many.verdicts["dof"].verdict) == (None, "undecided")
+    assert not [c.name for c in many.constraints if c.holonomic is True]
 
 
 def test_a_field_alone_does_not_tell_whether_anything_real_is_left() -> None:

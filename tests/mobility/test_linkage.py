@@ -318,7 +318,6 @@ def test_larger_graphs(seed: int, d: int) -> None:
 @pytest.mark.xdist_group("compiled")
 @pytest.mark.parametrize("d", [1, pytest.param(2, marks=pytest.mark.sweep)])
 def test_compiled_loops_give_the_same(d: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("numba")
     lists = [middling(seed, d) for seed in range(25)]
     plain = [answers(dofkit.linkage(links, d)) for links in lists]
     monkeypatch.setattr(compiled, "WORTH_COMPILING", 0)
@@ -339,7 +338,8 @@ def test_many_circuits_at_once_are_the_same(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_rigidity_as_pyrigi_tells_it() -> None:
-    pyrigi = pytest.importorskip("pyrigi")
+    import pyrigi
+
     for seed in range(24):
         rng = random.Random(seed)
         n, d = rng.randint(3, 8), 2 + seed % 4 // 3

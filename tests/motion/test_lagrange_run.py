@@ -75,12 +75,10 @@ def drift(made: Scene, begin: Sequence[float] = ()) -> float:
 
 @pytest.mark.parametrize("name", CONSERVATIVE)
 def test_energy_is_conserved_along_a_run(name: str) -> None:
-    pytest.importorskip("scipy")
     assert drift(dofkit.load(name)) < 1e-9
 
 
 def test_energy_is_conserved_with_multipliers() -> None:
-    pytest.importorskip("scipy")
     sleigh = scene("sin(theta) dx = cos(theta) dy", coordinates="x y theta", **energies(f"{PLANE} + 2 thetadot^2", "y"))
     assert drift(sleigh, [0.1, 0.2, 0.0, 0.7, 0.0, 0.4]) < 1e-9
     two = scene(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -69,6 +71,38 @@ def test_the_picture_tells_the_growth_and_what_is_shown() -> None:
     assert "Growth vector (2, 3, 4)" in sketch.alternative
     names = {s.text for s in sketch.shapes if s.kind == "words"}
     assert {"X1", "X2", "[X1, X2]"} <= names
+
+
+@pytest.mark.parametrize("text", ["xdot^2 + ydot^2 = zdot^2", "xdot ydot = 0"])
+def test_what_is_not_linear_in_velocities_has_no_directions(text: str) -> None:
+    """No field of planes is what a cone of velocities allows, and none of its directions is a motion by itself."""
+    scene = {"coordinates": ["x", "y", "z"], "constraints": [text]}
+    with pytest.raises(NoFormsError, match="linear in the velocities"):
+        dofkit.phase(scene)
+    drawn = dofkit.draw(scene).sketch
+    assert not [s for s in drawn.shapes if s.role == "field"]
+    assert not [s for s in drawn.shapes if s.state == "moving"]
+    assert not any("first order" in clip.name for clip in dofkit.animate(scene).clips)
+
+
+def test_it_is_told_that_time_stands_still() -> None:
+    scene = {"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy + t dx"]}
+    assert "Time stands still here." in dofkit.phase(scene).sketch.notes[0]
+    assert not any("Time" in note for note in dofkit.phase(HEISENBERG).sketch.notes)
+
+
+def test_the_picture_of_the_start_page_is_of_today() -> None:
+    kept = (Path(dofkit.__file__).parent / "site" / "pages" / "disc.svg").read_text(encoding="utf-8")
+    drawn = dofkit.phase("disc-rolling-on-plane").svg()
+    for part in (r"<desc>.*?</desc>", r"<style>.*?</style>", r">[^<>]+</text>"):
+        assert re.findall(part, kept) == re.findall(part, drawn)
+
+
+def test_a_growth_vector_that_is_not_told_is_not_made_up() -> None:
+    report = dofkit.classify(HEISENBERG).model_copy(update={"growth_vector": None})
+    sketch = dofkit.phase(HEISENBERG, report).sketch
+    assert sketch.notes[0] == "No growth vector was decided; in floating point, at this place: (2, 3); shown: x, y, z."
+    assert sketch.notes[0] in sketch.alternative
 
 
 def test_small_discs_lie_in_what_is_allowed() -> None:

@@ -126,15 +126,15 @@ def test_other_endings_are_told(tmp_path: Path) -> None:
 
 
 def test_without_ffmpeg_an_mp4_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    animation = pytest.importorskip("matplotlib.animation")
-    monkeypatch.setattr(animation.FFMpegWriter, "isAvailable", classmethod(lambda cls: False))
+    from matplotlib.animation import FFMpegWriter
+
+    monkeypatch.setattr(FFMpegWriter, "isAvailable", classmethod(lambda cls: False))
     with pytest.raises(ExtraMissingError, match="ffmpeg"):
         dofkit.animate("crank-held-at-angle").save(tmp_path / "a.mp4")
 
 
 @pytest.mark.sweep
 def test_a_gif_moves(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
     from PIL import Image
 
     with Image.open(dofkit.animate("pendulum-in-plane").save(tmp_path / "a.gif")) as image:
@@ -144,7 +144,6 @@ def test_a_gif_moves(tmp_path: Path) -> None:
 @pytest.mark.sweep
 @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="needs ffmpeg")
 def test_an_mp4_is_written(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
     path = dofkit.animate("pendulum-in-plane").save(tmp_path / "a.mp4")
     assert b"ftyp" in path.read_bytes()[:16]
 
@@ -152,7 +151,6 @@ def test_an_mp4_is_written(tmp_path: Path) -> None:
 @pytest.mark.sweep
 @pytest.mark.parametrize("name", dofkit.catalog_names())
 def test_the_whole_catalog_is_animated(name: str) -> None:
-    pytest.importorskip("matplotlib")
     found = dofkit.animate(name)
     report = dofkit.classify(name)
     moves = bool(report.velocity_dof) or report.scleronomic is False

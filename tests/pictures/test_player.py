@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 import dofkit
+from dofkit.pictures.player import FRAME, page_height
 
 CHROMIUM = next(
     (path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None
@@ -63,6 +64,32 @@ def test_a_click_on_play_moves_a_body(viewer: Viewer, name: str, tmp_path: Path)
     assert int(viewer.page.input_value("#slider")) > 0
     assert viewer.page.inner_text("#play") == "Play"
     assert viewer.said == []
+
+
+def test_paper_is_dark_where_the_reader_has_it_so(viewer: Viewer, tmp_path: Path) -> None:
+    paper = "[...document.querySelector('canvas').getContext('2d').getImageData(3, 3, 1, 1).data].slice(0, 3)"
+    svg = "getComputedStyle(document.querySelector('rect')).fill"
+    try:
+        for scheme, colour in (("light", [255, 255, 255]), ("dark", [0x15, 0x1B, 0x23])):
+            viewer.page.emulate_media(color_scheme=scheme)
+            viewer.show(dofkit.animate("four-bar-linkage").save(tmp_path / "a.html"))
+            assert viewer.page.evaluate(paper) == colour
+            viewer.page.goto(dofkit.draw("four-bar-linkage").save(tmp_path / "a.svg").as_uri())
+            assert viewer.page.evaluate(svg) == f"rgb({', '.join(map(str, colour))})"
+    finally:
+        viewer.page.emulate_media(color_scheme="light")
+    assert viewer.said == []
+
+
+@pytest.mark.parametrize("name", ["four-bar-linkage", "planetary-gear-bodies", "disc-rolling-on-plane"])
+def test_a_page_fits_its_frame_in_a_notebook(viewer: Viewer, name: str, tmp_path: Path) -> None:
+    animation = dofkit.animate(name)
+    frame = page_height(animation.sketch, animation.clips)
+    viewer.page.set_viewport_size({"width": FRAME, "height": 1200})
+    viewer.show(animation.save(tmp_path / "a.html"))
+    needed = viewer.page.evaluate("document.body.getBoundingClientRect().bottom")
+    viewer.page.set_viewport_size({"width": 760, "height": 800})
+    assert needed <= frame <= needed + 60
 
 
 def test_the_slider_shows_any_frame(viewer: Viewer, tmp_path: Path) -> None:

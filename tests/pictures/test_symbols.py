@@ -26,6 +26,7 @@ PLANE: dict[str, dict[str, Any]] = {
     "string": {"along": [O2, [4, 0], "P"]},
     "gear": {"between": ["a", "b"], "ratio": -2},
     "cam": {"point": "P", "body": "a", "curve": "x^2 + y^2 = 25"},
+    "coupling": {"joints": ["u", "v"], "text": "v = 2 u"},
 }
 SPACE: dict[str, dict[str, Any]] = {
     "equation": {"text": "x_P^2 + y_P^2 + z_P^2 = 25"},
@@ -45,6 +46,7 @@ SPACE: dict[str, dict[str, Any]] = {
     "slot": {"point": "P", "body": "ground", "axis": X},
     "roll": {"body": "a", "radius": 2},
     "string": {"along": [O3, [4, 0, 0], "P"]},
+    "coupling": {"joints": ["u", "v"], "text": "v = 2 u"},
 }
 CASES = [(2, kind) for kind in PLANE] + [(3, kind) for kind in SPACE]
 
@@ -56,8 +58,18 @@ def scene(dimension: int, kind: str) -> dict[str, Any]:
         "dimension": dimension,
         "particles": [{"name": "P", "at": place}, {"name": "Q", "at": [4, 4, 0][:dimension]}],
         "bodies": ["a", "b"],
-        "constraints": [{"name": "it", "type": kind, **fields}],
+        "constraints": [{"name": "it", "type": kind, **fields}, *(_joints(dimension) if "joints" in fields else ())],
     }
+
+
+def _joints(dimension: int) -> list[dict[str, Any]]:
+    """Two hinges, named u and v."""
+    turning = {"type": "revolute", **({"axis": Z} if dimension == 3 else {})}
+    first, second = [0, 0, 0][:dimension], [2, 0, 0][:dimension]
+    return [
+        {"name": "u", "between": ["ground", "a"], "at": first, **turning},
+        {"name": "v", "between": ["a", "b"], "at": second, **turning},
+    ]
 
 
 @pytest.mark.parametrize("kind", TYPES)
@@ -76,8 +88,6 @@ def test_every_type_is_drawn_here_in_every_dimension_of_it() -> None:
 
 @pytest.mark.parametrize(("dimension", "kind"), CASES)
 def test_a_scene_of_each_type_shows_its_symbol(dimension: int, kind: str) -> None:
-    if TYPES[kind].symbol.run in ("locus", "profile"):
-        pytest.importorskip("matplotlib")
     sketch = dofkit.draw(scene(dimension, kind)).sketch
     own = [s for s in sketch.shapes if s.owner == "it" and s.kind != "words"]
     wheels = [s for s in sketch.shapes if s.role == "body" and s.owner in ("a", "b") and s.kind == "area"]

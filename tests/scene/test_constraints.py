@@ -20,6 +20,7 @@ from dofkit.system import System
 
 GROUND = "ground"
 AXIS = [2, -1, 2]
+Z = [0, 0, 1]
 PLACE = [1, 2, 3]
 AXES = [[1, 2, 2], [2, 1, -2]]
 
@@ -91,9 +92,20 @@ CASES: dict[tuple[str, int], tuple[dict[str, Any], int]] = {
     ("string", 3): ({"along": ["A", [0, 0, 0], "B"]}, 1),
     ("gear", 2): ({"between": ["b", "c"], "ratio": -2}, 1),
     ("cam", 2): ({"point": "A", "body": "b", "curve": "x^2 + 2 y^2 = 3"}, 1),
+    ("coupling", 2): ({"joints": ["u", "v"], "text": "v = 2 u"}, 1),
+    ("coupling", 3): ({"joints": ["u", "v"], "text": "v = 2 u"}, 1),
 }
 FIXED_POINTS = [({"point": "A"}, 1), ({"point": {"on": "b", "at": [1, 2]}}, 2), ({"point": "A"}, 3)]
 JOINTS = [case for case in CASES if "at" in CASES[case][0] or "axis" in CASES[case][0]]
+
+
+def hinges(dimension: int) -> list[dict[str, Any]]:
+    """u joins b to the ground, v joins c to b."""
+    turning = {"type": "revolute", "axis": Z} if dimension == 3 else {"type": "revolute"}
+    return [
+        {"name": "u", "between": [GROUND, "b"], "at": [0, 0, 0][:dimension], **turning},
+        {"name": "v", "between": ["b", "c"], "at": [1, 0, 0][:dimension], **turning},
+    ]
 
 
 def test_every_type_and_dimension_has_a_case() -> None:
@@ -104,7 +116,7 @@ def test_every_type_and_dimension_has_a_case() -> None:
 @pytest.mark.parametrize(("kind", "dimension"), CASES)
 def test_number_of_equations(kind: str, dimension: int) -> None:
     fields, expected = CASES[kind, dimension]
-    found = system(dimension, {"type": kind, **fields}, **P2)
+    found = system(dimension, {"type": kind, **fields}, *(hinges(dimension) if "joints" in fields else ()), **P2)
     assert len(found.constraints[0].relations) == expected
     assert found.constraints[0].type == kind
     assert found.constraints[0].text

@@ -132,6 +132,7 @@ def test_faults_stand_where_the_words_were_written() -> None:
 #: What is written wrongly ({A}: of a body a, {B}: and a particle A) -> what its hint shows.
 SHOWN: dict[str, tuple[str, str]] = {
     "a word that is understood": ("{A}[{type: pivot, between: [ground, a]}]", "{type: revolute,"),
+    "a misspelt other word": ("{A}[{type: hing, between: [ground, a]}]", "did you mean 'revolute'? for example"),
     "a pinned point": ("particles: [A]\nconstraints: [{type: pin, point: A}]", "{type: fixed, point: A}"),
     "a slider that is a point": ("particles: [A]\nconstraints: [{type: slider, point: A, body: a}]", "{type: slot,"),
     "a spring": ("particles: [A, B]\nconstraints: [{type: spring, between: [A, B]}]", "forces: [{type: spring,"),
@@ -154,6 +155,10 @@ SHOWN: dict[str, tuple[str, str]] = {
     "a place in the plane": ("{A}[{type: ball, between: [ground, a], at: [0, 1]}]", "`at: [0, 1, 0]`"),
     "an axis that is no direction": (
         "{A}[{type: hinge, between: [ground, a], at: [0, 0, 0], axis: w}]", "`axis: [0, 0, 1]`",
+    ),
+    "an axis out of the plane": (
+        "dimension: 2\n{A}[{type: slider, between: [ground, a], axis: z}]",
+        "a direction is x or y, or its components; for example `axis: [1, 0]`",
     ),
     "no axis": ("{A}[{type: hinge, between: [ground, a], at: [0, 0, 0]}]", "`axis: [0, 0, 1]`"),
     "a body for a point": ("{B}[{type: link, between: [a, A]}]", "`{on: a, at: [0, 0, 0]}`"),
@@ -191,6 +196,7 @@ def test_the_example_of_a_type_is_a_scene(kind: str) -> None:
         line = TYPES[kind].example(d)
         scene = dofkit.loads(
             f"dimension: {d}\nbodies: [crank, rod]\nparticles: [A, B, C]\ncoordinates: [x, y]\nconstraints:\n- {line}\n"
+            + "".join(f"- {other}\n" for other in TYPES[kind].beside.get(d, ()))
         )
         assert scene.constraints[0].kind() == kind
 

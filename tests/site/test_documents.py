@@ -23,9 +23,9 @@ from shared.documented import (
 import dofkit
 
 #: Kinds of blocks: data, what runs, and what is shown.
-KINDS = {"yaml", "csv", "python", "sh", "text"}
+KINDS = {"yaml", "xml", "csv", "python", "sh", "text"}
 #: Files that are no scene, or one with faults.
-NO_SCENES = ("sheet.yaml", "ada.yaml", "broken.yaml")
+NO_SCENES = ("sheet.yaml", "pendulum-sheet.yaml", "ada.yaml", "broken.yaml")
 PROGRAMS = [(document, block) for document in DOCUMENTS for block in blocks_of(document) if block.kind == "python"]
 COMMANDS = [(document, command) for document in DOCUMENTS for command in commands_of(document)]
 SCENES = [

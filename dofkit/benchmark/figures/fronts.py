@@ -15,6 +15,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 from dofkit.benchmark.figures.labels import Label, Piece, place
 from dofkit.benchmark.figures.style import QUESTIONS, WRONG, Look, looks, seconds_text, settle, sheet
 from dofkit.benchmark.record import ALL, AUTO, ChartRun, Front, Score
+from dofkit.benchmark.sentences import percent
 
 #: Points of a mark's radius.
 RADIUS = 4.5
@@ -146,16 +147,6 @@ def _high(score: Score) -> float:
 def _not_right(score: Score) -> float:
     """Per cent of the trials; at the mark for none where there are none."""
     return max(NONE, 100 * (1 - score.share_right))
-
-
-def percent(share: float) -> str:
-    """Never rounded to 0 or 100 where it is not."""
-    value = 100 * share
-    if 0 < value < 0.1:
-        return "<0.1 %"
-    if 99.9 < value < 100:
-        return ">99.9 %"
-    return f"{value:.1f} %" if (0 < value < 10 or 90 < value < 100) else f"{value:.0f} %"
 
 
 def _legend() -> list[Line2D]:

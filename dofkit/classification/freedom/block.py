@@ -12,6 +12,7 @@ from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.drawing.at_reference import at_reference
 from dofkit.configuration.drawing.measured_blocks import is_measured
 from dofkit.configuration.finite_blocks import finite_answer
+from dofkit.configuration.level_bodies import LEVEL, level_angle
 from dofkit.configuration.linear_blocks import confirmed, eliminated
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
@@ -50,6 +51,10 @@ IRREGULAR = (
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block, and how large the model was."""
     found = _engines(block, setting)
+    level = None if found.dof is None or setting.reference is not None else level_angle(block, setting)
+    if level is not None:
+        reasons = [*found.reasons, LEVEL.format(level)]
+        found = replace(found, dof=None, velocity_dof=None, growth=None, verdict="undecided", reasons=reasons)
     differential = bool(block.forms or block.nonlinear)
     tested = differential or "closed" not in setting.reductions
     own = Size(len(block.coordinates), len(block.finite), len(block.rows) if tested else 0)

@@ -40,6 +40,7 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         geometric=frozenset(i for i, c in enumerate(system.constraints) if not c.facts.written or c.facts.contact),
         bodies=_turned(system) if system.tolerance else (),
         centre=_centre(system) if system.tolerance else (),
+        tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
     )
     return reduced, setting
 

@@ -136,8 +136,9 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
-        follow = verb(len(names), "follows", "follow")
-        reason += f" Of its {made.equations} equations {len(names)} {follow} from those before: {'; '.join(names)}."
+        few = f"Of its {made.equations} equations {len(names)} {verb(len(names), 'follows', 'follow')}"
+        told = few if made.independent else f"All its {made.equations} equations follow"
+        reason += f" {told} from those before: {'; '.join(names)}."
     return made.model_copy(update={"redundant_equations": names, "reason": reason})
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -19,18 +20,21 @@ Balls = Sequence[Sequence[arb]]
 class PivotedPart(NamedTuple):
     """``rows`` (the first that are independent) and ``columns`` of a regular part.
 
-    ``gap``: the smallest pivot by the largest number that is left, each as a fraction of its row.
+    ``gap``: the smallest pivot by the largest number that is left, each as a fraction of its row; ``fall``: the
+    largest ratio of a pivot to the next smaller one. Where pivots fall from one to the next, only a gap that is wider
+    by far tells that no further one was lost.
     """
 
     rank: int
     gap: float
     rows: list[int]
     columns: list[int]
+    fall: float = 1.0
 
 
 def middles(matrix: Balls) -> np.ndarray:
-    """The balls' middles in floating point."""
-    return np.array([[float(v.mid()) for v in row] for row in matrix])
+    """The balls' middles in floating point, each row as a fraction of its largest entry."""
+    return np.array([[float(v.mid() / _scale(row)) for v in row] for row in matrix])
 
 
 def ball_part(matrix: Balls) -> PivotedPart:
@@ -45,17 +49,18 @@ def ball_part(matrix: Balls) -> PivotedPart:
 def _in_order(matrix: Balls) -> PivotedPart:
     kept: list[tuple[list[arb], int]] = []
     rows: list[int] = []
-    small, left = math.inf, 0.0
+    sizes: list[float] = []
+    left = 0.0
     for r, row in enumerate(matrix):
         rest = _reduced(row, kept)
         c = _pivot(rest)
         if c < 0:
-            left = max(left, _largest(rest) / _scale(row))
+            left = max(left, _share(_largest(rest), row))
         else:
             kept.append((rest, c))
             rows.append(r)
-            small = min(small, float(rest[c].abs_lower()) / _scale(row))
-    return PivotedPart(len(rows), _ratio(small, left), rows, [c for _, c in kept])
+            sizes.append(_share(rest[c].abs_lower(), row))
+    return PivotedPart(len(rows), _ratio(sizes, left), rows, [c for _, c in kept], _fall(sizes))
 
 
 def _reduced(row: Sequence[arb], kept: Sequence[tuple[list[arb], int]]) -> list[arb]:
@@ -77,17 +82,29 @@ def _pivot(row: Sequence[arb]) -> int:
     return best
 
 
-def _scale(row: Sequence[arb]) -> float:
+def _scale(row: Sequence[arb]) -> arb:
     """The size of a row's largest entry; 1 for a row of zeros."""
-    return max((float(v.abs_lower()) for v in row), default=0.0) or 1.0
+    largest = max((v.abs_lower() for v in row), default=arb(0))
+    return arb(1) if largest == 0 else largest
 
 
-def _largest(row: Sequence[arb]) -> float:
-    return max((float(v.abs_upper()) for v in row), default=0.0)
+def _largest(row: Sequence[arb]) -> arb:
+    return max((v.abs_upper() for v in row), default=arb(0))
 
 
-def _ratio(small: float, left: float) -> float:
-    return math.inf if left == 0 or math.isinf(small) else small / left
+def _share(size: arb, row: Sequence[arb]) -> float:
+    """A number as a fraction of a row's largest entry, which floating point may be too small for."""
+    return float(size / _scale(row))
+
+
+def _ratio(sizes: Sequence[float], left: float) -> float:
+    return min(sizes) / left if sizes and left else math.inf
+
+
+def _fall(sizes: Sequence[float]) -> float:
+    """The largest ratio of neighbours, in order of size."""
+    ordered = sorted(sizes)
+    return max((b / a if a else math.inf for a, b in pairwise(ordered)), default=1.0)
 
 
 def _chosen_first(matrix: Balls) -> PivotedPart:
@@ -100,8 +117,9 @@ def _chosen_first(matrix: Balls) -> PivotedPart:
             return _in_order(matrix)
         found = next(((r, c) for r, row in zip(others, rest, strict=True) if (c := _pivot(row)) >= 0), None)
         if found is None:
-            left = max((_largest(row) / _scale(matrix[r]) for r, row in zip(others, rest, strict=True)), default=0.0)
-            return PivotedPart(len(rows), _ratio(_smallest(matrix, rows), left), rows, columns)
+            left = max((_share(_largest(row), matrix[r]) for r, row in zip(others, rest, strict=True)), default=0.0)
+            sizes = _singular_values(matrix, rows)
+            return PivotedPart(len(rows), _ratio(sizes, left), rows, columns, _fall(sizes))
         rows, columns = sorted([*rows, found[0]]), [*columns, found[1]]
 
 
@@ -119,13 +137,13 @@ def _complement(
     return [[rest[i, j] for j in range(rest.ncols())] for i in range(rest.nrows())]
 
 
-def _smallest(matrix: Balls, rows: Sequence[int]) -> float:
-    """The smallest singular value of some rows, each scaled to length 1."""
+def _singular_values(matrix: Balls, rows: Sequence[int]) -> list[float]:
+    """The singular values of some rows, each scaled to length 1."""
     chosen = middles([matrix[r] for r in rows])
     if not chosen.size:
-        return math.inf
+        return []
     norms = np.linalg.norm(chosen, axis=1, keepdims=True)
-    return float(np.linalg.svd(chosen / np.where(norms > 0, norms, 1.0), compute_uv=False)[-1])
+    return [*map(float, np.linalg.svd(chosen / np.where(norms > 0, norms, 1.0), compute_uv=False))]
 
 
 def combinations_of(

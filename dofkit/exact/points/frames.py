@@ -10,6 +10,7 @@ from flint import arb, arb_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import PoleError, raising_no_value
+from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
 from dofkit.exact.points.series import Series
 from dofkit.exact.ring.instructions import Scalar
@@ -87,27 +88,7 @@ def field_rank(rows: Sequence[Sequence[Any]], p: int) -> int:
 
 def certified_rank(rows: Sequence[Sequence[arb]]) -> int:
     """A lower bound of a ball matrix's rank that is proved: elimination with pivots whose balls exclude 0."""
-    work = [list(row) for row in rows]
-    rank, n = 0, len(work[0]) if work else 0
-    used: set[int] = set()
-    for c in range(n):
-        best, size = -1, arb(0)
-        for r, row in enumerate(work):
-            if r not in used and not row[c].contains(0):
-                low = row[c].abs_lower()
-                if best < 0 or low > size:
-                    best, size = r, low
-        if best < 0:
-            continue
-        used.add(best)
-        rank += 1
-        pivot = work[best]
-        for r, row in enumerate(work):
-            if r not in used:
-                factor = row[c] / pivot[c]
-                work[r] = [a - factor * b for a, b in zip(row, pivot, strict=True)]
-                work[r][c] = arb(0)
-    return rank
+    return ball_part(rows).rank
 
 
 def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list[Scalar]]:

@@ -122,7 +122,15 @@ def _at_signs(text: str) -> Iterator[tuple[int, int]]:
         depth += (char in "([{") - (char in ")]}")
         if char in ";" + ARROW or (char == "," and depth <= 0 and not _DECIMAL.match(text, i)):
             yield i, i + 1
-    yield from (m.span() for m in _ENUMERATED.finditer(text))
+    yield from (m.span() for m in _ENUMERATED.finditer(text) if not _within_brackets(text[: m.start()]))
+
+
+def _within_brackets(before: str) -> bool:
+    """Is a parenthesis open behind a text? One that closes none, as behind an equation's number, counts nothing."""
+    depth = 0
+    for char in before:
+        depth = max(0, depth + (char == "(") - (char == ")"))
+    return depth > 0
 
 
 def _at_words(text: str, names: Names) -> Iterator[tuple[int, int]]:

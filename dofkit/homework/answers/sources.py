@@ -7,14 +7,17 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import stat
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
 from itertools import islice
 from typing import Any, BinaryIO
 
+from dofkit.homework.answers.roster import named_by
 from dofkit.homework.answers.submission import (
     MOST_BYTES,
     FilePlace,
@@ -24,11 +27,17 @@ from dofkit.homework.answers.submission import (
     of_value,
     reason,
     refused,
+    shaped,
 )
 from dofkit.homework.answers.tables import DELIMITERS, MOST_CHARACTERS, STUDENT, Columns, TableError, rows
 
 DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), (".csv", ".tsv")
 STDIN = "-"
+#: What a file with answers is called that tells nothing of who hands it in.
+GENERIC = frozenset({"answers", "answer", "submission", "solution", "antworten", "abgabe", "homework", "sheet"})
+#: What Gradescope puts beside the folders of submissions that are downloaded, and what it says of each.
+METADATA = "submission_metadata.yml"
+_SUBMITTED = re.compile(r"^(?P<folder>submission_\d+):|^\s+(?:- )?:(?P<what>name|email): *(?P<said>.+)$", re.MULTILINE)
 #: Files that systems leave in folders.
 _LEFT = frozenset({"thumbs.db", "desktop.ini", "__macosx"})
 
@@ -37,20 +46,22 @@ _LEFT = frozenset({"thumbs.db", "desktop.ini", "__macosx"})
 class Handed:
     """What was handed in at a place: the text of a document, the mapping of a table's row, or why there is neither.
 
-    ``name``: the student's name where it gives none.
+    ``name``: the student's name where it gives none. ``claims``: the names of the file and of the folders it was found
+    in, the innermost first: a roster knows whether they are somebody's.
     """
 
     name: str
     place: FilePlace
     data: bytes | Mapping[str, object] | None = None
     error: str = ""
+    claims: tuple[str, ...] = ()
 
-    def submissions(self) -> list[Submission]:
-        """Read it."""
+    def submissions(self, known: Columns) -> list[Submission]:
+        """Read it; ``known``: the assignment's columns."""
         if self.data is None:
             return [refused(self.name, self.place, self.error)]
         if isinstance(self.data, bytes):
-            return of_text(self.data, self.name, self.place)
+            return of_text(self.data, self.name, self.place, known)
         return [of_value(self.data, self.name, self.place)]
 
     def digest(self) -> str:
@@ -68,9 +79,9 @@ class Handed:
 def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], known: Columns) -> Submission:
     """The one submission of a file or folder, or of a mapping ``{student, answers}``."""
     if isinstance(source, Mapping):
-        return of_value(source, "")
+        return of_value(shaped(source, known), "")
     path = os.fspath(source)
-    found = list(islice((one for h in hand_ins([path], known) for one in h.submissions()), 2))
+    found = list(islice((one for h in hand_ins([path], known) for one in h.submissions(known)), 2))
     if len(found) == 1:
         return found[0]
     return refused(_stem(clean(path)), FilePlace(clean(path)), "it holds more than one submission")
@@ -85,10 +96,55 @@ def hand_ins(sources: Sequence[str], known: Columns, others: Iterable[str | os.P
     for source in sources:
         nothing = True
         for one in _source(source, known, left_out):
-            yield one
+            yield _claimed(one, source)
             nothing = False
         if nothing:
             yield _unreadable(source, "there is no submission in it")
+
+
+def _claimed(one: Handed, source: str) -> Handed:
+    """The same with who may have handed it in, by the names of its file and of its folders below ``source``.
+
+    A document called "answers" or the like, or as Moodle calls it, is its folder's, or that of the name that Moodle
+    gives.
+    """
+    path = one.place.file
+    if source == STDIN or not path:
+        return one
+    folder = os.path.isdir(source)
+    within = os.path.relpath(path, clean(source)) if folder else os.path.join(*_last_two(path))
+    *folders, _ = [part for part in within.split(os.sep) if part not in ("", os.curdir, os.pardir)]
+    stem = _stem(path)
+    claims = (stem, *reversed(folders)) if folder or stem.lower() in GENERIC else (stem,)
+    if folder and folders and (submitter := submitters(source).get(folders[0])):
+        return replace(one, claims=(*claims, submitter), name=submitter if one.name == stem else one.name)
+    if one.name != stem or not isinstance(one.data, bytes | None):
+        return replace(one, claims=claims)
+    own = claims[1] if stem.lower() in GENERIC and len(claims) > 1 else stem
+    return replace(one, claims=claims, name=next(named_by(own)))
+
+
+@lru_cache(maxsize=4)
+def submitters(source: str) -> dict[str, str]:
+    """Of every folder that Gradescope's export has whose it is: the address, else the name; several by commas."""
+    try:
+        with open(os.path.join(source, METADATA), "rb") as file:
+            text = file.read(MOST_BYTES).decode("utf-8", "replace")
+    except OSError:
+        return {}
+    found: dict[str, dict[str, list[str]]] = {}
+    folder = ""
+    for said in _SUBMITTED.finditer(text):
+        folder = said["folder"] or folder
+        if said["what"] and folder:
+            found.setdefault(folder, {}).setdefault(said["what"], []).append(clean(said["said"]).strip("\"' \r"))
+    told = {folder: fields.get("email") or fields.get("name", []) for folder, fields in found.items()}
+    return {folder: ", ".join(filter(None, names)) for folder, names in told.items() if any(names)}
+
+
+def _last_two(path: str) -> tuple[str, str]:
+    folder, name = os.path.split(path)
+    return os.path.basename(folder), name
 
 
 def _source(source: str, known: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
@@ -107,7 +163,7 @@ def _folder(folder: str, known: Columns, left_out: frozenset[str]) -> Iterator[H
         return
     for name, is_folder, is_link in entries:
         path = os.path.join(folder, name)
-        if name.startswith(".") or name.lower() in _LEFT or os.path.realpath(path) in left_out:
+        if name.startswith(".") or name.lower() in (*_LEFT, METADATA) or os.path.realpath(path) in left_out:
             continue
         if is_link:
             yield _unreadable(path, "it is a link, which is not followed")
@@ -203,10 +259,11 @@ def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
     try:
         for row in rows(lines, known):
             place = FilePlace(file, row.line)
+            student = row.student or _stem(file)
             if row.error is not None:
                 yield Handed(row.student, place, error=row.error)
             else:
-                yield Handed(row.student, place, {"student": row.student, "answers": row.answers})
+                yield Handed(student, place, {"student": student, "answers": row.answers})
     except (TableError, UnicodeError) as error:
         yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
 

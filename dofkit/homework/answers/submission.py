@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral
+from types import MappingProxyType
 from typing import Any
 
 from dofkit.base.documents import Document, read_document
@@ -69,8 +70,14 @@ class Submission:
 _NOWHERE = FilePlace()
 
 
-def of_text(data: bytes | str, name: str, place: FilePlace) -> list[Submission]:
-    """The submissions of a JSON or YAML text: one, or a list of them; ``name`` is the student's where it gives none."""
+def of_text(
+    data: bytes | str, name: str, place: FilePlace, known: Mapping[str, tuple[str, str]] = MappingProxyType({})
+) -> list[Submission]:
+    """The submissions of a JSON or YAML text: one, or a list of them; ``name`` is the student's where it gives none.
+
+    ``known``: the problem and the question of every ``PROBLEM.QUESTION``, for answers that stand there without
+    ``answers:``, or in one line.
+    """
     if len(data) > MOST_BYTES:
         return [refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")]
     document = _with_backslashes(data, name)
@@ -81,12 +88,44 @@ def of_text(data: bytes | str, name: str, place: FilePlace) -> list[Submission]:
         told = "; ".join(place.message(_ours(fault)) for fault in faults[:MOST_FAULTS])
         return [Submission(student, error=told, place=place)]
     if not isinstance(value, list):
-        return [of_value(value, name, place, document)]
+        return [of_value(shaped(value, known), name, place, document)]
     if not value:
         return [refused(name, place, "there is no submission in it", _SHAPE)]
     return [
-        of_value(one, name, FilePlace(place.file, document.place((i,))[0]), document, i) for i, one in enumerate(value)
+        of_value(shaped(one, known), name, FilePlace(place.file, document.place((i,))[0]), document, i)
+        for i, one in enumerate(value)
     ]
+
+
+def shaped(value: Any, known: Mapping[str, tuple[str, str]]) -> Any:
+    """A submission as ``{student, answers: {PROBLEM: {QUESTION: answer}}}``; what is no other form of it, as it is.
+
+    >>> shaped({"p": {"f": 1}, "q.g": 2}, {"p.f": ("p", "f"), "q.g": ("q", "g")})
+    {'answers': {'p': {'f': 1}, 'q': {'g': 2}}}
+    """
+    if not isinstance(value, Mapping):
+        return value
+    bare = "answers" not in value
+    answers = {key: each for key, each in value.items() if key != "student"} if bare else value["answers"]
+    problems = {problem for problem, _ in known.values()}
+    if not isinstance(answers, Mapping) or not any(str(key) in problems or str(key) in known for key in answers):
+        return value
+    if bare and not all(
+        each is None or isinstance(each, Mapping) or str(key) in known for key, each in answers.items()
+    ):
+        return value
+    found: dict[Any, Any] = {}
+    for key, each in answers.items():
+        problem, question = known.get(str(key), (str(key), ""))
+        if each is None or isinstance(each, Mapping):
+            problem, more = str(key), each or {}
+        elif question and isinstance(found.get(problem, {}), Mapping):
+            more = {question: each}
+        else:
+            return value
+        found[problem] = {**found.get(problem, {}), **more}
+    kept = {key: each for key, each in value.items() if key == "student" or not bare}
+    return {**kept, "answers": found}
 
 
 def _with_backslashes(data: bytes | str, name: str) -> Document:

@@ -1,6 +1,8 @@
 """Tables of answers, as spreadsheets write them: a header ``student,PROBLEM.QUESTION,...``, then a row a student.
 
-Rows are taken one by one. A row that is broken is told with its line, and the rows after it are read all the same.
+Rows are taken one by one. A row that is broken is told with its line, and the rows after it are read all the same. A
+table without the column ``student``, whose every column is a question, is one person's: that of its only row. A table
+whose header names no question at all is nobody's: no row of it is graded, for each would be worth nothing.
 """
 
 from __future__ import annotations
@@ -11,11 +13,14 @@ from dataclasses import dataclass
 from io import StringIO
 from itertools import chain, islice
 
+from dofkit.base.spelling import nearest
 from dofkit.homework.answers.submission import clean
 
 #: What columns may be separated by, the most usual first.
 DELIMITERS = ",;\t|"
 STUDENT = "student"
+#: Names that a message lists.
+MOST_LISTED = 12
 #: Lines that one row may run over, and characters that it may hold.
 MOST_LINES, MOST_CHARACTERS = 200, 1_000_000
 csv.field_size_limit(MOST_CHARACTERS)
@@ -42,7 +47,7 @@ class TableError(ValueError):
 class Header:
     """How a table is written: its delimiter, which column names the student, and what the others answer.
 
-    ``fault``: why no row of it can be graded.
+    ``student``: -1 where there is no such column. ``fault``: why no row of it can be graded.
     """
 
     delimiter: str
@@ -52,17 +57,28 @@ class Header:
 
 
 def rows(lines: Iterable[str], known: Columns) -> Iterator[TableRow]:
-    """The rows of a table, blank ones apart. Raises TableError where it has no header.
+    """The rows of a table, blank ones apart; ``student`` is empty where it has no such column. Raises TableError.
 
     ``lines`` keep their ends; bytes that are no UTF-8 stand in them as lone surrogates. ``known``: the columns of the
     assignment, which tell where a name with several dots is to be cut.
     """
     numbered = _Lines(lines)
     header = _header(numbered, known)
-    for number, cells, error in _records(numbered, header.delimiter):
-        if error is None and not any(cell.strip() for cell in cells):
-            continue
-        yield _row(header, number, cells, error or header.fault)
+    found = (
+        _row(header, number, cells, error or header.fault)
+        for number, cells, error in _records(numbered, header.delimiter)
+        if error is not None or any(cell.strip() for cell in cells)
+    )
+    yield from found if header.student >= 0 else _only(found)
+
+
+def _only(found: Iterator[TableRow]) -> Iterator[TableRow]:
+    """The one row of a table that does not say whose it is."""
+    first, second = next(found, None), next(found, None)
+    if second is not None:
+        raise TableError(f"its header has no column '{STUDENT}', and there is more than one row")
+    if first is not None:
+        yield first
 
 
 class _Lines:
@@ -137,10 +153,11 @@ def _header(lines: _Lines, known: Columns) -> Header:
     while names and not names[-1]:
         names.pop()
     lower = [name.lower() for name in names]
-    if error is not None or STUDENT not in lower:
+    if error is not None or (STUDENT not in lower and not all(name in known for name in names)):
         shown = clean(", ".join(names))[:80]
         raise TableError(error or f"its header has no column '{STUDENT}' but {shown}")
-    return _header_of(delimiter, names, lower.index(STUDENT), known, lines.number)
+    student = lower.index(STUDENT) if STUDENT in lower else -1
+    return _header_of(delimiter, names, student, known, lines.number)
 
 
 def _names(line: str, delimiter: str) -> list[str]:
@@ -149,15 +166,25 @@ def _names(line: str, delimiter: str) -> list[str]:
 
 def _header_of(delimiter: str, names: list[str], student: int, known: Columns, line: int) -> Header:
     twice = next(
-        (n for i, n in enumerate(names) if n and (n in names[:i] or (i > student and n.lower() == STUDENT))), ""
+        (n for i, n in enumerate(names) if n and (n in names[:i] or (i > student >= 0 and n.lower() == STUDENT))), ""
     )
     fault = None
     if twice:
         fault = f"the header (line {line}) has the column '{clean(twice)[:60]}' twice"
     elif "" in names:
         fault = f"column {names.index('') + 1} of the header (line {line}) has no name"
+    elif not any(name in known for name in names):
+        fault = f"the header (line {line}) names no question: {_meant(names, student, known)}"
     asked = [None if i == student else known.get(name) or _split(name) for i, name in enumerate(names)]
     return Header(delimiter, student, tuple(asked), fault)
+
+
+def _meant(names: list[str], student: int, known: Columns) -> str:
+    """What the columns could have been called."""
+    others = [name for i, name in enumerate(names) if i != student]
+    near = next((f"'{near}' for '{clean(name)[:60]}'" for name in others if (near := nearest(name, known))), None)
+    shown = ", ".join(list(known)[:MOST_LISTED]) + (", ..." if len(known) > MOST_LISTED else "")
+    return f"write {near or shown}" if near or shown else "nothing is asked"
 
 
 def _split(name: str) -> tuple[str, str]:
@@ -167,10 +194,11 @@ def _split(name: str) -> tuple[str, str]:
 
 def _row(header: Header, line: int, cells: list[str], error: str | None) -> TableRow:
     width = len(header.asked)
-    student = clean(cells[header.student]).strip() if len(cells) > header.student else ""
+    named = header.student >= 0
+    student = clean(cells[header.student]).strip() if named and len(cells) > header.student else ""
     if error is None and (len(cells) < width or any(cell.strip() for cell in cells[width:])):
         error = f"the row has {len(cells)} cells, the header {width}"
-    if error is None and not student:
+    if error is None and named and not student:
         error = "the row names no student"
     if error is None and any(map(_undecoded, cells)):
         error = "the row is not in UTF-8 (save the table as UTF-8)"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -93,8 +93,14 @@ def alternatives(answer: Given) -> list[Given]:
     return [*parts] if all(part.strip() for part in parts) else [answer]
 
 
-def names_of(answer: object, known: Sequence[str], what: str) -> list[str]:
-    """The known names that an answer lists; remarks in parentheses and words around them are read over."""
+def names_of(answer: object, known: Sequence[str], what: str, others: Mapping[str, str] | None = None) -> list[str]:
+    """The known names that an answer lists; remarks in parentheses and words around them are read over.
+
+    ``others``: other names of what is known.
+    """
+    if others:
+        given = [*known, *(other for other, name in others.items() if name in known)]
+        return list(dict.fromkeys(others.get(name, name) for name in names_of(answer, given, what)))
     if isinstance(answer, str):
         reason = REASONS.search(answer)
         answer = answer if reason is None else answer[: reason.start()]

@@ -14,10 +14,11 @@ from dofkit.homework.autograder import undecided
 from dofkit.homework.export.inline import exact_json, inlined
 from dofkit.homework.export.wheels import download, own_wheel, requirements
 from dofkit.homework.formats.documents import text
-from dofkit.homework.formats.gradescope import document
+from dofkit.homework.formats.gradescope import document, visibility_of
+from dofkit.homework.runs.review_files import TABLE, RunReview
 
-#: The Python of Ubuntu 24.04, which Gradescope offers.
-PYTHON = "3.12"
+#: The Pythons of the images that Gradescope offers, that of Ubuntu 24.04 first.
+PYTHONS = ("3.12", "3.11", "3.13")
 SCRIPTS = Path(__file__).parent / "scripts"
 _EXECUTABLE = frozenset({"setup.sh", "run_autograder"})
 _TIME = (1980, 1, 1, 0, 0, 0)
@@ -28,18 +29,28 @@ class ExportError(DofkitError):
 
 
 def export_gradescope(
-    assignment: str | os.PathLike[str], out: Path, pythons: Sequence[str] = (PYTHON,), *, wheels: bool = True
+    assignment: str | os.PathLike[str],
+    out: Path,
+    pythons: Sequence[str] = PYTHONS,
+    *,
+    wheels: bool = True,
+    reviewed: Path | None = None,
 ) -> list[str]:
     """Write the zip to upload; what its user has to know.
 
     It holds ``setup.sh`` and ``run_autograder``, the assignment with its scenes in place, the result that stands until
-    there is another, and, with ``wheels``, dofkit and all it needs for the versions of Python in ``pythons``. Raises
-    AssignmentError for what is no assignment, ExportError where the zip cannot be written.
+    there is another, ``reviewed``, the points that a person gave, and, with ``wheels``, dofkit and all it needs for the
+    versions of Python in ``pythons``. Raises AssignmentError for what is no assignment, ReviewError for what is no such
+    table, ExportError where the zip cannot be written.
     """
     prepared = load_assignment(assignment)
+    RunReview.read(prepared, reviewed, None)
     files = {path.name: path.read_bytes() for path in sorted(SCRIPTS.iterdir()) if path.is_file()}
     files["assignment.json"] = f"{exact_json(inlined(assignment))}\n".encode()
-    files["fallback.json"] = text(document(undecided(prepared, "", "grading was cut short."))).encode()
+    cut_short = undecided(prepared, "", "grading was cut short.")
+    files["fallback.json"] = text(document(cut_short, visibility_of(prepared))).encode()
+    if reviewed is not None:
+        files[TABLE] = reviewed.read_bytes()
     files["pythons"] = "".join(f"{python}\n" for python in pythons).encode()
     with tempfile.TemporaryDirectory() as folder:
         notes = _wheels(Path(folder), pythons) if wheels else ["dofkit comes without wheels: it is installed by pip"]

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TextIO
 
 from dofkit.base.errors import DofkitError
+from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.result import Result
 
@@ -25,12 +26,23 @@ class Format:
     """``write(results, prepared, target)`` writes results, which come one by one in the order of the submissions.
 
     ``write`` keeps no more than one result in memory where the format allows it, and raises FormatError for what the
-    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do.
+    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do. ``folder``:
+    does it write a folder at this path, not one file? ``write_known``: the same with a roster: a gradebook has
+    rows for those in it only, and pages tell of each class.
     """
 
     name: str
     write: Callable[[Iterator[Result], Prepared, Target], None]
     needs_path: bool = False
+    folder: Callable[[Path], bool] = lambda path: path.is_dir() or path.suffix.lower() != ".json"
+    write_known: Callable[[Iterator[Result], Prepared, Target, Roster], None] | None = None
+
+    def written(self, results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None) -> None:
+        """Write results, those of a gradebook by a roster where there is one."""
+        if roster is None or self.write_known is None:
+            self.write(results, prepared, target)
+        else:
+            self.write_known(results, prepared, target, roster)
 
 
 @contextmanager

@@ -5,11 +5,9 @@ from __future__ import annotations
 import csv
 import hashlib
 import re
-from collections.abc import Iterable, Iterator
 from typing import Any, TextIO
 
-from dofkit.homework.formats.wording import plain
-from dofkit.homework.result import Result
+from dofkit.homework.formats.wording import identity, plain
 
 #: What spreadsheets take for the beginning of a formula, also behind spaces, and in its full-width forms.
 _FORMULA = re.compile("\\s*[=+\\-@|\uff1d\uff0b\uff0d\uff20\u2212]|[\t\r\n]")
@@ -35,25 +33,15 @@ def table(stream: TextIO) -> Any:
     return csv.writer(stream, lineterminator="\r\n")
 
 
-def one_each(results: Iterable[Result]) -> Iterator[Result]:
-    """One result a student, for a gradebook takes one row of each, and a second one could wipe the grade of the first.
+def is_cell(student: str) -> bool:
+    """Can a name stand in a cell as it is, so that it is found again?
 
-    What could not be graded comes last, and only of students of whom nothing else is there.
+    >>> is_cell("Ada B"), is_cell("=1"), is_cell("ada\u200e"), is_cell(" ")
+    (True, False, False, False)
     """
-    seen: set[bytes] = set()
-    refused: list[Result] = []
-    for result in results:
-        if result.error is not None:
-            refused.append(result)
-        elif _new(result.student, seen):
-            yield result
-    yield from (result for result in refused if _new(result.student, seen))
+    return bool(student.strip()) and cell(identity(student)) == student
 
 
-def _new(student: str, seen: set[bytes]) -> bool:
-    """Was the student not there before? Kept as a short mark."""
-    mark = hashlib.blake2b(student.encode("utf-8", "surrogatepass"), digest_size=12).digest()
-    if mark in seen:
-        return False
-    seen.add(mark)
-    return True
+def mark_of(student: str) -> bytes:
+    """What tells a student from others, short."""
+    return hashlib.blake2b(student.encode("utf-8", "surrogatepass"), digest_size=12).digest()

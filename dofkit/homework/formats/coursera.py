@@ -1,7 +1,8 @@
 """Coursera's ``feedback.json``: a share of the points, and a text.
 
 Coursera takes a number and nothing else, and has no review by a person. So that an answer that could not be decided is
-neither zero nor full marks there, half of its points stand in for it, and the text begins with saying so.
+neither zero nor full marks there, half of its points stand in for it, and the text begins with saying so. One that
+could not be read has none, and the text says that it can be handed in again.
 """
 
 from __future__ import annotations
@@ -12,25 +13,29 @@ from typing import Any
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import write_documents
-from dofkit.homework.formats.wording import OPEN_SHARE, feedback, number, open_points
+from dofkit.homework.formats.wording import OPEN_SHARE, feedback, number, stand_in
 from dofkit.homework.result import Result
 
 
 def provisional(result: Result) -> float:
     """The points with those that stand in for what is open; no less than 0 and no more than there are."""
-    score = (result.score or 0.0) + OPEN_SHARE * open_points(result)
+    score = (result.score or 0.0) + sum(stand_in(item) for item in result.items if item.score is None)
     return min(max(float(score), 0.0), result.max_score)
 
 
 def document(result: Result) -> dict[str, Any]:
     """What ``feedback.json`` says of a submission."""
     told = feedback(result)
-    waiting = open_points(result)
+    waiting = sum(item.max_score for item in result.items if item.score is None and stand_in(item))
     if waiting:
         told = (
             f"Provisional: {number(OPEN_SHARE * waiting)} points stand in for answers worth {number(waiting)} that "
             f"could not be decided.\n\n{told}"
         )
+    unread = sum(item.max_score for item in result.items if item.status == "unreadable" and not stand_in(item))
+    if unread:
+        again = "Write them in another way, and hand in again."
+        told = f"Answers worth {number(unread)} points could not be read. {again}\n\n{told}"
     return {
         "fractionalScore": provisional(result) / result.max_score if result.max_score else 0.0,
         "feedback": told,

@@ -1,7 +1,10 @@
 """Gradescope's ``results.json``: a test for every question.
 
 All texts are in the format ``text``, which Gradescope shows as it is, so that nothing a student wrote is markup there.
-Every test is visible, since one hidden test would hide the total.
+
+What an answer is worth is shown as the assignment's ``visibility`` says, by default after the due date where attempts
+are unlimited: else students would try until it is right. One test that is not visible hides the total, so that there
+either all are or none is. How an answer was read, or where it could not be, is shown at once in any case.
 
 An answer that needs a review is a test without ``score`` and ``status``: Gradescope shows its output and neither
 points nor a colour. The ``score`` of the whole, which Gradescope asks for, is the sum of what is decided; ``output``
@@ -14,7 +17,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from dofkit.homework.assignment import Prepared
+from dofkit.homework.assignment import Prepared, Visibility
 from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import write_documents
 from dofkit.homework.formats.wording import line, open_points, plain, remark, standing, title
@@ -39,28 +42,56 @@ def numbers(items: Sequence[Item]) -> list[str | None]:
     return found
 
 
-def document(result: Result) -> dict[str, Any]:
+def visibility_of(prepared: Prepared | None) -> Visibility:
+    """When students see what their answers are worth; at once where there is no assignment to say it."""
+    return "visible" if prepared is None else prepared.assignment.shown
+
+
+def document(result: Result, visibility: Visibility = "visible") -> dict[str, Any]:
     """What ``results.json`` says of a submission."""
+    later = visibility != "visible" and result.error is None
     found: dict[str, Any] = {
         "score": result.score or 0.0,
-        "output": standing(result),
+        "output": _told_at_once(result) if later else standing(result),
         "output_format": "text",
-        "visibility": "visible",
+        "visibility": visibility if later else "visible",
         "extra_data": {
             "student": line(result.student),
             "needs_review": result.needs_review,
             "open_points": open_points(result),
             "error": None if result.error is None else plain(result.error),
+            "doubt": None if result.doubt is None else plain(result.doubt),
         },
     }
-    tests = [_test(item, place) for item, place in zip(result.items, numbers(result.items), strict=True)]
+    places = list(zip(result.items, numbers(result.items), strict=True))
+    tests = [_test(item, place, visibility) for item, place in places]
+    if later:
+        tests = [*(_reading(item) for item in result.items), *tests]
     if result.error is not None:
-        tests = [{"name": "AnswerReading the submission", "status": "failed", "output": plain(result.error),
+        tests = [{"name": "Reading the submission", "status": "failed", "output": plain(result.error),
                   "output_format": "text", "visibility": "visible"}]  # fmt: skip
     return {**found, "tests": tests}
 
 
-def _test(item: Item, place: str | None) -> dict[str, Any]:
+def _told_at_once(result: Result) -> str:
+    """What is said of the whole before points are shown."""
+    doubt = "" if result.doubt is None else f"This is not final, for {plain(result.doubt)}.\n"
+    return f"{doubt}Below stands how every answer was read. What they are worth is shown later."
+
+
+def _reading(item: Item) -> dict[str, Any]:
+    """How an answer was read, without what it is worth."""
+    if item.status == "unreadable":
+        output = remark(item)
+    elif item.status == "missing":
+        output = "There is no answer."
+    else:
+        output = f"Read as: {plain(item.read_as)}" if item.read_as else "A person will read it."
+    return {"name": f"{title(item)}: how it was read", "output": output, "output_format": "text",
+            "visibility": "visible"}  # fmt: skip
+
+
+def _test(item: Item, place: str | None, visibility: Visibility) -> dict[str, Any]:
     found: dict[str, Any] = {"name": title(item)}
     if place is not None:
         found["number"] = place
@@ -76,15 +107,15 @@ def _test(item: Item, place: str | None) -> dict[str, Any]:
         "output": output,
         "output_format": "text",
         "tags": [line(code) for code in item.codes],
-        "visibility": "visible",
+        "visibility": visibility,
         "extra_data": {"status": item.status, "max_score": item.max_score},
     }
 
 
 def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
     """One ``results.json`` a student."""
-    del prepared
-    write_documents(results, target, document)
+    shown = visibility_of(prepared)
+    write_documents(results, target, lambda result: document(result, shown))
 
 
 GRADESCOPE = Format("gradescope", write)

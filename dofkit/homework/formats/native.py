@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, Target, opened
@@ -18,4 +19,9 @@ def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None
             stream.flush()
 
 
-NATIVE = Format("native", write)
+def _is_folder(path: Path) -> bool:
+    """A path without an ending is a folder, unless there is a file."""
+    return path.is_dir() or not (path.suffix or path.is_file())
+
+
+NATIVE = Format("native", write, folder=_is_folder)

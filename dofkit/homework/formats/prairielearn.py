@@ -2,8 +2,8 @@
 
 ``gradable: false`` costs a student no attempt and gives no points: that is said where an answer cannot be read, as
 PrairieLearn's own elements do, and where an answer needs a review, since a share can neither leave it open nor may it
-count it as nothing or as everything. ``format_errors`` then says which answers these are; ``tests`` holds those that
-are decided, since one test without points would hide the points of all.
+count it as nothing or as everything. ``format_errors`` then says which answers these are, and nothing is told of the
+others: what costs no attempt would else tell, again and again, which of them are right.
 """
 
 from __future__ import annotations
@@ -19,6 +19,10 @@ from dofkit.homework.result import Item, Result
 
 #: PrairieLearn takes no more than a megabyte; and the characters of one text where that is too much.
 MOST_BYTES, MOST_CHARACTERS = 1_000_000, 1000
+UNGRADED = (
+    "This was not graded and cost no attempt. What could not be read can be written in another way; what a person has "
+    "to look at is graded when they have."
+)
 
 
 def document(result: Result) -> dict[str, Any]:
@@ -37,10 +41,10 @@ def document(result: Result) -> dict[str, Any]:
 def _document(result: Result) -> dict[str, Any]:
     if result.error is not None:
         return {"gradable": False, "format_errors": [plain(result.error)], "message": standing(result), "tests": []}
-    tests = [_test(item) for item in result.items if item.score is not None]
-    errors = [_error(item) for item in result.items if item.status in ("unreadable", "needs_review")]
+    errors = [_error(item) for item in result.items if item.status == "unreadable" or item.score is None]
     if errors:
-        return {"gradable": False, "format_errors": errors, "message": standing(result), "tests": tests}
+        return {"gradable": False, "format_errors": errors, "message": UNGRADED, "tests": []}
+    tests = [_test(item) for item in result.items]
     return {"gradable": True, "score": share(result), "message": standing(result), "tests": tests}
 
 

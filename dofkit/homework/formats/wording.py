@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from dofkit.homework.result import Item, Result, Status
 
@@ -19,6 +20,9 @@ STATUSES: dict[Status, str] = {
     "missing": "no answer",
     "needs_review": "open: waits for review",
 }
+#: Characters of an answer that are shown on either side of the place where reading stopped.
+MOST_AROUND = 60
+_MARKED_NAME = re.compile("`([^`\n]*)`")
 #: Characters that files, terminals or parsers stumble over: controls, halves of surrogate pairs, noncharacters.
 _UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 #: Characters that turn the direction of what follows them.
@@ -78,19 +82,30 @@ def points(item: Item) -> str:
 
 
 def open_points(result: Result) -> float:
-    """The points of the answers that wait for review."""
-    return sum(item.max_score for item in result.items if item.status == "needs_review")
+    """The points of the answers that wait for a person."""
+    return sum(item.max_score for item in result.items if item.score is None)
+
+
+def stand_in(item: Item) -> float:
+    """The points where a number has to stand: a part of an undecided answer's, none of one that cannot be read."""
+    if item.score is not None:
+        return item.score
+    return 0.0 if item.status == "unreadable" else OPEN_SHARE * item.max_score
 
 
 def decided(result: Result) -> bool:
     """Whether every answer has its points, so that the score is final."""
-    return result.error is None and result.score is not None and not result.needs_review
+    known = result.error is None and result.doubt is None and result.score is not None
+    return known and not result.needs_review
 
 
 def standing(result: Result) -> str:
     """How the submission stands, in a sentence or two."""
     if result.error is not None:
         return f"This submission could not be graded: {plain(result.error)}"
+    if result.doubt is not None:
+        told = standing(result.model_copy(update={"doubt": None}))
+        return f"This is not final, for {plain(result.doubt)}.\n{told}"
     comment = f"Points: {number(result.score or 0.0)} of {number(result.max_score)}."
     if not result.needs_review:
         return comment
@@ -104,14 +119,57 @@ def standing(result: Result) -> str:
 
 
 def remark(item: Item) -> str:
-    """What is said of one answer: how it was read, and the feedback."""
+    """What is said of one answer: how it was read, or where reading stopped, and the feedback."""
     where = "" if item.column is None else f" (column {item.column})"
     lines = [f"{STATUSES[item.status].capitalize()}{where}."]
+    stop = stop_of(item)
+    if stop is not None:
+        lines += stop.lines()
     if item.read_as:
         lines.append(f"Read as: {plain(item.read_as)}")
     if item.feedback:
-        lines.append(plain(item.feedback))
+        lines.append(unmarked(plain(item.feedback)))
+    if item.would_read:
+        lines.append(f"It would be read as: {plain(item.would_read)}")
+    if item.decided_by is not None:
+        lines.append("A person gave these points.")
     return "\n".join(lines)
+
+
+class ReadingStop(NamedTuple):
+    """The line of an answer in which reading stopped: what stands before that place, and from it on."""
+
+    before: str
+    after: str
+
+    def lines(self) -> list[str]:
+        """The line, and below it a caret under that place.
+
+        >>> ReadingStop("x + ", "zz = 1").lines()
+        ['x + zz = 1', '    ^']
+        """
+        return [self.before + self.after, " " * len(self.before) + "^"]
+
+
+def stop_of(item: Item) -> ReadingStop | None:
+    """Where reading of an answer stopped, at most so many characters before and after; None where it did not."""
+    if item.answer is None or item.column is None:
+        return None
+    place = min(item.column - 1, len(item.answer))
+    before, after = (plain(part).replace("\t", " ") for part in (item.answer[:place], item.answer[place:]))
+    before, after = before.rpartition("\n")[2], after.partition("\n")[0]
+    if len(before) > MOST_AROUND:
+        before = f"...{before[3 - MOST_AROUND :]}"
+    return ReadingStop(before, shortened(after, MOST_AROUND))
+
+
+def unmarked(text: str) -> str:
+    """Feedback as plain text: names stand in quotes, not between backquotes.
+
+    >>> unmarked("`zz` is not declared")
+    "'zz' is not declared"
+    """
+    return _MARKED_NAME.sub(r"'\1'", text)
 
 
 def feedback(result: Result) -> str:

@@ -118,11 +118,7 @@ class EquationComparison:
         return wrong(way.shown, "It holds accelerations, which no constraint of this kind does.", "DIFFERENT")
 
     def _told(self, read: Read, shown: str) -> Judgement:
-        found = with_answer(
-            self.key,
-            read,
-            lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.own, read.constants),
-        )
+        found = self.key.compared((self.names, read.texts, read.constants), lambda: self._compared(read))
         if found.sameness is Sameness.UNDECIDED:
             return needs_review(shown, "whether it is the same constraint was not decided in the time there is.")
         told, code = _FEEDBACK[found.sameness], found.sameness.value
@@ -131,6 +127,13 @@ class EquationComparison:
         if found.sameness in _HALVES:
             return partly(HALF, shown, told, code)
         return self._in_part(found, shown, told, code)
+
+    def _compared(self, read: Read) -> Compared:
+        return with_answer(
+            self.key,
+            read,
+            lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.own, read.constants),
+        )
 
     def _in_part(self, found: Compared, shown: str, told: str, code: str) -> Judgement:
         """Of several constraints, points in proportion to those that follow."""

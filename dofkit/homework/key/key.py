@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
 from dofkit.base.errors import DofkitError
+from dofkit.classification.dependence.equivalence import Compared
 from dofkit.expressions.text import Names
+from dofkit.expressions.tree import coordinate
 from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
 from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
@@ -23,21 +25,22 @@ MOST_KNOWN = 4096
 #: Scenes with coordinates of answers' own that are kept.
 MOST_EXTENDED = 256
 
+#: Names of constraints, the equations beside them, and their constants.
+ComparedTexts = tuple[tuple[str, ...], tuple[str, ...], frozenset[str]]
 Convention = Literal["configuration", "velocity"]
-#: Seconds for what dofkit says of an assignment's scene.
-SCENE_SECONDS = 60.0
 
 
 @dataclass(frozen=True)
 class Key:
     """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means.
 
-    ``also``: further coordinates that an answer may use, and what they are.
+    ``also``: further coordinates that an answer may use, and what they are. ``others``: other name -> declared name.
     """
 
     scene: Scene
     convention: Convention = "configuration"
     also: Mapping[str, str] = field(default_factory=dict)
+    others: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def report(self) -> Report:
@@ -59,9 +62,25 @@ class Key:
         return self._known[what, chosen]
 
     @cached_property
+    def _compared(self) -> dict[ComparedTexts, Compared]:
+        return {}
+
+    def compared(self, texts: ComparedTexts, compare: Callable[[], Compared]) -> Compared:
+        """What equations come to beside the constraints, worked out once for all who write the same in other ways."""
+        known = self._compared.get(texts)
+        if known is None:
+            known = compare()
+            if len(self._compared) < MOST_KNOWN:
+                self._compared[texts] = known
+        return known
+
+    @cached_property
     def names(self) -> Names:
         """What an answer's texts may mention."""
-        return vocabulary_of(self.scene).names
+        names = vocabulary_of(self.scene).names
+        moving = {other: coordinate(name) for other, name in self.others.items() if name in names.coordinates}
+        still = {o: names.parameters[name] for o, name in self.others.items() if name in names.parameters}
+        return replace(names, parameters={**names.parameters, **moving, **still}) if moving or still else names
 
     @cached_property
     def coordinates(self) -> list[str]:
@@ -84,14 +103,14 @@ class Key:
                 }
             )
             if len(self._extended) == MOST_EXTENDED:
-                return Key(scene, self.convention)
-            self._extended[names, texts] = Key(scene, self.convention)
+                return Key(scene, self.convention, others=self.others)
+            self._extended[names, texts] = Key(scene, self.convention, others=self.others)
         return self._extended[names, texts]
 
     @cached_property
     def constants(self) -> list[str]:
         """The names of the scene's parameters without a value."""
-        return [n for n, e in self.names.parameters.items() if e.op == "sym"]
+        return [n for n, e in self.names.parameters.items() if e.op == "sym" and n not in self.others]
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:

@@ -38,7 +38,7 @@ def chosen_coordinates(answer: Given, key: Key) -> ChosenCoordinates:
     if is_none(answer):
         return ChosenCoordinates([], key)
     try:
-        return ChosenCoordinates(names_of(answer, key.coordinates, "coordinate"), key)
+        return ChosenCoordinates(names_of(answer, key.coordinates, "coordinate", key.others), key)
     except TextError as error:
         defines = isinstance(answer, str) and "=" in answer
         found = _defined(str(answer), key) if defines else _offered_names(answer, key)
@@ -50,7 +50,7 @@ def chosen_coordinates(answer: Given, key: Key) -> ChosenCoordinates:
 def _offered_names(answer: Given, key: Key) -> ChosenCoordinates | None:
     if not key.also:
         return None
-    names = names_of(answer, [*key.coordinates, *key.also], "coordinate")
+    names = names_of(answer, [*key.coordinates, *key.also], "coordinate", key.others)
     return ChosenCoordinates(names, offered(key, [n for n in names if n in key.also]))
 
 
@@ -66,7 +66,7 @@ def _defined(answer: str, key: Key) -> ChosenCoordinates | None:
     way = readings_of(rest, AnswerNames(key.names))[0]
     if way.moving or not way.own or any(bare for bare in way.bare):
         return None
-    names = names_of(answer[: cut.start()], [*key.coordinates, *way.own], "coordinate")
+    names = names_of(answer[: cut.start()], [*key.coordinates, *way.own], "coordinate", key.others)
     return ChosenCoordinates(names, extended(key, way.own, way.relations))
 
 

@@ -5,23 +5,30 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from functools import cache
-from typing import Annotated, get_args
+from typing import Annotated, ClassVar, get_args
 
 from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import Fault
 from dofkit.homework.judgement import Given, Judgement, Sentence
 from dofkit.homework.key.key import Key
+from dofkit.homework.sentences.said import Said, say
 from dofkit.scene.fields import Number, WrittenModel, exact, fault_error
 
 #: The numbers that a student gave to earlier questions of the same problem, by what was asked.
 Earlier = Mapping[str, Fraction]
+#: The points that a question may have, where it has any.
+FEWEST_POINTS, MOST_POINTS = Fraction(1, 1000), 1_000_000
 
 
 def _points(value: object) -> object:
     found = exact(value)
     if found < 0:
         raise fault_error(f"points are not negative, as {value} is", "write 0 or more")
+    if found > MOST_POINTS or 0 < found < FEWEST_POINTS:
+        raise fault_error(
+            f"no question is worth {value} points", f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
+        )
     return found
 
 
@@ -41,6 +48,12 @@ Identifier = Annotated[str, BeforeValidator(identifier), Field(min_length=1, max
 class QuestionBase(WrittenModel):
     """One question: how an answer is read and judged, and what is right."""
 
+    #: What is asked, with places for the question's own fields; how an answer is written; answers to other questions of
+    #: the kind, to show how one looks.
+    wanted: ClassVar[str] = ""
+    how: ClassVar[str] = ""
+    examples: ClassVar[tuple[str, ...]] = ()
+
     id: Identifier = Field(description="its name, unique within the problem")
     points: Points = Field(Fraction(1), description="how many points it is worth")
 
@@ -48,6 +61,16 @@ class QuestionBase(WrittenModel):
     def kind(cls) -> str:
         """What it asks for, as written."""
         return _kind(cls)
+
+    @property
+    def about(self) -> tuple[str, ...]:
+        """The names of the scene that it is about."""
+        found = getattr(self, "constraint", None) or getattr(self, "coordinate", None) or ()
+        return (found,) if isinstance(found, str) else tuple(found)
+
+    def asked(self, about: str) -> Said:
+        """The question in words; ``about``: how the names that it is about are shown."""
+        return say(self.wanted, about=about) if "{about}" in self.wanted else say(self.wanted)
 
     @classmethod
     def called(cls) -> str:
@@ -65,6 +88,10 @@ class QuestionBase(WrittenModel):
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         """What an answer is worth. Raises TextError where it cannot be read."""
         raise NotImplementedError
+
+    def reveals(self, found: Judgement) -> bool:
+        """Would an example that is judged so tell of the answer? What is half right does."""
+        return found.status not in ("wrong", "unreadable")
 
     def solution(self, key: Key) -> Sentence:
         """What is right, in words; empty where dofkit does not know it."""

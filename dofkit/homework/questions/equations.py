@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -14,6 +14,7 @@ from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_
 from dofkit.homework.key.compared_equations import EquationComparison
 from dofkit.homework.key.compared_integrals import integral_judgement
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.stated_equations import equations_of
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences.said import say
 from dofkit.scene.fields import Listed, suggestion
@@ -26,6 +27,16 @@ def _names(value: object) -> object:
 class EquationQuestion(QuestionBase):
     """The same constraint(s), in the presence of the scene's others."""
 
+    wanted: ClassVar[str] = "Which equation or equations say what the constraint {about} demands?"
+    how: ClassVar[str] = (
+        "An equation is typed with * or a space for a product, ^ for a power, sqrt(...), sin(...); xdot or dx for a "
+        "velocity or a differential. Several equations stand one to a line, or with semicolons between them."
+    )
+    examples: ClassVar[tuple[str, ...]] = (
+        "(u - a)^2 + w^2 = b^2",
+        "3 u - 2 w = a sin(nu t)",
+        "udot cos(chi) = wdot sin(chi)",
+    )
     ask: Literal["equation"] = Field(description="the equation of one constraint, or the equations of several")
     constraint: Annotated[
         tuple[str, ...], Listed, Field(min_length=1), BeforeValidator(_names, json_schema_input_type=str | list[str])
@@ -41,7 +52,7 @@ class EquationQuestion(QuestionBase):
         return readings_of(answer, AnswerNames(key.names, free=True, accelerations=True))
 
     def solution(self, key: Key) -> Sentence:
-        return say("For example: {text}.", text="; ".join(key.constraints[name].text for name in self.constraint))
+        return say("For example: {text}.", text=equations_of(key, self.constraint))
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
@@ -52,6 +63,9 @@ class EquationQuestion(QuestionBase):
 class IntegralQuestion(QuestionBase):
     """The finite relation; its constant is named by the student, or left out; ``none`` where there is none."""
 
+    wanted: ClassVar[str] = "To which finite relation does the constraint {about} integrate, if to any?"
+    how: ClassVar[str] = "A finite relation is typed with a constant of your own; where there is none, write: none."
+    examples: ClassVar[tuple[str, ...]] = ("u^2 - w^3 = C", "u w^2 = C")
     ask: Literal["integral"] = Field(description="the finite relation that a differential constraint integrates to")
     constraint: str = Field(description="the name of the constraint")
 

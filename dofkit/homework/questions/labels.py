@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -14,7 +14,7 @@ from dofkit.homework.judgement import Given, Judgement, Sentence, needs_review, 
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.sentences.said import say
+from dofkit.homework.sentences.said import Said, say
 from dofkit.report import ConstraintEntry
 from dofkit.scene.fields import Listed, suggestion
 
@@ -24,6 +24,16 @@ Part = Literal["holonomic", "scleronomic", "bilateral"]
 class LabelQuestion(QuestionBase):
     """Words in any order; each part that is asked for counts the same."""
 
+    wanted: ClassVar[str] = "Which of these labels does the constraint {about} have: {parts}?"
+    how: ClassVar[str] = (
+        "Labels are words: holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral; in any order."
+    )
+    examples: ClassVar[tuple[str, ...]] = (
+        "non-holonomic, rheonomic",
+        "holonomic, rheonomic",
+        "non-holonomic, scleronomic",
+        "holonomic, scleronomic",
+    )
     ask: Literal["label"] = Field(description="the labels of a constraint")
     constraint: str = Field(description="the name of the constraint")
     parts: Annotated[tuple[Part, ...], Listed, Field(min_length=1)] = Field(
@@ -35,9 +45,15 @@ class LabelQuestion(QuestionBase):
             hint = suggestion(self.constraint, list(key.constraints), "constraints")
             yield Fault(f"the scene has no constraint '{self.constraint}'", ("constraint",), hint=hint)
 
+    def asked(self, about: str) -> Said:
+        return say(self.wanted, about=about, parts=", ".join(f"{TERMS[p].holds}, {TERMS[p].fails}" for p in self.parts))
+
     def read(self, answer: Given, key: Key) -> str:
         del key
         return label_text(read_labels(answer))
+
+    def reveals(self, found: Judgement) -> bool:
+        return found.status in ("right", "needs_review")
 
     def solution(self, key: Key) -> Sentence:
         truth = truths(key.constraints[self.constraint])

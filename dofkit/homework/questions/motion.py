@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -18,7 +18,7 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.key.posed_motion import PosedMotion, posed_motions
 from dofkit.homework.key.right_motion import RightMotion, is_zero
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.sentences.said import say
+from dofkit.homework.sentences.said import Said, say
 from dofkit.scene.fields import suggestion
 
 
@@ -76,6 +76,12 @@ class _Value(_MotionQuestion):
 class Lagrangian(_Value):
     """L = T - V, up to a total derivative by time: Euler's equation of the difference is 0 identically."""
 
+    wanted: ClassVar[str] = "What is the Lagrangian?"
+    how: ClassVar[str] = (
+        "A Lagrangian is typed with xdot for a velocity, ^ for a power and * or a space for a product; L = may stand "
+        "before it."
+    )
+    examples: ClassVar[tuple[str, ...]] = ("L = 1/2 M (udot^2 + wdot^2) - M g w", "L = 1/2 I chidot^2 + kappa u^4")
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
 
     def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
@@ -137,6 +143,9 @@ class _OfCoordinate(_Value):
 class Momentum(_OfCoordinate):
     """p = dL/d(qdot)."""
 
+    wanted: ClassVar[str] = "What is the generalized momentum of {about}?"
+    how: ClassVar[str] = "A generalized momentum is typed as a Lagrangian is; p = may stand before it."
+    examples: ClassVar[tuple[str, ...]] = ("p = M udot + a chidot", "p = I chidot^3")
     ask: Literal["momentum"] = Field(description="a generalized momentum")
 
     def _right(self, known: RightMotion) -> Expr | None:
@@ -155,6 +164,9 @@ class Momentum(_OfCoordinate):
 class GeneralizedForce(_OfCoordinate):
     """dL/dq and the non-conservative forces."""
 
+    wanted: ClassVar[str] = "What is the generalized force of {about}?"
+    how: ClassVar[str] = "A generalized force is typed as a Lagrangian is; Q = may stand before it."
+    examples: ClassVar[tuple[str, ...]] = ("Q = -kappa u^3", "Q = -M g sin(chi)^2")
     ask: Literal["force"] = Field(description="a generalized force")
 
     def _right(self, known: RightMotion) -> Expr | None:
@@ -176,8 +188,15 @@ class GeneralizedForce(_OfCoordinate):
 class MotionQuestion(_MotionQuestion):
     """The equations of motion, up to factors and linear combinations."""
 
+    wanted: ClassVar[str] = "What are the equations of motion?"
+    how: ClassVar[str] = "Equations of motion are typed with xddot for an acceleration; one to a line."
+    examples: ClassVar[tuple[str, ...]] = ("M uddot + kappa u^3 = 0", "chiddot + nu^2 sin(chi)^2 = 0")
     ask: Literal["motion"] = Field(description="an equation of motion, or all")
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
+
+    def asked(self, about: str) -> Said:
+        one = "What is the equation of motion of {about}?"
+        return say(one, about=about) if self.coordinate is not None else super().asked(about)
 
     def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
         relations, own, shown, key = posed.relations, posed.multipliers, posed.shown, posed.key

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -18,6 +18,9 @@ from dofkit.homework.sentences.said import say
 class Coordinates(QuestionBase):
     """Names of an independent and complete set of generalized coordinates."""
 
+    wanted: ClassVar[str] = "Which coordinates are independent and fix the configuration?"
+    how: ClassVar[str] = "Coordinates are named with commas; one of your own is defined beside it."
+    examples: ClassVar[tuple[str, ...]] = ("u, w", "chi, where u = a cos(chi), w = a sin(chi)")
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
     def read(self, answer: Given, key: Key) -> str:
@@ -51,13 +54,16 @@ class Coordinates(QuestionBase):
 class Redundant(QuestionBase):
     """Constraints that can all be dropped together without changing anything, as many as possible."""
 
+    wanted: ClassVar[str] = "Which constraints can be dropped together without a change, as many as possible?"
+    how: ClassVar[str] = "Constraints are named with commas; where there are none, write: none."
+    examples: ClassVar[tuple[str, ...]] = ("bar_17, bar_23",)
     ask: Literal["redundant"] = Field(description="constraints that can be dropped together, as many as possible")
 
     def read(self, answer: Given, key: Key) -> str:
         return " or ".join(", ".join(self._names(one, key)) or "none" for one in alternatives(answer))
 
     def _names(self, answer: Given, key: Key) -> list[str]:
-        return [] if is_none(answer) else names_of(answer, list(key.constraints), "constraint")
+        return [] if is_none(answer) else names_of(answer, list(key.constraints), "constraint", key.others)
 
     def solution(self, key: Key) -> Sentence:
         redundant = key.report.redundant

@@ -93,6 +93,9 @@ class NumberQuestion(QuestionBase):
 class Dof(NumberQuestion):
     """f: the dimension of the configuration space, or of the velocities where the assignment's convention says so."""
 
+    wanted: ClassVar[str] = "How many degrees of freedom does the system have?"
+    how: ClassVar[str] = "The degrees of freedom are a whole number."
+    examples: ClassVar[tuple[str, ...]] = ("f = 12", "f = 15", "f = 18")
     ask: Literal["dof"] = Field(description="the degrees of freedom")
 
     def advice(self, key: Key) -> str:
@@ -112,6 +115,9 @@ class Dof(NumberQuestion):
 class VelocityDof(NumberQuestion):
     """The number of independent velocities."""
 
+    wanted: ClassVar[str] = "How many velocities are independent?"
+    how: ClassVar[str] = "The number of independent velocities is a whole number."
+    examples: ClassVar[tuple[str, ...]] = ("12", "15", "18")
     ask: Literal["velocity_dof"] = Field(description="the number of independent velocities")
 
     def advice(self, key: Key) -> str:
@@ -136,6 +142,9 @@ class CountQuestion(NumberQuestion):
     """k: the number of independent finite constraint equations, coordinates less the configuration's dimension."""
 
     letters: ClassVar[frozenset[str]] = frozenset({"k", "r", "m", "nc", "constraints", "bindungen"})
+    wanted: ClassVar[str] = "How many of the finite constraint equations are independent?"
+    how: ClassVar[str] = "The number of constraint equations is a whole number."
+    examples: ClassVar[tuple[str, ...]] = ("k = 12", "k = 15", "k = 18")
     ask: Literal["k"] = Field(description="the number of independent finite constraint equations")
 
     def advice(self, key: Key) -> str:

@@ -24,11 +24,15 @@ BEAT = 0.25
 
 
 class ResultLine(NamedTuple):
-    """What is written of a submission: whose it is, whether it could not be graded, and the JSON."""
+    """What is written of a submission: whose it is, whether it could not be graded, and the JSON.
+
+    ``doubted``: whether a person has to say whose it is.
+    """
 
     student: str
     failed: bool
     text: str
+    doubted: bool = False
 
     @classmethod
     def of(cls, result: Result | Echo) -> ResultLine:
@@ -77,12 +81,13 @@ class GradingTask:
 def batch_results(task: GradingTask) -> Iterator[Json]:
     """The answers that come next, from time to time; at the end ``{"lines": ...}``, a list for each of ``handed``."""
     grader = _grader(task.orders)
+    known = grader.prepared.columns()
     grader.condemned = task.condemned
     last, lines = time.monotonic(), list[list[ResultLine]]()
     for one in task.handed:
         lines.append([])
         allow_processor(task.orders.hard)
-        for submission in one.submissions():
+        for submission in one.submissions(known):
             allow_processor(task.orders.hard)
             steps = _steps(grader, submission, task.orders.check_only)
             while True:

@@ -53,11 +53,14 @@ def _batch(stream: Iterator[Handed], size: int) -> list[Handed]:
 def without_repeats(
     orders: Orders, graded: Iterable[tuple[Handed, list[ResultLine]]], seen: HandedIn
 ) -> Iterator[tuple[Handed, list[ResultLine]]]:
-    """The same, but a student's second submission is refused, and both places are named."""
+    """The same, but a student's second submission is refused, and both places are named.
+
+    One of which a person has to say whose it is takes nobody's place.
+    """
     for one, lines in graded:
         told = []
         for line in lines:
-            before = None if line.failed else seen.first(line.student, str(one.place))
+            before = None if line.failed or line.doubted else seen.first(line.student, str(one.place))
             if before is not None:
                 why = f"{one.place}: '{line.student}' has handed in before, at {before}: only the first is graded"
                 line = orders.refused(line.student, why)

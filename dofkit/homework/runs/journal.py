@@ -18,6 +18,7 @@ from typing import BinaryIO
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.version import __version__
+from dofkit.homework.answers.roster import Roster
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.runs.batch import ResultLine
@@ -27,9 +28,11 @@ if sys.platform != "win32":
     import fcntl
 
 
-def fingerprint(prepared: Prepared, check_only: bool) -> str:
-    """What tells a run from others: the assignment with its scenes, and who grades it how."""
-    parts = [__version__, str(check_only), prepared.assignment.model_dump_json()]
+def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = None) -> str:
+    """What tells a run from others: the assignment with its scenes, who is in the course, and who grades it how."""
+    course = "" if roster is None else roster.digest
+    parts = [__version__, str(check_only), course, prepared.assignment.model_dump_json()]
+    parts += [f"{identity} {decision}" for identity, decision in sorted(prepared.decisions.items())]
     parts += [f"{name} {key.convention} {key.scene.model_dump_json()}" for name, key in prepared.keys.items()]
     return hashlib.blake2b("\0".join(parts).encode("utf-8", "replace"), digest_size=16).hexdigest()
 
@@ -79,7 +82,7 @@ class Journal:
                 return chain([one], handed)
             for line in lines:
                 self.failed += line.failed
-                if not line.failed:
+                if not line.failed and not line.doubted:
                     seen.first(line.student, str(one.place))
         self._cut(self._results.tell(), self._marks.tell())
         return iter(())
@@ -136,4 +139,5 @@ def _digest(texts: list[bytes]) -> str:
 
 def _line(text: bytes) -> ResultLine:
     value = json.loads(text)
-    return ResultLine(str(value["student"]), value["error"] is not None, text.decode().rstrip("\n"))
+    failed, doubted = value["error"] is not None, value.get("doubt") is not None
+    return ResultLine(str(value["student"]), failed, text.decode().rstrip("\n"), doubted)

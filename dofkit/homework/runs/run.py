@@ -13,9 +13,11 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base.workers.pool import cores
+from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
+from dofkit.homework.formats.apart import apart_path
 from dofkit.homework.result import Result
 from dofkit.homework.runs.appeals import write_certificates
 from dofkit.homework.runs.batch import Orders, ResultLine
@@ -23,15 +25,20 @@ from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
 from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
 from dofkit.homework.runs.journal import Journal, fingerprint, ledger
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.review_files import ReviewPaths, RunReview
+from dofkit.homework.runs.rostered import rostered
 
 NATIVE = "native"
+#: What results in our own format are called in a folder.
+RESULTS = "results.jsonl"
 
 
 @dataclass(frozen=True)
 class GradingOptions:
     """What the command line says besides the files. ``out``: where results go, None for standard output.
 
-    ``certificates``: the folder of what the keys rest on, for appeals.
+    ``certificates``: the folder of what the keys rest on, for appeals. ``reviewed``: a table that a person filled in.
+    ``roster``: the table of who is in the course.
     """
 
     form: str = NATIVE
@@ -40,6 +47,8 @@ class GradingOptions:
     scheduler: str | None = None
     check_only: bool = False
     certificates: Path | None = None
+    reviewed: Path | None = None
+    roster: Path | None = None
 
     @property
     def format(self) -> Format:
@@ -53,17 +62,32 @@ class GradingOptions:
         return FORMATS[self.form]
 
     @property
+    def in_folder(self) -> bool:
+        """Does the format write a folder there?"""
+        return self.out is not None and self.format.folder(self.out)
+
+    @property
+    def native(self) -> Path | None:
+        """Where results stand in our own format, before they are written in another. Raises FormatError."""
+        if self.out is None:
+            return None
+        if self.format.name != NATIVE:
+            return self.out.with_name(self.out.name + ".results.jsonl")
+        return self.out / RESULTS if self.in_folder else self.out
+
+    @property
+    def review(self) -> ReviewPaths | None:
+        """Where the review stands. Raises FormatError."""
+        return None if self.out is None or self.check_only else ReviewPaths.beside(self.out, self.in_folder)
+
+    @property
     def written(self) -> list[Path]:
         """The paths that are written to. Raises FormatError."""
-        if self.out is None:
+        path, review = self.native, self.review
+        if self.out is None or path is None:
             return []
-        path = _native(self.format, self.out)
-        return [self.out, path, ledger(path)]
-
-
-def _native(form: Format, out: Path) -> Path:
-    """Where results stand in our own format, before they are written in another."""
-    return out if form.name == NATIVE else out.with_name(out.name + ".results.jsonl")
+        beside = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
+        return [self.out, path, ledger(path), *beside]
 
 
 def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
@@ -76,14 +100,20 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         if path.resolve() in [Path(given).resolve() for given in (assignment, *sources)]:
             raise FormatError(f"--out would overwrite {path}, which is read")
     prepared = load_assignment(assignment)
+    roster = None if options.roster is None else load_roster(options.roster)
+    review = RunReview.read(prepared, options.reviewed, options.review)
+    prepared = review.applied(prepared)
     orders = Orders.of(prepared, options.check_only)
-    stream = hand_ins(sources, prepared.columns(), [assignment, *options.written])
+    others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
+    stream = hand_ins(sources, prepared.columns(), others)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
-        one = _Run(form, prepared, orders, crew, seen)
-        if options.out is None:
+        one = _Run(form, prepared, orders, crew, seen, roster)
+        if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
-            one.to_path(stream, options.out)
+            one.to_path(stream, options.out, options.native, review)
+    if one.doubted:
+        print(f"a person has to say whose they are: {one.doubted} of the submissions have a 'doubt'", file=sys.stderr)
     if options.certificates is not None:
         write_certificates(prepared, options.certificates)
     return one.failed == 0
@@ -104,35 +134,41 @@ def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
 
 @dataclass
 class _Run:
-    """One run; ``failed`` counts the submissions that could not be graded."""
+    """One run; ``failed`` counts the submissions that could not be graded, ``doubted`` those that may be another's."""
 
     form: Format
     prepared: Prepared
     orders: Orders
     crew: GradingCrew
     seen: HandedIn
+    roster: Roster | None = None
     failed: int = 0
+    doubted: int = 0
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
         """Print results as they come."""
         lines = (line.text for _, found in self._with_lines(stream, sys.stdout.isatty()) for line in found)
         if self.form.name != NATIVE:
-            self.form.write(map(Result.model_validate_json, lines), self.prepared, sys.stdout)
+            self.form.written(map(Result.model_validate_json, lines), self.prepared, sys.stdout, self.roster)
             return
         utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
         for text in lines:
             print(text if utf8 else json.dumps(json.loads(text)), flush=True)
 
-    def to_path(self, stream: Iterator[Handed], out: Path) -> None:
-        """Write to a path what is not there yet; a format other than our own is made of our own at the end."""
-        path = _native(self.form, out)
-        with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only))) as journal:
+    def to_path(self, stream: Iterator[Handed], out: Path, path: Path, review: RunReview) -> None:
+        """Write to a path what is not there yet; a format other than our own is made of our own at the end.
+
+        ``path``: where results stand in our own.
+        """
+        with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only, self.roster))) as journal:
             left = journal.remaining(stream, self.seen)
             self.failed += journal.failed
             for one, lines in self._with_lines(left, False):
                 journal.write(one, lines)
         if self.form.name != NATIVE:
-            self.form.write(_results(path), self.prepared, out)
+            self.form.written(_results(path), self.prepared, out, self.roster)
+        review.write(path, self.prepared)
+        if self.form.name != NATIVE:
             path.unlink()
         journal.finish()
 
@@ -140,8 +176,10 @@ class _Run:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            for one, lines in without_repeats(self.orders, in_order(self.crew, stream), self.seen):
+            graded = rostered(self.roster, in_order(self.crew, stream))
+            for one, lines in without_repeats(self.orders, graded, self.seen):
                 self.failed += sum(line.failed for line in lines)
+                self.doubted += sum(line.doubted for line in lines)
                 yield one, lines
                 bar.update(task, advance=len(lines))
 

@@ -58,10 +58,15 @@ _FIELDS = {
 }
 
 
+#: Before each thing that a model has and its scene leaves out.
+LEFT_OUT = "; left out: "
+
+
 def how_sure(report: Report, arguments: bool) -> list[Remark]:
     """What was computed with, in which way, what the verdicts mean; and by which ``arguments``."""
-    model = report.modelled.replace(*_NO_TEST)
+    model, *left_out = report.modelled.replace(*_NO_TEST).split(LEFT_OUT)
     told = [Remark(label, text) for label, text in (("the model", model), ("the way", way(report))) if text]
+    told += [Remark("left out", text) for text in left_out]
     used = verdicts_of(report)
     told += [Remark(verdict, meaning) for verdict, meaning in VERDICT_MEANS.items() if verdict in used]
     return [*told, *_arguments(report)] if arguments else told

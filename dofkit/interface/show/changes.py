@@ -8,21 +8,36 @@ from dofkit.interface.show.report import names_of, number, system_labels
 from dofkit.interface.show.sheet import Remark, SheetSection
 from dofkit.report import Report
 
+#: An inequality may bound the motion all the same, and so no more is said.
+SAME = "no number and no label that is compared here changes"
+#: The numbers that are compared, and what they are called.
+_NUMBERS = (
+    ("degrees of freedom", "dof"),
+    ("velocities", "velocity_dof"),
+    ("to first order", "instantaneous_dof"),
+    ("redundant equations", "redundant_equations"),
+)
+
 
 def changed(before: Report, after: Report, names: Sequence[str]) -> SheetSection:
     """What happens where the constraints of these names are dropped."""
-    told = list(_changes(before, after))
-    same = [Remark("", "nothing changes: what is left says as much")]
-    return SheetSection(f"Without {names_of(names)}", told or same)
+    told = [*_changes(before, after), *_open(before, after)]
+    return SheetSection(f"Without {names_of(names)}", told or [Remark("", SAME)])
+
+
+def _open(before: Report, after: Report) -> Iterator[Remark]:
+    """What is not compared, since it is undecided before or after."""
+    unsure = [
+        label
+        for label, name in (*_NUMBERS, ("consistent", "consistent"))
+        if any((found := report.verdicts.get(name)) and found.verdict == "undecided" for report in (before, after))
+    ]
+    if unsure:
+        yield Remark("undecided", f"whether this changes: {', '.join(unsure)}")
 
 
 def _changes(before: Report, after: Report) -> Iterator[Remark]:
-    for label, name in (
-        ("degrees of freedom", "dof"),
-        ("velocities", "velocity_dof"),
-        ("to first order", "instantaneous_dof"),
-        ("redundant equations", "redundant_equations"),
-    ):
+    for label, name in _NUMBERS:
         was, now = getattr(before, name), getattr(after, name)
         if was != now:
             yield Remark(label, f"{number(was)} -> {number(now)}")

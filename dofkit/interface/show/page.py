@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from html import escape
 
+from dofkit.base.themes import schemes
 from dofkit.expressions.text.typesetting import Typeset, typeset
 from dofkit.interface.show.faults import safe
 from dofkit.interface.show.sheet import Fact, Grid, Matrix, Remark, Sheet, SheetSection, Told
@@ -14,9 +15,13 @@ from dofkit.interface.show.sheet import Fact, Grid, Matrix, Remark, Sheet, Sheet
 _WORDS = re.compile(
     r"\b(?:on|at|driven by|length|radius|ratio|pitch|through|carried by|along)\b|^[a-z]{3,} \w+([-,]|$)"
 )
-#: The colours of light and of dark, by the system's wish and by a notebook's theme, which goes before.
-_STYLE = """<style>
-.dofkit{--ink:#1b1f24;--quiet:#59636e;--line:#d1d9e0;--good:#116329;--care:#7d4e00;--bad:#a40e26;--paper:#fff;
+#: Each colour is given for light and for dark.
+_STYLE = (
+    f"<style>{schemes('.dofkit')}"
+    + """
+.dofkit{--ink:light-dark(#1b1f24,#e6edf3);--quiet:light-dark(#59636e,#9198a1);--line:light-dark(#d1d9e0,#3d444d);
+--good:light-dark(#116329,#56d364);--care:light-dark(#7d4e00,#e3b341);--bad:light-dark(#a40e26,#ff7b72);
+--paper:light-dark(#fff,#151b23);
 color:var(--ink);background:var(--paper);font:14px/1.5 system-ui,sans-serif;max-width:60em;padding:.6em .9em;
 border:1px solid var(--line);border-radius:6px;overflow-x:auto}
 .dofkit.dofkit table{border-collapse:collapse;border:0;margin:.2em 0 .4em;font:inherit;color:inherit;width:auto}
@@ -31,13 +36,8 @@ vertical-align:baseline;font-size:inherit;color:inherit;white-space:normal;max-w
 .dofkit p{margin:.15em 0}
 .dofkit math{font:1.1em "Latin Modern Math","STIX Two Math","Cambria Math",math}
 .dofkit svg{max-width:100%;height:auto;border-radius:4px}
-@media (prefers-color-scheme:dark){.dofkit{--ink:#e6edf3;--quiet:#9198a1;--line:#3d444d;--good:#56d364;--care:#e3b341;
---bad:#ff7b72;--paper:#151b23}}
-[data-jp-theme-light=false] .dofkit,.vscode-dark .dofkit,[data-theme=dark] .dofkit,.theme-dark .dofkit{--ink:#e6edf3;
---quiet:#9198a1;--line:#3d444d;--good:#56d364;--care:#e3b341;--bad:#ff7b72;--paper:#151b23}
-[data-jp-theme-light=true] .dofkit,.vscode-light .dofkit,[data-theme=light] .dofkit,.theme-light .dofkit{--ink:#1b1f24;
---quiet:#59636e;--line:#d1d9e0;--good:#116329;--care:#7d4e00;--bad:#a40e26;--paper:#fff}
 </style>"""
+)
 
 
 def as_html(sheet: Sheet) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from dofkit.base.wording import many, verb
-from dofkit.interface.show.assurance import how_sure, not_proved, verdicts_of
+from dofkit.interface.show.assurance import LEFT_OUT, how_sure, not_proved, verdicts_of
 from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.report import ConstraintEntry, Report, SpecialCase
 
@@ -52,7 +52,7 @@ def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
     yield SheetSection("Redundancy", list(_redundancy(report)))
     yield SheetSection("Forces", [Remark(force.name, force.reason) for force in report.forces])
     yield SheetSection("Warnings", [Remark("!", warning) for warning in report.warnings])
-    if how or verdicts_of(report) != {"proved"}:
+    if how or verdicts_of(report) != {"proved"} or LEFT_OUT in report.modelled:
         yield SheetSection("How", how_sure(report, how))
     yield SheetSection("Not proved", not_proved(report))
 
@@ -80,6 +80,8 @@ def _facts(report: Report) -> Iterator[Fact]:
     yield from _inequalities(report)
     if report.generalized_coordinates:
         yield Fact("coordinates", f"{names_of(report.generalized_coordinates)} (independent, and enough)")
+    if report.joint_coordinates:
+        yield Fact("joints", f"{names_of(report.joint_coordinates)} (they describe the tree)")
     if report.growth_vector:
         yield Fact("growth vector", f"({', '.join(map(str, report.growth_vector))})")
     part = report.integrable_part

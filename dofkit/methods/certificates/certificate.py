@@ -100,9 +100,11 @@ class Certifying:
         left = []
         for path, value, make in sorted(_asked(self.report), key=lambda asked: asked[0] in LAST):
             claim = self._made(path, value, make)
-            if claim is None:
+            if claim is None and self._is_proved(path):
                 self.found["uncovered"].append(path)
                 left.append((path, value, make))
+            elif claim is None:
+                self.contradictions.pop(path, None)
             else:
                 self.found["claims"].append(claim)
                 self._compare_about(path, claim)
@@ -111,6 +113,11 @@ class Certifying:
             self._look_for_others(path, value, make)
         written["uncovered"] = [path for path in written["uncovered"] if path not in self.contradictions]
         return written
+
+    def _is_proved(self, path: str) -> bool:
+        """Whether a claim is said to be proved; numbers that are probable are tried as well."""
+        verdict = self.report.verdicts.get(path[1:])
+        return verdict is None or verdict.verdict == "proved"
 
     def _look_for_others(self, path: str, value: Any, make: Maker) -> None:
         """Write down why a claim without evidence cannot be, where something shows it."""
@@ -173,7 +180,7 @@ class Certifying:
     def _compare_about(self, path: str, claim: Told) -> None:
         """A number shown near a point only, that is told of everywhere, is uncovered in that."""
         verdict = self.report.verdicts.get(path[1:])
-        if verdict is not None and "about" in claim and claim["about"] != verdict.about:
+        if verdict is not None and self._is_proved(path) and "about" in claim and claim["about"] != verdict.about:
             self.found["uncovered"].append(f"/verdicts{path}/about")
 
 
@@ -206,7 +213,7 @@ def _without_spare_parts(found: dict[str, Any]) -> dict[str, Any]:
 
 def _needed(step: Told, used: set[str]) -> bool:
     """Whether a step is used, or says something of a relation of the scene."""
-    return step["by"] == "implied" or any(name == step["id"] or name.startswith(f"{step['id']}.") for name in used)
+    return (step["by"] == "implied" and "of" in step) or step["id"] in used
 
 
 def _texts_in(value: Any) -> set[str]:
@@ -246,10 +253,10 @@ def _with_cayley(document: Mapping[str, Any], bodies: frozenset[str]) -> Problem
 
 
 def _asked(report: Report) -> Iterator[tuple[str, Any, Maker]]:
-    """The claims that are said to be proved: path, value, and how evidence is looked for."""
+    """The claims that are said to be proved, or numbers that are probable: path, value, how evidence is looked for."""
     told = report.model_dump(mode="json")
     for field, verdict in report.verdicts.items():
-        if verdict.verdict == "proved" and field in NUMBERS:
+        if verdict.verdict in ("proved", "probable") and field in NUMBERS:
             yield f"/{field}", told[field], NUMBERS[field]
         elif verdict.verdict == "proved":
             yield f"/{field}", told[field], _nothing

@@ -8,6 +8,7 @@ from typing import Any
 
 from dofkit.methods.certificates.emptiness import inconsistent
 from dofkit.methods.certificates.everywhere import everywhere, velocities_everywhere
+from dofkit.methods.certificates.families import families
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, orbit
 from dofkit.methods.certificates.integrals import integral_of_text
 from dofkit.methods.certificates.rigid_fields import backing
@@ -59,6 +60,10 @@ def _near(room: Room) -> Iterator[Told]:
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "regular", "minor": room.minor(standing), "about": room.about, **backed}
     yield from stationary(room)
+    if standing is not None and standing.dependent:
+        most = {"rule": "minor", "minor": room.minor(standing)}
+        for least in families(room, len(room.problem.coordinates) - len(standing.rows)):
+            yield {"rule": "squeeze", "most": most, "least": least, "about": room.about}
 
 
 def velocity_dof(room: Room) -> Iterator[Told]:
@@ -96,7 +101,7 @@ def redundant(room: Room) -> Iterator[Told]:
     standing = room.accounted(names)
     if standing is not None and (backed := backing(room, standing)) is not None:
         yield {"rule": "cofactors", "minor": room.minor(standing), **backed}
-    elif not dropped:
+    if not dropped:
         yield from _needed(room)
 
 
@@ -119,7 +124,13 @@ def generalized_coordinates(room: Room) -> Iterator[Told]:
     others = [q for q in room.problem.coordinates if q not in chosen]
     solving = room.solving(others)
     if solving is not None:
-        yield {"rule": "minor", "minor": room.minor(solving)}
+        found: Told = {"rule": "minor", "minor": room.minor(solving)}
+        yield found
+        alone = {q for name in solving.rows if len(row := room.row(name, solving.point)) == 1 for q in row}
+        tilts = {angles[1] for angles in room.problem.turns if not {*angles} <= alone}
+        turned = room.standing_of(solving.rows, [q for q in room.problem.coordinates if q not in tilts])
+        if turned is not None and not turned.dependent:
+            yield {**found, "beside": room.minor(turned)}
     if room.scenery.evidence.moving:
         for found in involutive_rows(room, integrable_names(room), others):
             yield found

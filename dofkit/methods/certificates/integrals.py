@@ -9,7 +9,8 @@ from dofkit.checker.values import derivative
 from dofkit.methods.certificates.dependence import rate_of
 from dofkit.methods.certificates.elimination import echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
-from dofkit.methods.certificates.room import Room
+from dofkit.methods.certificates.room import Room, Told
+from dofkit.methods.certificates.substitutions import Order, needed_puts, puts, with_puts
 from dofkit.methods.certificates.texts import text_of
 
 #: The most rows of a determinant that is written out.
@@ -32,16 +33,8 @@ def combined_integral(room: Room, function: str) -> str | None:
         return None
     tree = room.scenery.evidence.text(function)
     target = {v: derivative(tree, v) for v in room.scenery.evidence.variables}
-    found = cofactors(room, target, moving_rows(room))
-    if found is None:
-        return None
-    h, factors = found
-    try:
-        told = {row: text_of(factor) for row, factor in factors.items()}
-        room.scenery.add_step({"id": name, "by": "integral", "function": function, "h": text_of(h), "c": told})
-    except CheckError:
-        return None
-    return name
+    step = {"id": name, "by": "integral", "function": function}
+    return name if _combined(room, step, target, moving_rows(room)) else None
 
 
 def moving_rows(room: Room) -> list[str]:
@@ -60,16 +53,31 @@ def follows_from_integrals(room: Room, name: str, steps: Sequence[str]) -> bool:
     if room.scenery.has_step(step):
         return True
     sources = [rate for one in (*steps, *room.scenery.evidence.finite) if (rate := rate_of(room.scenery, one))]
-    found = cofactors(room, components(room, name), sources)
-    if found is None:
-        return False
-    h, factors = found
-    try:
-        told = {row: text_of(factor) for row, factor in factors.items()}
-        room.scenery.add_step({"id": step, "by": "implied", "of": name, "h": text_of(h), "c": told})
-    except CheckError:
-        return False
-    return True
+    return _combined(room, {"id": step, "by": "implied", "of": name}, components(room, name), sources)
+
+
+def _combined(room: Room, step: Told, target: Components, sources: Sequence[str]) -> bool:
+    """Whether a step stands up with cofactors, where need be after coordinates that relations give are put in."""
+    rows = {one: components(room, one) for one in sources}
+    for order in ([], puts(room.scenery, room.scenery.evidence.finite)):
+        placed = {one: _placed(room, row, order) for one, row in rows.items()}
+        found = cofactors(room, _placed(room, target, order), placed)
+        if found is None:
+            continue
+        h, factors = found
+        used = [*target.values(), h, *factors.values(), *(tree for row in factors for tree in rows[row].values())]
+        told = {"h": text_of(h), "c": {row: text_of(factor) for row, factor in factors.items()}}
+        put = needed_puts(room.scenery, used, order)
+        try:
+            room.scenery.add_step({**step, **told, **({"put": put} if put else {})})
+        except CheckError:
+            continue
+        return True
+    return False
+
+
+def _placed(room: Room, row: Components, order: Order) -> Components:
+    return {v: with_puts(room.scenery, tree, order) for v, tree in row.items()} if order else row
 
 
 def components(room: Room, name: str) -> Components:
@@ -78,11 +86,10 @@ def components(room: Room, name: str) -> Components:
     return {v: derivative(left, f"{v}dot") for v in room.scenery.evidence.variables}
 
 
-def cofactors(room: Room, target: Components, sources: Sequence[str]) -> tuple[Tree, dict[str, Tree]] | None:
-    """h and c_i with h target = sum c_i source_i identically; None where a few sources do not do."""
+def cofactors(room: Room, target: Components, rows: dict[str, Components]) -> tuple[Tree, dict[str, Tree]] | None:
+    """h and c_i with h target = sum c_i row_i identically; None where a few rows do not do."""
     if room.point is None:
         return None
-    rows = {one: components(room, one) for one in sources}
     try:
         chosen, columns = _chosen(room, target, rows)
     except NoEstimateError:

@@ -53,7 +53,7 @@ class PointSearch:
         for attempt in range(seed, seed + ATTEMPTS):
             try:
                 start = self._start(attempt, unknowns)
-                found = self._approached(start, names, set(unknowns))
+                found = self.approached(start, names, set(unknowns))
                 point = self.settling.settled(found, names, set(unknowns)) if found is not None else None
             except (NoEstimateError, CheckError):
                 continue
@@ -119,9 +119,9 @@ class PointSearch:
             found |= {name: abs(found[name]) for name in self.problem.coordinates}
         elif attempt >= 100 and attempt % 100 >= AFAR:
             found |= {name: found[name] / 16 for name in self.problem.coordinates}
-        return found
+        return found | {tilt: Fraction(1) for _, tilt, _ in self.problem.turns if found.get(tilt) == 0}
 
-    def _approached(
+    def approached(
         self, start: Mapping[str, Fraction], names: Sequence[str], unknowns: set[str]
     ) -> dict[str, float] | None:
         """Gauss and Newton's method from a start."""

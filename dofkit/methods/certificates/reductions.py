@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 
 from dofkit.checker.trees import CheckError, Tree, add, number, power, times
@@ -23,31 +23,41 @@ def _reduced(scenery: Scenery, name: str) -> list[str]:
     if known:
         return known
     left = scenery.evidence.relation(name).left
-    for step, made in _steps(name, left):
-        ids = [f"{scenery.label}{one}" for one in made]
-        try:
-            scenery.add_step({**step, "id": f"{scenery.label}{step['id']}"})
-        except CheckError:
-            continue
-        scenery.reduced_from |= dict.fromkeys(ids, name)
-        return ids
-    return [name]
+    steps = _steps(scenery.label, name, left)
+    if not steps or not _stand(scenery, steps):
+        return [name]
+    ids = [str(step["id"]) for step in steps if "function" in step]
+    scenery.reduced_from |= dict.fromkeys(ids, name)
+    return ids
 
 
-def _steps(name: str, left: Tree) -> Iterator[tuple[Step, list[str]]]:
-    """Steps that might do, with the relations that they make."""
+def _stand(scenery: Scenery, steps: Sequence[Step]) -> bool:
+    """Whether steps stand up, one after the other."""
+    try:
+        for step in steps:
+            scenery.add_step(step)
+    except CheckError:
+        return False
+    return True
+
+
+def _steps(label: str, name: str, left: Tree) -> list[Step]:
+    """Steps to the bases of a power or a sum of squares, and back; none where it is no such thing."""
     squares = [_square(term) for term in (left.below if left.head == "sum" else (left,))]
-    if not all(squares):
-        return
     pairs = [pair for pair in squares if pair is not None]
-    if len(pairs) == 1:
-        coefficient, base, exponent = pairs[0]
-        root = {"factors": [text_of(base), number_text(coefficient)], "chosen": 0, "power": exponent}
-        yield {"id": f"root of {name}", "by": "branch", "of": name, **root}, [f"root of {name}"]
-    elif all(exponent == 2 for _, _, exponent in pairs):
-        terms = [[number_text(c), text_of(base)] for c, base, _ in pairs]
-        made = [f"terms of {name}.{i}" for i in range(1, len(pairs) + 1)]
-        yield {"id": f"terms of {name}", "by": "sos", "of": name, "terms": terms}, made
+    signs = {coefficient > 0 for coefficient, *_ in pairs}
+    if len(pairs) < len(squares) or len(signs) > 1 or (len(pairs) > 1 and any(k != 2 for *_, k in pairs)):
+        return []
+    sign, found = "1" if signs == {True} else "-1", list[Step]()
+    ids = [f"{label}root {i} of {name}" for i in range(1, len(pairs) + 1)]
+    for i, (coefficient, base, exponent) in enumerate(pairs):
+        others = [[number_text(abs(c)), text_of(a)] for j, (c, a, _) in enumerate(pairs) if j != i]
+        told = {"function": text_of(base), "power": exponent, "h": number_text(abs(coefficient)), "c": {name: sign}}
+        found.append({"id": ids[i], "by": "implied", **told, **({"sos": others} if others else {})})
+    cofactors = {
+        one: text_of(times(number(c), power(a, number(k - 1)))) for one, (c, a, k) in zip(ids, pairs, strict=True)
+    }
+    return [*found, {"id": f"{label}{name} from its roots", "by": "implied", "of": name, "c": cofactors}]
 
 
 def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
@@ -78,12 +88,11 @@ def without_factor(scenery: Scenery, name: str) -> str:
             continue
         places = [term.index(factor) for term in terms]
         rest = add(*(times(*term[:i], *term[i + 1 :]) for term, i in zip(terms, places, strict=True)))
-        given = {"factors": [text_of(factor), text_of(rest)], "chosen": 1, "positive": [positive]}
-        try:
-            scenery.add_step({"id": step, "by": "branch", "of": name, **given})
-        except CheckError:
-            continue
-        return step
+        made = {"id": step, "by": "implied", "function": text_of(rest), "c": {name: text_of(rest)}, "power": 2}
+        sos = [[c, text_of(times(base, rest))] for c, base in positive[1]]
+        back: dict[str, object] = {"id": f"{step}, and back", "by": "implied", "of": name, "c": {step: text_of(factor)}}
+        if _stand(scenery, [{**made, "h": positive[0], "sos": sos}, back]):
+            return step
     return name
 
 
@@ -91,15 +100,13 @@ def _factors(term: Tree) -> list[Tree]:
     return [one for part in term.below for one in _factors(part)] if term.head == "product" else [term]
 
 
-def _positive(tree: Tree) -> Step | None:
-    """A sum as a positive number and squares with positive coefficients."""
+def _positive(tree: Tree) -> tuple[str, list[tuple[str, Tree]]] | None:
+    """A sum as a positive number and squares of bases with positive coefficients."""
     numbers = [part.value for part in tree.below if isinstance(part.value, Fraction)]
     squares = [_square(part) for part in tree.below if not isinstance(part.value, Fraction)]
     terms = [
-        [number_text(one[0]), text_of(power(one[1], number(one[2] // 2)))]
-        for one in squares
-        if one is not None and one[0] > 0
+        (number_text(one[0]), power(one[1], number(one[2] // 2))) for one in squares if one is not None and one[0] > 0
     ]
     if tree.head != "sum" or len(terms) < len(squares) or not numbers or numbers[0] <= 0:
         return None
-    return {"plus": number_text(numbers[0]), "sos": terms}
+    return number_text(numbers[0]), terms

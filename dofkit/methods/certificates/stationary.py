@@ -9,6 +9,7 @@ from flint import arb
 
 from dofkit.checker.fields import HIGHEST_ORDER, along_curve
 from dofkit.checker.trees import CheckError
+from dofkit.methods.certificates.families import families
 from dofkit.methods.certificates.rigid_fields import kept_motions
 from dofkit.methods.certificates.room import FAR, Room, Standing, Told
 
@@ -22,11 +23,13 @@ def stationary(room: Room) -> Iterator[Told]:
     standing = room.standing
     if standing is None or not standing.dependent:
         return
-    for most in isolations(room):
-        yield {"rule": "squeeze", "about": room.about, "most": most, "least": _orbit(room, most)}
+    for found in isolations(room):
+        most = {key: part for key, part in found.items() if key not in ("fields", "pins")}
+        yield {"rule": "squeeze", "about": room.about, "most": most, "least": _orbit(room, found)}
     if room.report.verdicts["dof"].argument == CROSSING:
-        for found in _crossings(room, standing):
-            yield {"rule": "squeeze", "about": room.about, "most": found, "least": found}
+        for least in families(room, room.report.dof or 0):
+            for most in _crossings(room, standing):
+                yield {"rule": "squeeze", "about": room.about, "most": most, "least": least}
 
 
 def isolations(room: Room) -> Iterator[Told]:
@@ -46,7 +49,8 @@ def _pinned(room: Room, fields: list[str], pins: list[str]) -> Iterator[Told]:
     if standing is None or len(standing.rows) != len(others) - 1:
         return
     free = next(q for q in others if q not in standing.columns)
-    given = {"rule": "isolated", "minor": room.minor(standing), "fields": fields, "pins": pins, "free": free}
+    given: Told = {"rule": "isolated", "minor": room.minor(standing), "speeds": {free: "1"}}
+    given |= {"fields": fields, "pins": pins}
     for order in range(2, HIGHEST_ORDER + 1):
         for zero in standing.dependent:
             yield {**given, "zero": zero, "order": order}
@@ -60,14 +64,15 @@ def _orbit(room: Room, most: Told) -> Told:
 
 
 def _crossings(room: Room, standing: Standing) -> Iterator[Told]:
-    """The rule `crossing`: two directions in which the second derivatives have other signs."""
+    """The rule `isolated`: a direction in which a relation has a second derivative."""
     free = [q for q in room.problem.coordinates if q not in standing.columns]
     ways = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
     for zero in standing.dependent:
-        found = {sign: way for way in ways for sign in SIGNS if _bends(room, standing, zero, way) * sign > FAR}
-        if len(found) == len(SIGNS):
-            speeds = [{q: str(value) for q, value in found[sign].items()} for sign in SIGNS]
-            yield {"rule": "crossing", "minor": room.minor(standing), "zero": zero, "speeds": speeds}
+        for way in ways:
+            if abs(_bends(room, standing, zero, way)) > FAR:
+                speeds = {q: str(value) for q, value in way.items()}
+                yield {"rule": "isolated", "minor": room.minor(standing), "zero": zero, "speeds": speeds, "order": 2}
+                break
 
 
 def _bends(room: Room, standing: Standing, zero: str, way: dict[str, int]) -> float:

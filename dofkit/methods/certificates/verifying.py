@@ -14,6 +14,7 @@ from dofkit.checker import Verification
 from dofkit.checker import verify as rechecked
 from dofkit.expressions.text.characters import SUBSCRIPTS
 from dofkit.methods.certificates.lowering import document_of_scene
+from dofkit.models.formats import is_model
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
@@ -47,6 +48,8 @@ def _written(scene: SceneLike | None) -> Mapping[str, Any] | str | None:
     if isinstance(scene, Mapping):
         return document_of_scene(load(scene)) if _in_other_words(scene) else scene
     found = find(scene)
+    if is_model(found.data):
+        return document_of_scene(load(scene))
     text = found.data if isinstance(found.data, str) else found.data.decode("utf-8")
     value = read_document(found.data, found.name).value
     return document_of_scene(load(scene)) if _in_other_words(value) else text

@@ -256,8 +256,8 @@ def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
 def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]) -> Normal:
     """The only choice of signs of what stands in abs() and holds velocities that does not contradict itself.
 
-    Or all of them, where they are whole sets together. Where there are several otherwise, a motion may pass from one to
-    the other: the relation stays as it is.
+    Or all of them, where they are whole sets together. Where there are several otherwise, a motion may pass from one
+    to the other: the relation stays as it is.
     """
     branches: list[tuple[Piece, ...]] = []
     notes: list[str] = [SIGNS_NOTE]

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
-from typing import ClassVar, get_args
+from typing import Any, ClassVar, get_args
 
 from pydantic import Field
 
@@ -14,6 +14,7 @@ from dofkit.expressions.vectors import Vec, minus, square
 from dofkit.scene.fields import WrittenModel
 from dofkit.scene.frames import Placed
 from dofkit.scene.symbols import Symbol
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
 from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
@@ -28,6 +29,8 @@ class ConstraintBase(WrittenModel):
     #: A line of a scene by its dimension (0: in any): it loads where the bodies crank and rod, the particles A, B and C
     #: and the coordinates x and y are declared.
     examples: ClassVar[Mapping[int, str]] = {}
+    #: Lines of joints that the example names, by dimension.
+    beside: ClassVar[Mapping[int, tuple[str, ...]]] = {}
     #: Other words for the type that are read; words that are understood, and only lead to a hint.
     synonyms: ClassVar[tuple[str, ...]] = ()
     understood: ClassVar[tuple[str, ...]] = ()
@@ -35,6 +38,8 @@ class ConstraintBase(WrittenModel):
     other_keys: ClassVar[Mapping[str, str]] = {}
     #: What everyone else may know of the type.
     facts: ClassVar[TypeFacts] = TypeFacts()
+    #: What of it may differ between the sheets of students.
+    variation: ClassVar[TypeVariation] = TypeVariation()
     #: How the type is drawn.
     symbol: ClassVar[Symbol]
 
@@ -64,6 +69,21 @@ class ConstraintBase(WrittenModel):
     def texts(self) -> Iterator[str]:
         """Its texts that may mention coordinates."""
         yield from ()
+
+    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
+        """What may stand in its place on another student's sheet."""
+        del names
+        yield from ()
+
+    @classmethod
+    def offers(cls, names: NamesAtHand, known: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
+        """Constraints of the type that may be added to the ``known`` ones on another student's sheet."""
+        del names, known
+        yield from ()
+
+    def written(self) -> dict[str, Any]:
+        """Its fields as they are written."""
+        return self.model_dump(mode="json", exclude_none=True)
 
     @property
     def in_words(self) -> str:

@@ -20,6 +20,7 @@ from dofkit.scene.frames import Placed, between
 from dofkit.scene.ledger import symbols_of
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point
 from dofkit.scene.symbols import Symbol
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation, length_in_motion
 from dofkit.scene.world import World
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -46,6 +47,7 @@ class Link(ConstraintBase):
     length: Value | None = Field(None, description="their distance; may hold t; by default that of the drawing")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="bar")
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("between",), lengths=("length",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         if _told_to_move(self, world):
@@ -66,10 +68,28 @@ class Link(ConstraintBase):
         if isinstance(self.length, str):
             yield self.length
 
+    @classmethod
+    def offers(cls, names: NamesAtHand, known: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
+        """A link between two particles that have none, where others have."""
+        own = [frozenset(one["between"]) for one in known if one.get("type") == cls.kind() and _between_names(one)]
+        points = [owner for owner in names.owned if any(owner in pair for pair in own)]
+        for pair in combinations(points, 2):
+            if frozenset(pair) not in own:
+                yield {"type": cls.kind(), "between": list(pair)}
+
+    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
+        found = length_in_motion(self.written(), names)
+        if found is not None:
+            yield found
+
     @property
     def in_words(self) -> str:
         ends = "-".join(show_point(end) for end in self.between)
         return f"link {ends}" + ("" if self.length is None else f", length {as_written(self.length)}")
+
+
+def _between_names(written: Mapping[str, Any]) -> bool:
+    return all(isinstance(end, str) for end in written["between"])
 
 
 def _told_to_move(link: Link, world: World) -> bool:
@@ -219,6 +239,7 @@ class String(ConstraintBase):
     length: Value | None = Field(None, description="its length; may hold t; by default that of the drawing")
     facts: ClassVar[TypeFacts] = TypeFacts(string=True)
     symbol: ClassVar[Symbol] = Symbol(run="rope")
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("along",), lengths=("length",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         points = [world.point(point, "along", i) for i, point in enumerate(self.along)]
@@ -246,6 +267,11 @@ class String(ConstraintBase):
     def texts(self) -> Iterator[str]:
         if isinstance(self.length, str):
             yield self.length
+
+    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
+        found = length_in_motion(self.written(), names)
+        if found is not None:
+            yield found
 
     @property
     def in_words(self) -> str:

@@ -18,6 +18,7 @@ from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point
 from dofkit.scene.symbols import Symbol
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation, angle_for_turning
 from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
@@ -37,6 +38,7 @@ class Equation(ConstraintBase):
     text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
+    variation: ClassVar[TypeVariation] = TypeVariation(texts=("text",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         for e, sense in world.relations(self.text, "text"):
@@ -50,6 +52,13 @@ class Equation(ConstraintBase):
 
     def texts(self) -> Iterator[str]:
         yield self.text
+
+    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
+        """Where it turns at a steady rate: the same at rest."""
+        found = angle_for_turning(self.text, names)
+        if found is not None:
+            text, rate, angle = found
+            yield Replacement("supports", {**self.written(), "text": text}, {angle: "real"}, f"{angle} for {rate} t")
 
     @property
     def in_words(self) -> str:
@@ -85,6 +94,7 @@ class On(ConstraintBase):
     ] = Field(None, description="equations in x, y, z: a curve in space is where two surfaces meet")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, lettered=True, surface=True, shared=True)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("members",), texts=("surface", "curve"))
 
     def texts(self) -> Iterator[str]:
         yield from () if self.surface is None else (self.surface,)

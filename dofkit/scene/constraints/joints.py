@@ -8,13 +8,13 @@ two ways to keep the lines parallel this leaves out the one with the axis turned
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import ClassVar
+from collections.abc import Callable, Iterator, Mapping
+from typing import ClassVar, NamedTuple
 
 from pydantic import Field
 
 from dofkit.exact.matrices import rows
-from dofkit.expressions.tree import HALF, MINUS_ONE, Expr, fn, mul
+from dofkit.expressions.tree import HALF, MINUS_ONE, ONE, ZERO, Expr, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
 from dofkit.scene.constraints.base import ConstraintBase, component_relations
 from dofkit.scene.constraints.places import along
@@ -22,16 +22,33 @@ from dofkit.scene.fields import Text, Vector
 from dofkit.scene.frames import Frame, between, relative
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
+from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
 from dofkit.scene.world import Direction, World
 from dofkit.system import Kinematics, Relation, VelocityRow
 
 _UP = {2: "[1, 0]", 3: "[0, 0, 1]"}
 
 
+class Measure(NamedTuple):
+    """An angle or displacement of a joint: its ``value`` by the two frames, the place and the axis, and its ``rate``.
+
+    ``turns``: it is an angle; ``placed``: it depends on the joint's place. In the plane an angle needs no axis.
+    """
+
+    value: Callable[[Frame, Frame, Vec, Direction | None], Expr]
+    rate: Callable[[Kinematics], VelocityRow]
+    turns: bool = False
+    placed: bool = False
+
+
 class Joint(ConstraintBase):
     """Two bodies, or a body and the ground, joined together."""
 
     between: tuple[str, str] = Field(description="the two bodies; one may be ground")
+
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("at",), directions=("axis", "axes"))
+    #: What a coupling may mention of it.
+    measures: ClassVar[Mapping[str, Measure]] = {}
 
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
 
@@ -95,6 +112,17 @@ class Driven(Axial):
 
     drive: Text | None = Field(None, description="the prescribed angle or displacement from the reference, in t")
 
+    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
+        """Driven at a steady rate, or free where it is driven."""
+        written = self.written()
+        if self.drive is not None:
+            free = {key: value for key, value in written.items() if key != "drive"}
+            yield Replacement("supports", free, {}, "it is not driven")
+            return
+        rate = names.fresh("omega")
+        told = f"it is driven by {rate} t"
+        yield Replacement("supports", {**written, "drive": f"{rate}*t"}, {rate: "positive"}, told)
+
     def driven(self, world: World) -> Iterator[Expr]:
         """The law of the drive, if there is one."""
         if self.drive is not None:
@@ -110,6 +138,28 @@ def turn_rate(at: Kinematics) -> VelocityRow:
 def slide_rate(at: Kinematics) -> VelocityRow:
     """How fast the second body moves along the axis against the first."""
     return rows.along(at.directions[0], at.shift())
+
+
+def _angle(first: Frame, second: Frame, place: Vec, axis: Direction | None) -> Expr:
+    del place
+    return difference(second.angle, first.angle) if axis is None else angle_of(first, second, axis)
+
+
+def _shifted(first: Frame, second: Frame, place: Vec, axis: Direction | None) -> Expr:
+    del place
+    moved, under = shift(first, second, axis.vector) if axis is not None else (ZERO, ONE)
+    return moved if axis is None else moved / mul(under, length(axis.vector))
+
+
+def _slid(first: Frame, second: Frame, place: Vec, axis: Direction | None) -> Expr:
+    moved, under = slide(first, second, place, axis.vector) if axis is not None else (ZERO, ONE)
+    return moved if axis is None else moved / mul(under, length(axis.vector))
+
+
+#: An angle about the axis; a displacement along it of bodies that do not turn against each other, and of others.
+ANGLE = Measure(_angle, turn_rate, turns=True)
+SHIFT = Measure(_shifted, slide_rate)
+SLIDE = Measure(_slid, slide_rate, placed=True)
 
 
 def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:
@@ -129,16 +179,18 @@ def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
 def parallel(first: Frame, second: Frame) -> Iterator[Relation]:
     """No relative rotation: the plane angle, or 3 relations in space.
 
-    theta2 - theta1 - const = 0; g2 - g1 = 0; or (R1 e1).(R2 e2) = (R1 e2).(R2 e3) = (R1 e3).(R2 e1) = 0.
+    theta2 - theta1 - const = 0; g2 - g1 = 0; or the Gibbs vector of B = R1^T R2, of which 1 + tr B times two are
+    B32 - B23, B13 - B31, B21 - B12, and which no half turn has.
     """
     if first.dimension == 2:
         yield Relation(difference(second.angle, first.angle), part="angle")
     elif first.gibbs is not None and second.gibbs is not None:
         yield from component_relations(minus(second.gibbs, first.gibbs), "orientation {}")
     else:
+        a, b = ([frame.carry(unit(i, 3)) for i in range(3)] for frame in (first, second))
+        trace = sum((dot(a[i], b[i]) for i in range(3)), mul(first.under, second.under))
         for i, j, about in ((0, 1, "z"), (1, 2, "x"), (2, 0, "y")):
-            e = dot(first.carry(unit(i, 3)), second.carry(unit(j, 3)))
-            yield Relation(e, part=f"orientation {about}")
+            yield Relation(difference(dot(a[i], b[j]), dot(a[j], b[i])) / trace, part=f"orientation {about}")
 
 
 def carrier(first: Frame, second: Frame) -> Frame:

@@ -16,6 +16,7 @@ from dofkit.scene.fields import Vector
 from dofkit.scene.frames import Frame, Placed, between
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point, show_vector
 from dofkit.scene.symbols import POINT, RING, Symbol, axle, prism, rail
+from dofkit.scene.variation import TypeVariation
 from dofkit.scene.world import Direction, World
 from dofkit.system import GROUND, Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -38,6 +39,7 @@ class Fixed(ConstraintBase):
     body: str | None = Field(None, description="a body")
     facts: ClassVar[TypeFacts] = TypeFacts(_fixed_rows, joint=True, held=True)
     symbol: ClassVar[Symbol] = Symbol(plane=(POINT,), space=(POINT,))
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("point",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         if (self.point is None) == (self.body is None):
@@ -89,6 +91,7 @@ class Coincident(ConstraintBase):
     between: Ends = Field(description="the two points")
     facts: ClassVar[TypeFacts] = TypeFacts(_coincident_rows, joint=True, merged=True)
     symbol: ClassVar[Symbol] = Symbol(plane=(RING, POINT), space=(RING, POINT))
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("between",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
@@ -135,6 +138,7 @@ class Slot(ConstraintBase):
         space=(axle(4.0, 1), *prism(0.6, 4.0, 1)[2:], RING),
         rails=4.0,
     )
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("point", "at"), directions=("axis",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         point = world.point(self.point, "point")

@@ -10,8 +10,11 @@ from pydantic import Field
 from dofkit.exact.matrices.rows import across
 from dofkit.expressions.vectors import difference
 from dofkit.scene.constraints.joints import (
+    ANGLE,
+    SHIFT,
     Driven,
     Joint,
+    Measure,
     aligned,
     angle_law,
     apart,
@@ -48,8 +51,9 @@ class Revolute(Driven):
     synonyms: ClassVar[tuple[str, ...]] = ("hinge", "pin")
     understood: ClassVar[tuple[str, ...]] = ("pivot", "pinned", "rotary", "rotational", "turning", "bearing")
     facts: ClassVar[TypeFacts] = TypeFacts(
-        _revolute_rows, turn_rate, axial=True, half_turns=True, joint=True, planar_pair=True
+        _revolute_rows, turn_rate, axial=True, half_turns=True, joint=True, planar_pair=True, freedoms=("angle",)
     )
+    measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE}
     symbol: ClassVar[Symbol] = Symbol(plane=(RING,), space=(axle(1.5), *cylinder(0.5, 0.7)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
@@ -87,8 +91,15 @@ class Prismatic(Driven):
     synonyms: ClassVar[tuple[str, ...]] = ("slider",)
     understood: ClassVar[tuple[str, ...]] = ("translational", "sliding", "linear", "rail", "piston")
     facts: ClassVar[TypeFacts] = TypeFacts(
-        _prismatic_rows, slide_rate, slides=True, half_turns=True, joint=True, planar_pair=True
+        _prismatic_rows,
+        slide_rate,
+        slides=True,
+        half_turns=True,
+        joint=True,
+        planar_pair=True,
+        freedoms=("displacement",),
     )
+    measures: ClassVar[Mapping[str, Measure]] = {"displacement": SHIFT}
     symbol: ClassVar[Symbol] = Symbol(
         plane=(rail(3.2, 0.8), rail(3.2, -0.8), Stroke(box(1.3, 0.7), 1, closed=True, filled=True)),
         space=(*prism(0.35, 2.6, 1), *prism(0.65, 0.9)),

@@ -12,9 +12,12 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import PI, add, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, length, plus, scaled
 from dofkit.scene.constraints.joints import (
+    ANGLE,
+    SLIDE,
     Axial,
     Driven,
     LocatedJoint,
+    Measure,
     aligned,
     angle_law,
     angle_of,
@@ -29,6 +32,7 @@ from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
 from dofkit.scene.parts import show_vector
 from dofkit.scene.symbols import RING, Stroke, Symbol, arc, axle, cylinder, helix, plate, prism
+from dofkit.scene.variation import TypeVariation
 from dofkit.scene.world import Direction, World, within
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -56,7 +60,10 @@ class Cylindrical(Driven):
         3: "{type: cylindrical, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}"
     }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_cylindrical_rows, slide_rate, axial=True, half_turns=True, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _cylindrical_rows, slide_rate, axial=True, half_turns=True, joint=True, freedoms=("angle", "displacement")
+    )
+    measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
     symbol: ClassVar[Symbol] = Symbol(space=(*cylinder(0.3, 2.4, 1), *cylinder(0.6, 1.0)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
@@ -86,8 +93,10 @@ class Screw(Driven):
     pitch: Value = Field(description="the advance along the axis for one turn, right-handed")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(
-        _screw_rows, turn_rate, by_turn=True, axial=True, half_turns=True, joint=True
+        _screw_rows, turn_rate, by_turn=True, axial=True, half_turns=True, joint=True, freedoms=("angle",)
     )
+    variation: ClassVar[TypeVariation] = TypeVariation(places=("at",), directions=("axis",), lengths=("pitch",))
+    measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
     symbol: ClassVar[Symbol] = Symbol(space=(helix(0.4, 2.4, 6, 1), axle(2.4, 1), *prism(0.65, 0.6)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
@@ -122,7 +131,9 @@ class Universal(LocatedJoint):
         None, description="two perpendicular axes, the first carried by the first body, the second by the second"
     )
     dimensions: ClassVar[tuple[int, ...]] = (3,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_universal_rows, directions=2, axial=True, half_turns=True, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _universal_rows, directions=2, axial=True, half_turns=True, joint=True, freedoms=("angle_1", "angle_2")
+    )
     symbol: ClassVar[Symbol] = Symbol(
         space=(
             Stroke(((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0))),
@@ -178,7 +189,9 @@ class Spherical(LocatedJoint):
     understood: ClassVar[tuple[str, ...]] = ("socket", "ball-socket", "ball_and_socket")
     axis: Vector | None = Field(None, description="not needed: the joint turns every way")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_spherical_rows, half_turns=True, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _spherical_rows, half_turns=True, joint=True, freedoms=("rotation_1", "rotation_2", "rotation_3")
+    )
     symbol: ClassVar[Symbol] = Symbol(
         space=(
             RING,
@@ -206,7 +219,9 @@ class Planar(Axial):
         3: "{type: planar, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}"
     }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
-    facts: ClassVar[TypeFacts] = TypeFacts(_planar_rows, half_turns=True, joint=True)
+    facts: ClassVar[TypeFacts] = TypeFacts(
+        _planar_rows, half_turns=True, joint=True, freedoms=("displacement_1", "displacement_2", "angle")
+    )
     symbol: ClassVar[Symbol] = Symbol(space=(plate(-0.15, 2.2), plate(0.15, 1.2, 1)))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:

@@ -7,24 +7,21 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.html.pages import BADGES, percent, question_text
 from dofkit.homework.formats.wording import number
-from dofkit.homework.key.misconceptions import ERRORS
+from dofkit.homework.item_analysis import ItemAnalysis, QuestionFigures
+from dofkit.homework.key.codes import CODES
 from dofkit.homework.result import Item, Result, Status
+from dofkit.homework.review.queue import Queue, QueuedAnswer
 
 #: Rows of each list that are shown; how many more there are is said.
 MOST_ROWS = 1000
-#: Bars of the distribution.
-BARS = 10
-
-
-class Review(NamedTuple):
-    """An answer for a person to look at."""
-
-    student: str
-    link: str
-    item: Item
+#: Bars of the distribution; open answers that are listed, each with so many students.
+BARS, MOST_OPEN, MOST_STUDENTS = 10, 100, 8
+#: So many answers, and such a part of all, that could not be read make a question doubtful.
+FEWEST_UNREAD, LEAST_UNREAD = 2, 0.2
 
 
 @dataclass
@@ -64,56 +61,90 @@ class Bar(NamedTuple):
     height: float
 
 
+class OpenAnswer(NamedTuple):
+    """A different answer that waits for a person; ``given_by``: the first students and their pages."""
+
+    item: Item
+    given_by: list[tuple[str, str]]
+    unnamed: int
+
+
+def _listed(queued: QueuedAnswer) -> OpenAnswer:
+    given_by = list(zip(queued.students, queued.links, strict=True))[:MOST_STUDENTS]
+    return OpenAnswer(queued.item, given_by, queued.count - len(given_by))
+
+
 class Question(NamedTuple):
-    """How one question went: ``counts`` of its statuses, and ``mean`` of what was decided, in points."""
+    """How one question went: ``counts`` of its statuses, and ``mean`` of what was decided, in points.
+
+    ``unread`` of so many ``given`` answers could not be read.
+    """
 
     name: str
     asked: str
     counts: list[tuple[Status, int, float]]
     mean: float | None
     most: float
+    unread: int
+    given: int
+    figures: QuestionFigures
+
+    @property
+    def doubt(self) -> str:
+        """What to ask of a question whose answers often could not be read; empty where they could."""
+        if self.unread < FEWEST_UNREAD or self.unread < LEAST_UNREAD * self.given:
+            return ""
+        return f"{self.unread} of {self.given} could not be read here: is the question clear?"
 
 
 class Overview:
-    """The page of a run: ``add`` every submission, then ``page``."""
+    """The page of a run: ``add`` every submission, then ``page``. A ``roster`` knows who is in which class."""
 
-    def __init__(self, prepared: Prepared) -> None:
+    def __init__(self, prepared: Prepared, roster: Roster | None = None) -> None:
         self.prepared = prepared
+        self.roster = roster
+        self.analysis = ItemAnalysis()
         self.most = float(sum(question.points for _, question in prepared.questions()))
         self.scores: Counter[float] = Counter()
         self.statuses: dict[tuple[str, str], Counter[Status]] = {
             (problem.id, question.id): Counter() for problem, question in prepared.questions()
         }
         self.gained = dict.fromkeys(self.statuses, 0.0)
+        self.decided: Counter[tuple[str, str]] = Counter()
         self.codes: Counter[str] = Counter()
-        self.reviews, self.errors, self.students = Listed(), Listed(), Listed()
+        self.queue = Queue(list(self.statuses))
+        self.errors, self.doubts, self.students = Listed(), Listed(), Listed()
         self.unfinished = 0
 
     def add(self, result: Result, link: str) -> None:
         """One more submission; ``link``: where its page is."""
         self.students.add(Student(result.student, link, result))
+        if result.doubt is not None:
+            self.doubts.add(Student(result.student, link, result))
         if result.error is not None:
             self.errors.add(Student(result.student, link, result))
             return
-        if result.needs_review:
+        if result.needs_review or result.doubt is not None:
             self.unfinished += 1
         else:
             self.scores[round(result.score or 0.0, 2)] += 1
+        self.queue.add(result, link)
+        member = None if self.roster is None else self.roster.find(result.student)
+        self.analysis.add(result, "" if member is None else member.section)
         for item in result.items:
-            self._item(item, result.student, link)
+            self._item(item)
 
-    def _item(self, item: Item, student: str, link: str) -> None:
+    def _item(self, item: Item) -> None:
         place = item.problem, item.question
         if place in self.statuses:
             self.statuses[place][item.status] += 1
             self.gained[place] += item.score or 0.0
+            self.decided[place] += item.score is not None
             self.codes.update(set(item.codes))
-        if item.status == "needs_review":
-            self.reviews.add(Review(student, link, item))
 
     def page(self) -> dict[str, Any]:
         """What the template shows."""
-        hints = {error.code: error.hint for error in ERRORS}
+        waiting, questions = self.queue.open_answers(), list(self._questions())
         return {
             "title": self.prepared.assignment.title,
             "most": self.most,
@@ -122,10 +153,14 @@ class Overview:
             "mean": _mean(self.scores),
             "median": _median(self.scores),
             "bars": _bars(self.scores, self.most),
-            "questions": list(self._questions()),
-            "codes": [(code, count, hints.get(code, "")) for code, count in self.codes.most_common()],
-            "reviews": self.reviews,
+            "questions": questions,
+            "unclear": max((q for q in questions if q.doubt), key=lambda q: q.unread / q.given, default=None),
+            "codes": [(code, count, CODES.get(code, "")) for code, count in self.codes.most_common()],
+            "reviews": [_listed(queued) for queued in waiting[:MOST_OPEN]],
+            "different": len(waiting),
+            "open_count": sum(queued.count for queued in waiting),
             "errors": self.errors,
+            "doubts": self.doubts,
             "students": self.students,
         }
 
@@ -135,9 +170,12 @@ class Overview:
             counts = self.statuses[place]
             total = counts.total()
             shares = [(status, counts[status], 100 * counts[status] / total) for status in BADGES if counts[status]]
-            known = total - counts["needs_review"]
+            known, given = self.decided[place], total - counts["missing"]
             mean = self.gained[place] / known if known else None
-            yield Question(f"{problem.id}.{question.id}", question_text(question), shares, mean, float(question.points))
+            yield Question(
+                f"{problem.id}.{question.id}", question_text(question), shares, mean, float(question.points),
+                counts["unreadable"], given, self.analysis.figures(*place),
+            )  # fmt: skip
 
 
 def _mean(scores: Counter[float]) -> float | None:

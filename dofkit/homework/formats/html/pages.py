@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from dofkit.homework.assignment import Prepared, Problem
+from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import number, open_points, plain
+from dofkit.homework.own_sheets import NobodysSheetError, own
+from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result, Status
 
@@ -77,6 +80,8 @@ def percent(score: float | None, most: float) -> float:
 
 def student_page(result: Result, prepared: Prepared) -> StudentPage:
     """The page of one submission: its answers by problem, those to nothing that was asked at the end."""
+    with suppress(NobodysSheetError):
+        prepared = own(prepared, result.student)
     found = {(item.problem, item.question): item for item in result.items}
     sections = []
     for problem in prepared.assignment.problems:

@@ -1,0 +1,150 @@
+"""Which Euler angles of bodies are coordinates, where the engines compute with Gibbs vectors.
+
+omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot R e_z, with n along e_z x R e_z. Names of
+angles are only read off where all three rates are solved for; a Gibbs vector may be spread over several blocks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from itertools import chain
+from typing import NamedTuple
+
+import networkx as nx
+from flint import arb, arb_mat
+
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.expressions import tree as ex
+from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block
+from dofkit.relations.chart import Chart
+from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.setting import Setting
+from dofkit.system import Rotation
+
+#: A value of what nothing constrains, at which no angle is singular.
+ANYWHERE = 0.3
+#: What is added to a number of floating point, so that the ball holds the number meant.
+NEARLY = arb(0, 1e-12)
+#: Points at which the angles are looked at.
+LOOKED = 4
+
+
+class TurnedGroup(NamedTuple):
+    """Blocks joined that hold the angles of bodies, forms left out; ``places``: how many they were.
+
+    ``fixed``: the coordinates that are proved to stay as they are drawn.
+    """
+
+    block: Block
+    hidden: tuple[Expr, ...]
+    places: int
+    fixed: frozenset[str]
+
+
+def partly_turned(chosen: Collection[str], rotations: Sequence[Rotation]) -> tuple[Rotation, ...]:
+    """The rotations of which some angles are chosen and some are not: only all three stand for all three."""
+    return tuple(r for r in rotations if r.chart == "gibbs" and 0 < len({*r.names}.intersection(chosen)) < 3)
+
+
+def turned_together(
+    blocks: Sequence[Block], answers: Sequence[Answer], untouched: Collection[str], rotations: Sequence[Rotation]
+) -> Iterator[TurnedGroup]:
+    """What holds the angles of each body together, with what nothing touches."""
+    graph: nx.Graph = nx.Graph()
+    for i, block in enumerate(blocks):
+        graph.add_edges_from((i, name) for name in block.coordinates)
+    for r in rotations:
+        graph.add_edges_from((r, name) for name in r.names)
+    for component in nx.connected_components(graph):
+        if not any(isinstance(node, Rotation) for node in component):
+            continue
+        members = sorted(i for i in component if isinstance(i, int))
+        free = [name for name in untouched if name in component]
+        names = (*(c for i in members for c in blocks[i].coordinates), *free)
+        hidden = tuple(g for i in members for g in answers[i].hidden)
+        rows = tuple(row for i in members for row in blocks[i].finite)
+        still = chain.from_iterable(blocks[i].coordinates for i in members if _stays(answers[i]))
+        zero = (row.piece.expr for row in rows if isinstance(row.piece, Finite))
+        fixed = frozenset(still).union(*(_vanishing(e) for e in zero))
+        yield TurnedGroup(Block(names, rows), hidden, len(members) + len(free), fixed)
+
+
+def _vanishing(e: Expr) -> Iterator[str]:
+    """The coordinate that a relation says is 0, and no more; none of another relation."""
+    for s in e.symbols:
+        if s.args[0] == "coordinate" and e in (s, ex.mul(ex.MINUS_ONE, s)):
+            yield str(s.args[1])
+
+
+def _stays(a: Answer) -> bool:
+    return a.dof == 0 and a.verdict == "proved" and (a.about == "reference" or a.linear)
+
+
+def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Setting, turning: Sequence[Rotation]) -> bool:
+    """Is there a certified configuration at which the chosen coordinates are independent, and enough?
+
+    Their differentials and the rows of the relations have full rank there: a minor's ball excludes 0.
+    """
+    chart = make_chart(group.block, setting, group.hidden)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    for seed in range(LOOKED):
+        real = search.search(seed) if chart.nodes else None
+        if chart.nodes and (real is None or not real.certified or not real.consistent):
+            continue
+        try:
+            rows = _rows(group, chart, real, chosen, turning)
+        except (NoValueError, ZeroDivisionError):
+            continue
+        if ball_part(rows).rank == len(group.block.coordinates):
+            return True
+    return False
+
+
+def _rows(
+    group: TurnedGroup, chart: Chart, real: RealPoint | None, chosen: Collection[str], turning: Sequence[Rotation]
+) -> list[list[arb]]:
+    """The rows of the relations and of the chosen coordinates' rates, over the block's coordinates."""
+    place = {name: k for k, name in enumerate(group.block.coordinates)}
+    ranked = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
+    rows = []
+    for entries in real.matrix if real is not None else ():
+        row = [arb(0)] * len(place)
+        for s, v in zip(ranked, entries, strict=True):
+            if s != ex.TIME:
+                row[place[str(s.args[1])]] = v
+        rows.append(row)
+    rates: dict[str, dict[str, arb]] = {name: {name: arb(1)} for name in place}
+    for r in turning:
+        if set(r.names) <= place.keys() and not set(r.names).isdisjoint(chosen):
+            values = [arb(ANYWHERE) if real is None else real.point.symbols.get(ex.coordinate(n)) for n in r.names]
+            upright = group.fixed.issuperset(r.names[:2]) and all(e.is_zero for e in r.initial[:2])
+            solved = _rates([arb(ANYWHERE) if v is None else v for v in values], _drawn(r), upright)
+            rates |= {a: {g: solved[i, j] for j, g in enumerate(r.names)} for i, a in enumerate(r.names)}
+    return [*rows, *([rates[name].get(c, arb(0)) for c in place] for name in place if name in chosen)]
+
+
+def _drawn(r: Rotation) -> list[arb]:
+    """Where the body's z axis is drawn, R0 e_z = (sin theta sin phi, -sin theta cos phi, cos theta)."""
+    phi, theta = (NEARLY + (approximate(e) or 0.0) if not e.is_zero else arb(0) for e in r.initial[:2])
+    return [theta.sin() * phi.sin(), -theta.sin() * phi.cos(), theta.cos()]
+
+
+def _rates(g: Sequence[arb], drawn: Sequence[arb], upright: bool) -> arb_mat:
+    """The Euler angles' rates by the rates of the Gibbs vector. Raises ZeroDivisionError where they are singular.
+
+    Where the body keeps its z axis ``upright``, psi stands for the turn about it, theta and phi for tilts.
+    """
+    x, y, z = g
+    cross = arb_mat([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    one = arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    scale = 2 / (1 + x * x + y * y + z * z)
+    axis = (one + (cross + cross * cross) * scale) * arb_mat([[v] for v in drawn])
+    a, b, c = (axis[i, 0] for i in range(3))
+    axes = arb_mat([[0, 1, 0], [1, 0, 0], [0, 0, 1]] if upright else [[0, -b, a], [0, a, b], [1, 0, c]])
+    return axes.solve((one + cross) * scale)

@@ -1,0 +1,236 @@
+"""Rosters: who is in a course, and under which names, addresses and numbers, read from a table of any platform.
+
+The headers of Canvas's gradebook (``Student, ID, SIS User ID, SIS Login ID, Section``), of Moodle's lists of
+participants and grades (``First name, Last name, ID number, Email address``), of Gradescope's (``Name, SID, Email``)
+and their like are known, in the usual languages.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import os
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from io import StringIO
+from pathlib import Path
+
+from dofkit.base.errors import DofkitError
+from dofkit.homework.answers.submission import MOST_BYTES, clean, reason
+from dofkit.homework.answers.tables import DELIMITERS
+
+#: What headers call each field, in small letters.
+_HEADERS: Mapping[str, frozenset[str]] = {
+    "name": frozenset(
+        {"student", "name", "full name", "fullname", "student name", "display name", "vollständiger name",
+         "nom complet", "nombre completo"}
+    ),
+    "first": frozenset({"first name", "firstname", "given name", "vorname", "prénom", "nombre"}),
+    "last": frozenset(
+        {"last name", "lastname", "surname", "family name", "nachname", "nom", "nom de famille", "apellido",
+         "apellidos", "apellido(s)"}
+    ),
+    "email": frozenset(
+        {"email", "e-mail", "mail", "email address", "e-mail address", "e-mail-adresse", "useremail",
+         "adresse de courriel", "courriel", "dirección de correo", "correo", "correo electrónico"}
+    ),
+    "number": frozenset(
+        {"id number", "idnumber", "useridnumber", "student id", "sid", "sis user id", "student number",
+         "matriculation number", "matrikelnummer", "matrikel", "id-nummer", "numéro d'identification", "número de id"}
+    ),
+    "username": frozenset(
+        {"username", "user name", "login", "login id", "sis login id", "uid", "anmeldename", "nutzername",
+         "nom d'utilisateur", "nombre de usuario"}
+    ),
+    "own": frozenset({"userid", "user id", "canvas id", "moodle id"}),
+    "section": frozenset({"section", "sections", "group", "gruppe"}),
+}  # fmt: skip
+#: Of what one person has, and nobody else.
+_UNIQUE = ("email", "number", "username", "own")
+#: Folders and files as Moodle calls them when all submissions are downloaded, and as Canvas does.
+_MOODLE = re.compile(r"(?P<name>.+?)_\d+_assignsubmission_\w+")
+_CANVAS = re.compile(r"[^\W_]+_(?:LATE_)?(?P<id>\d+)_\d+_", re.IGNORECASE)
+
+
+class RosterError(DofkitError):
+    """A roster that cannot be used: what is wrong, and in which line."""
+
+
+@dataclass(frozen=True)
+class Participant:
+    """A person in a course; what is not known is empty.
+
+    ``student``: what results call them, no two alike. ``own``: the number that the platform itself gave them, such as
+    Canvas's ``ID``; ``number``: that of the university.
+    """
+
+    student: str
+    name: str = ""
+    email: str = ""
+    number: str = ""
+    username: str = ""
+    own: str = ""
+    section: str = ""
+    line: int = 0
+
+    def called(self) -> Iterator[str]:
+        """Everything they go by."""
+        yield from (text for text in (self.name, self.email, self.number, self.username, self.own) if text)
+        last, comma, first = self.name.partition(",")
+        if comma:
+            yield f"{first} {last}"
+
+    def goes_by(self, text: str) -> bool:
+        """Is a text one of their names, or a part of their name of whole words?"""
+        words = set(_key(self.name.replace(",", " ")).split())
+        given = _key(text.replace(",", " ")).split()
+        return _key(text) in map(_key, self.called()) or (bool(given) and set(given) <= words)
+
+
+@dataclass(frozen=True)
+class Roster:
+    """Everyone in a course. ``columns``: the header of the table, as written."""
+
+    members: tuple[Participant, ...]
+    columns: tuple[str, ...] = ()
+    digest: str = field(default="", compare=False)
+
+    @cached_property
+    def _known(self) -> dict[str, Participant | None]:
+        """By what they go by; None for what several go by."""
+        found: dict[str, Participant | None] = {}
+        for member in self.members:
+            for text in {*map(_key, member.called()), _key(member.student)}:
+                found[text] = member if found.get(text, member) is member else None
+        return found
+
+    def find(self, text: str) -> Participant | None:
+        """Who goes by a name, an address or a number; None for nobody, and for what two go by."""
+        return self._known.get(_key(text))
+
+    def owners(self, claims: Sequence[str]) -> list[Participant]:
+        """Whom the names of a file and of its folders name, the innermost first; usually one, or nobody."""
+        known = (next(filter(None, map(self.find, named_by(claim))), None) for claim in claims)
+        return list(dict.fromkeys(member for member in known if member is not None))
+
+
+def named_by(claim: str) -> Iterator[str]:
+    """Who may be meant by the name of a file or a folder, as platforms write them.
+
+    >>> list(named_by("Ada Lovelace_123_assignsubmission_file_"))
+    ['Ada Lovelace', 'Ada Lovelace_123_assignsubmission_file_']
+    >>> list(named_by("lovelaceada_LATE_12_345_answers"))
+    ['12', 'lovelaceada_LATE_12_345_answers']
+    """
+    for pattern in (_MOODLE, _CANVAS):
+        if found := pattern.match(claim):
+            yield found[1]
+    yield claim
+
+
+def _key(text: str) -> str:
+    return " ".join(unicodedata.normalize("NFC", text).casefold().split())
+
+
+def load_roster(path: str | os.PathLike[str]) -> Roster:
+    """The roster of a table in CSV, separated by commas, semicolons, tabs or bars. Raises RosterError.
+
+    It needs a column of names, addresses or numbers; rows such as Canvas's ``Points Possible`` are nobody.
+    """
+    shown = clean(os.fspath(path))
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise RosterError(f"{shown} cannot be read: {reason(error)}") from None
+    if len(data) > MOST_BYTES:
+        raise RosterError(f"{shown} is longer than {MOST_BYTES // 10**6} MB")
+    try:
+        text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+        table = [(number, [cell.strip() for cell in row]) for number, row in _rows(text)]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise RosterError(f"{shown} is no table in UTF-8: {error}") from None
+    if not table:
+        raise RosterError(f"{shown} is empty: a roster has a header such as name,email,id and a row for everyone")
+    (_, header), *rows = table
+    fields = _fields(header, shown)
+    return Roster(
+        tuple(_members(fields, rows, shown)), tuple(header), hashlib.blake2b(data, digest_size=16).hexdigest()
+    )
+
+
+def _rows(text: str) -> Iterator[tuple[int, list[str]]]:
+    """The rows that say anything, each with its line."""
+    lines = text.lstrip("\r\n")
+    first = lines.split("\n", 1)[0].strip()
+    delimiter = max(DELIMITERS, key=first.count)
+    if re.fullmatch(r"sep=.", first, re.IGNORECASE):
+        delimiter, lines = first[4], lines.split("\n", 1)[-1]
+    before = text.count("\n") - lines.count("\n")
+    reader = csv.reader(StringIO(lines, newline=""), delimiter=delimiter)
+    start = 1
+    for row in reader:
+        if any(cell.strip() for cell in row):
+            yield before + start, row
+        start = reader.line_num + 1
+
+
+def _fields(header: list[str], shown: str) -> dict[str, int]:
+    """Which column is what."""
+    words = [" ".join(name.lower().split()) for name in header]
+    found: dict[str, int] = {}
+    for i, word in enumerate(words):
+        for name, called in _HEADERS.items():
+            if word in called:
+                found.setdefault(name, i)
+    if "id" in words:
+        found.setdefault("own" if "number" in found or "sis login id" in words else "number", words.index("id"))
+    if not {"name", "last", *_UNIQUE} & set(found):
+        raise RosterError(
+            f"{shown} tells nobody apart: its header is {clean(', '.join(header))[:120]}; "
+            "a roster has a column 'name', 'email' or 'id'"
+        )
+    return found
+
+
+def _members(fields: Mapping[str, int], rows: Iterable[tuple[int, list[str]]], shown: str) -> Iterator[Participant]:
+    """Everyone, each called by the first of what nobody else goes by."""
+    found: list[Participant] = []
+    for line, cells in rows:
+        one = {name: clean(cells[i]) if i < len(cells) else "" for name, i in fields.items()}
+        first, last = one.pop("first", ""), one.pop("last", "")
+        one["name"] = one.get("name") or f"{first} {last}".strip()
+        if _is_nobody(one):
+            continue
+        found.append(Participant("", line=line, **one))
+    _told_apart(found, shown)
+    shared = Counter(key for member in found for key in set(map(_key, member.called())))
+    for member in found:
+        own = (getattr(member, name) for name in (*_UNIQUE, "name"))
+        student = next((text for text in own if shared[_key(text)] == 1), None)
+        if student is None:
+            raise RosterError(f"{shown}, line {member.line}: others go by all that '{member.name}' goes by")
+        yield replace(member, student=student)
+
+
+def _is_nobody(one: Mapping[str, str]) -> bool:
+    """Canvas's rows below the header: of points, and of what is posted by hand."""
+    alone = not any(one.get(name) for name in _UNIQUE)
+    return alone and ("Points Possible" in one["name"] or not one["name"])
+
+
+def _told_apart(members: Iterable[Participant], shown: str) -> None:
+    """Raise RosterError where two have the same address or number, or where all that is known of two is alike."""
+    seen: dict[tuple[str, str], Participant] = {}
+    for member in members:
+        marks = [(name, _key(getattr(member, name))) for name in _UNIQUE if getattr(member, name)]
+        for mark in marks or [("name", _key(member.name))]:
+            other = seen.setdefault(mark, member)
+            if other is not member:
+                raise RosterError(
+                    f"{shown}, line {member.line}: '{getattr(member, mark[0])}' stands in line {other.line} too: "
+                    "nobody could tell these two apart"
+                )

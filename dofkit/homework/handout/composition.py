@@ -1,0 +1,163 @@
+"""What a sheet says, as Markdown: every problem with its picture, its names and questions, and how answers are written.
+
+It tells no answer: an equation that is asked for is not shown, and an example is one that is wrong for every question.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import groupby
+
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.formats.wording import number
+from dofkit.homework.grading import Grader
+from dofkit.homework.handout.figures import SheetFigure
+from dofkit.homework.key.key import Key
+from dofkit.homework.problem import Problem
+from dofkit.homework.questions import QuestionBase
+from dofkit.homework.questions.equations import EquationQuestion
+from dofkit.homework.sentences.said import Language, say
+from dofkit.homework.statement import ALL, filled, marked, places, shown
+from dofkit.scene.fields import as_written
+from dofkit.scene.names import coordinate_table
+from dofkit.scene.parts import Force, show_point
+
+_SIGNED = {
+    "real": "{names}: a constant.",
+    "positive": "{names}: a positive constant.",
+    "nonzero": "{names}: a constant that is not 0.",
+}
+_FREEDOM = {
+    "configuration": "Degrees of freedom are here the dimension of the configuration space.",
+    "velocity": "Degrees of freedom are here the number of independent velocities.",
+}
+
+
+@dataclass(frozen=True)
+class SheetComposer:
+    """Writes one sheet; ``figures``: the pictures by problem; ``whose``: the student, where it is one student's."""
+
+    prepared: Prepared
+    figures: dict[str, SheetFigure]
+    whose: str | None = None
+
+    @property
+    def language(self) -> Language:
+        """What it is written in."""
+        return self.prepared.assignment.language
+
+    def told(self, sentence: str, **values: object) -> str:
+        """A sentence in the sheet's language."""
+        return say(sentence, **values).told(self.language)
+
+    def markdown(self) -> str:
+        """The whole sheet."""
+        assignment = self.prepared.assignment
+        blocks = [f"# {marked(assignment.title)}"]
+        if self.whose is not None:
+            whose = self.told("This is the sheet of {student}.", student=marked(self.whose))
+            blocks.append(f"**{whose}**")
+        for n, problem in enumerate(assignment.problems, 1):
+            blocks += self._problem(n, problem)
+        heading = self.told("How are answers written?")
+        blocks += [f"## {heading}", "\n".join(f"- {way}" for way in self._ways())]
+        return "\n\n".join(blocks) + "\n"
+
+    def _problem(self, n: int, problem: Problem) -> Iterator[str]:
+        key = self.prepared.keys[problem.id]
+        whole = sum((q.points for q in problem.questions), Fraction(0))
+        yield f"## {n}. {marked(problem.title or problem.id)} ({self._points(whole)})"
+        if problem.text is not None:
+            yield filled(problem.text, key.scene, asked_equations(problem)).strip()
+        figure = self.figures.get(problem.id)
+        if figure is not None:
+            caption = self.told("Figure {number}", number=n)
+            yield f"![{caption}]({figure.path})"
+        names = list(self._names(problem, key))
+        if names:
+            yield "\n".join(f"- {one}" for one in names)
+        yield "\n".join(
+            f"{i}. `{problem.id}.{q.id}` {self._asked(q)} ({self._points(q.points)})"
+            for i, q in enumerate(problem.questions, 1)
+        )
+
+    def _points(self, points: Fraction) -> str:
+        return self.told("points: {number}", number=number(float(points)))
+
+    def _asked(self, question: QuestionBase) -> str:
+        constraint = getattr(question, "constraint", None) is not None
+        about = ", ".join(f"`{name}`" if constraint else f"${name}$" for name in question.about)
+        return question.asked(about).told(self.language)
+
+    def _names(self, problem: Problem, key: Key) -> Iterator[str]:
+        """What everything is called, and what holds it."""
+        table = coordinate_table(key.scene)
+        for owner, group in groupby(table.coordinates, key=lambda c: c.owner):
+            symbols = ", ".join(f"${c.name}$" for c in group)
+            if owner is None:
+                yield self.told("{names}: coordinates.", names=symbols)
+            elif owner in table.bodies and key.scene.dimension > 1:
+                yield self.told(
+                    "{names}: the place and the orientation of the body {owner}.", names=symbols, owner=owner
+                )
+            else:
+                yield self.told("{names}: the place of {owner}.", names=symbols, owner=owner)
+        for name, value in key.scene.parameters.items():
+            sign = _SIGNED.get(str(value))
+            yield self.told(sign, names=f"${name}$") if sign else f"${name} = {as_written(value)}$"
+        for name, arguments in key.scene.functions.items():
+            yield self.told("{names}: an unknown smooth function.", names=f"${name}({', '.join(arguments)})$")
+        if (ALL, None) not in places(problem.text or ""):
+            yield from self._constraints(key, asked_equations(problem))
+            yield from map(_of_force, key.scene.forces)
+        yield from self._further(problem, key)
+
+    def _constraints(self, key: Key, hidden: set[str]) -> Iterator[str]:
+        for constraint, name in zip(key.scene.constraints, key.constraints, strict=True):
+            if constraint.facts.written and name in hidden:
+                yield self.told("{names}: a constraint.", names=f"`{name}`")
+            else:
+                yield f"`{name}`: {shown(constraint)}"
+
+    def _further(self, problem: Problem, key: Key) -> Iterator[str]:
+        for name, text in problem.also.items():
+            yield self.told("You may also use {names}.", names=f"${name} = {text}$")
+        for name, others in problem.names.items():
+            listed = ", ".join(f"`{other}`" for other in others)
+            yield self.told("{name} may also be called {names}.", name=f"`{name}`", names=listed)
+
+    def _ways(self) -> Iterator[str]:
+        """How answers are written: of every kind of question that the sheet has."""
+        asked = [question for _, question in self.prepared.questions()]
+        kinds = {question.kind(): type(question) for question in asked}
+        if {"dof", "k"} & set(kinds):
+            yield self.told(_FREEDOM[self.prepared.assignment.convention])
+        for cls in kinds.values():
+            example = safe_example(self.prepared, cls)
+            lead = self.told("Of another system, for example:")
+            yield self.told(cls.how) + (f" {lead} `{example}`" if example is not None else "")
+        yield self.told("Greek letters may be typed as such or as words: theta, omega. LaTeX is read as well.")
+        yield self.told("A decimal number has a point or a comma; exact numbers, such as 1/3 or sqrt(2), are better.")
+
+
+def asked_equations(problem: Problem) -> set[str]:
+    """The constraints whose equations are asked for."""
+    return {name for q in problem.questions if isinstance(q, EquationQuestion) for name in q.constraint}
+
+
+def safe_example(prepared: Prepared, kind: type[QuestionBase]) -> str | None:
+    """The first example of a kind that is wrong, or means nothing, for all its questions here; None where none is."""
+    grader = Grader(prepared)
+    places = [(p, q) for p, q in prepared.questions() if isinstance(q, kind)]
+    for example in kind.examples:
+        if not any(q.reveals(grader.judge(f"{p.id} {q.id} {example}", p, q, example, {})[0]) for p, q in places):
+            return example
+    return None
+
+
+def _of_force(force: Force) -> str:
+    ends = [*(force.between or ()), *([] if force.point is None else [force.point])]
+    where = ", ".join(show_point(end) for end in ends) or force.body or ""
+    return marked(f"{force.type} {where}".strip())

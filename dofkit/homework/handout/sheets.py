@@ -1,0 +1,122 @@
+"""Sheets written to files: one Markdown text, told in the format that is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from dofkit.base.errors import ArgumentError
+from dofkit.base.spelling import no_such
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.formats.wording import stem
+from dofkit.homework.handout.composition import SheetComposer
+from dofkit.homework.handout.figures import Draw, SheetFigure, figure_of, file_of
+from dofkit.homework.handout.markup import pictures_of, unset_formulas, with_latex
+from dofkit.homework.handout.page import page_of
+from dofkit.homework.handout.paper import pdf_of, pdf_of_picture, typst_of
+from dofkit.homework.handout.tex import tex_of
+from dofkit.homework.problem import Problem
+from dofkit.homework.questions import MOTION
+from dofkit.homework.questions.equations import EquationQuestion
+from dofkit.homework.statement import named
+
+
+class WrittenSheet(NamedTuple):
+    """A sheet in its own Markdown, with its pictures by their paths."""
+
+    markdown: str
+    title: str
+    language: str
+    figures: dict[str, SheetFigure]
+
+
+def written_sheet(prepared: Prepared, draw: Draw, whose: str | None = None) -> WrittenSheet:
+    """The sheet of an assignment. Raises FigureError, and OSError for a figure that cannot be read."""
+    of_problem: dict[str, SheetFigure] = {}
+    others: dict[str, SheetFigure] = {}
+    for problem in prepared.assignment.problems:
+        figure = _figure(problem, prepared, draw, whose)
+        if figure is not None:
+            of_problem[problem.id] = figure
+        for n, source in enumerate(dict.fromkeys(pictures_of(problem.text or "")), 1):
+            others[source] = file_of(source, prepared.base, f"{_path(problem, whose)}-{n}")
+    assignment = prepared.assignment
+    markdown = SheetComposer(prepared, of_problem, whose).markdown()
+    for source, figure in others.items():
+        markdown = markdown.replace(f"]({source}", f"]({figure.path}")
+    figures = {figure.path: figure for figure in (*of_problem.values(), *others.values())}
+    return WrittenSheet(markdown, assignment.title, assignment.language, figures)
+
+
+def _figure(problem: Problem, prepared: Prepared, draw: Draw, whose: str | None) -> SheetFigure | None:
+    key = prepared.keys[problem.id]
+    path = _path(problem, whose)
+    return figure_of(problem, lambda: draw(key.scene, key.report, problem.title or problem.id), prepared.base, path)
+
+
+def _path(problem: Problem, whose: str | None) -> str:
+    """Where the picture of a problem stands in the sheet's folder, without its ending; each student has another."""
+    return "/".join(["figures", *([] if whose is None else [stem(whose)]), stem(problem.id)])
+
+
+def _html(sheet: WrittenSheet, out: Path) -> None:
+    out.write_text(page_of(sheet.markdown, sheet.title, sheet.language, sheet.figures), encoding="utf-8")
+
+
+def _pdf(sheet: WrittenSheet, out: Path) -> None:
+    typst = typst_of(sheet.markdown, sheet.title, sheet.language)
+    out.write_bytes(pdf_of(typst, {path: figure.data for path, figure in sheet.figures.items()}))
+
+
+def _markdown(sheet: WrittenSheet, out: Path) -> None:
+    out.write_text(with_latex(sheet.markdown), encoding="utf-8")
+    for path, figure in sheet.figures.items():
+        _beside(out, path, figure.data)
+
+
+def _tex(sheet: WrittenSheet, out: Path) -> None:
+    out.write_text(tex_of(sheet.markdown), encoding="utf-8")
+    for path, figure in sheet.figures.items():
+        if path.endswith(".svg"):
+            _beside(out, str(Path(path).with_suffix(".pdf")), pdf_of_picture(figure.data))
+        else:
+            _beside(out, path, figure.data)
+
+
+def _beside(out: Path, path: str, data: bytes) -> None:
+    target = out.parent / path
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_bytes(data)
+
+
+#: How a sheet is written, by the name of the format.
+HANDOUTS: dict[str, Callable[[WrittenSheet, Path], None]] = {"html": _html, "pdf": _pdf, "tex": _tex, "md": _markdown}
+
+
+def write_sheet(sheet: WrittenSheet, form: str, out: Path) -> None:
+    """Write a sheet; the folder of ``out`` is made.
+
+    Raises ArgumentError for an unknown format, TypesetterMissingError and OSError.
+    """
+    if form not in HANDOUTS:
+        raise ArgumentError(no_such(form, list(HANDOUTS), "format"))
+    out.parent.mkdir(parents=True, exist_ok=True)
+    HANDOUTS[form](sheet, out)
+
+
+def remarks(prepared: Prepared) -> Iterator[str]:
+    """What a lecturer should know of a sheet before it is handed out."""
+    for problem in prepared.assignment.problems:
+        for text in unset_formulas(problem.text or ""):
+            yield f"problem '{problem.id}': the formula ${text}$ cannot be set, and is shown as it is typed"
+        if problem.text is None:
+            if any(isinstance(question, MOTION) for question in problem.questions):
+                yield f"problem '{problem.id}': the sheet does not say what the forces and masses are: say it in `text`"
+            scene = named(prepared.keys[problem.id].scene)
+            asked = [n for q in problem.questions if isinstance(q, EquationQuestion) for n in q.constraint]
+            for name in dict.fromkeys(n for n in asked if scene[n].facts.written):
+                yield (
+                    f"problem '{problem.id}': the equation of '{name}' is asked for, and the scene has nothing but "
+                    "this equation: say in `text` what holds"
+                )

@@ -1,0 +1,186 @@
+"""A review's table as a person saved it, from whatever spreadsheet: every fault in it at once, or its rows."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from io import StringIO
+from pathlib import Path
+
+from dofkit.base.errors import DofkitError, Fault
+from dofkit.base.spelling import nearest
+from dofkit.homework.review.identity import mark_of, question_mark
+from dofkit.homework.review.rows import COLUMNS, SOMEONE, Decision, ReviewRow
+
+#: What a person writes may be so long; faults of a table that are told; bytes that are read.
+MOST_REMARKED, MOST_FAULTS, MOST_BYTES = 2000, 50, 200_000_000
+_NEEDED = ("id", "points")
+_POINTS = re.compile(r"\d{1,9}(?:[.,]\d{1,9})?|\d{1,9}/[1-9]\d{0,8}")
+_DELIMITERS = ",;\t|"
+
+#: The most points of every question of an assignment.
+Asked = Mapping[tuple[str, str], Fraction]
+
+
+class ReviewError(DofkitError):
+    """A table of a review that cannot be used: all its faults, each with its line and column."""
+
+    def __init__(self, faults: tuple[Fault, ...], file: str) -> None:
+        self.faults = faults
+        self.file = file
+        super().__init__("\n".join(f"{file}: {fault}" for fault in faults))
+
+    def __reduce__(self) -> tuple[type[ReviewError], tuple[tuple[Fault, ...], str]]:
+        return (ReviewError, (self.faults, self.file))
+
+
+@dataclass(frozen=True)
+class FilledTable:
+    """``rows``: by the answer's identity, in the order of the file; ``delimiter``: between its cells."""
+
+    rows: Mapping[str, ReviewRow] = field(default_factory=dict)
+    delimiter: str | None = None
+
+
+def read_table(path: Path, asked: Asked) -> FilledTable:
+    """The rows of a table. Raises ReviewError with every fault at once, and OSError."""
+    with path.open("rb") as file:
+        data = file.read(MOST_BYTES)
+    reader = _TableReader(str(path), asked)
+    return reader.table(_decoded(data))
+
+
+def _decoded(data: bytes) -> str:
+    """A text in UTF-8, in UTF-16 where its first bytes say so, or in what Excel saves in western Europe."""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return data.decode("utf-16", "replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", "replace")
+
+
+class _TableReader:
+    """Reads one table and gathers its faults."""
+
+    def __init__(self, source: str, asked: Asked) -> None:
+        self.source = source
+        self.marks = {question_mark(*place): place for place in asked}
+        self.asked = asked
+        self.faults: list[Fault] = []
+        self.places: dict[str, int] = {}
+        self.rows: dict[str, ReviewRow] = {}
+
+    def table(self, text: str) -> FilledTable:
+        """All rows. Raises ReviewError."""
+        lines, skipped = text, 0
+        if text[:4].lower() == "sep=":
+            lines, skipped = text.partition("\n")[2], 1
+        delimiter = max(_DELIMITERS, key=lambda d: sum(name in COLUMNS for name in _names(lines, d)))
+        records = _records(lines, delimiter, skipped)
+        try:
+            columns = self._header(next(records, (1, [])))
+            for line, cells in records:
+                if columns and any(cell.strip() for cell in cells):
+                    self._row(line, columns, cells)
+        except csv.Error as error:
+            self._fault(f"the table cannot be read: {error}", 1 + skipped, 1, "save it as CSV once more")
+        if not self.faults and self.rows and not any(self._known(identity) for identity in self.rows):
+            hint = "name the review.csv that was written with this assignment's results"
+            self._fault("no row of it is about a question of this assignment", 1, 1, hint)
+        if self.faults:
+            raise ReviewError(tuple(self.faults[:MOST_FAULTS]), self.source)
+        return FilledTable(self.rows, delimiter)
+
+    def _known(self, identity: str) -> bool:
+        return mark_of(identity) in self.marks
+
+    def _fault(self, message: str, line: int, column: int, hint: str | None = None) -> None:
+        self.faults.append(Fault(message, (), line, column, hint))
+
+    def _header(self, record: tuple[int, list[str]]) -> dict[str, int]:
+        """Where each column stands; empty where one is missing."""
+        line, cells = record
+        names = [cell.strip().lower() for cell in cells]
+        for name in _NEEDED:
+            if name not in names:
+                near = nearest(name, [one for one in names if one not in COLUMNS])
+                hint = f"is it '{near}'?" if near else f"the columns are {', '.join(COLUMNS)}"
+                self._fault(f"there is no column '{name}'", line, 1, hint)
+        for i, name in enumerate(names):
+            if name in COLUMNS and name in names[:i]:
+                self._fault(f"the column '{name}' is there twice", line, i + 1, "delete one of the two")
+        return {} if self.faults else {name: i for i, name in enumerate(names) if name in COLUMNS}
+
+    def _row(self, line: int, columns: Mapping[str, int], given: Sequence[str]) -> None:
+        cells = {name: _bare(given[i]) if i < len(given) else "" for name, i in columns.items()}
+        identity, before = cells["id"], len(self.faults)
+        if mark_of(identity) is None:
+            told = f"'{identity[:40]}' is no id of a review" if identity else "the row has no id"
+            self._fault(told, line, columns["id"] + 1, "copy it from the review.csv that dofkit wrote")
+        decision = self._decision(line, columns, cells)
+        if len(self.faults) > before:
+            return
+        row, first = ReviewRow(cells, decision), self.rows.get(identity)
+        if first is None or (decision is None and not row.filled):
+            self.rows.setdefault(identity, row)
+            self.places.setdefault(identity, line)
+        elif first.decision is not None and decision is not None and first.decision != decision:
+            told = f"this answer is decided otherwise in line {self.places[identity]}"
+            self._fault(told, line, columns["points"] + 1, "keep one of the two rows")
+        elif first.decision is None:
+            self.rows[identity], self.places[identity] = row, line
+
+    def _decision(self, line: int, columns: Mapping[str, int], cells: Mapping[str, str]) -> Decision | None:
+        text, remark = cells["points"], cells.get("remark", "")
+        if len(remark) > MOST_REMARKED:
+            told = f"the remark has {len(remark)} characters"
+            self._fault(told, line, columns["remark"] + 1, f"at most {MOST_REMARKED}")
+        if not text:
+            return None
+        most = self.asked.get(self.marks.get(mark_of(cells["id"]) or "", ("", "")))
+        points = _number(text)
+        allowed = "write a number of points" if most is None else f"write 0 to {_shown(most)}, or nothing"
+        if points is None:
+            self._fault(f"'{text[:40]}' is no number of points", line, columns["points"] + 1, allowed)
+        elif most is not None and not 0 <= points <= most:
+            self._fault(f"{text} points are out of range", line, columns["points"] + 1, allowed)
+        else:
+            return Decision(points, remark, cells.get("decided_by") or SOMEONE)
+        return None
+
+
+def _names(text: str, delimiter: str) -> list[str]:
+    return [cell.strip(' "\r').lower() for cell in text.partition("\n")[0].split(delimiter)]
+
+
+def _records(text: str, delimiter: str, skipped: int) -> Iterator[tuple[int, list[str]]]:
+    """The first line of every record, and its cells; blank lines are none."""
+    reader = csv.reader(StringIO(text, newline=""), delimiter=delimiter)
+    line = 1
+    for cells in reader:
+        if cells:
+            yield line + skipped, cells
+        line = reader.line_num + 1
+
+
+def _bare(cell: str) -> str:
+    """A cell without the apostrophe that keeps spreadsheets from reading it as a formula or a number."""
+    cell = cell.strip()
+    return cell[1:] if cell.startswith("'") else cell
+
+
+def _number(text: str) -> Fraction | None:
+    """Points as people write them, with a comma or a dot; a sign is kept for the range to refuse."""
+    bare = text.removeprefix("+").removeprefix("-").strip()
+    if _POINTS.fullmatch(bare) is None:
+        return None
+    found = Fraction(bare.replace(",", "."))
+    return -found if text.startswith("-") else found
+
+
+def _shown(number: Fraction) -> str:
+    return f"{float(number):g}"

@@ -1,0 +1,88 @@
+"""Relations between joints as a person would write them: letters, short numbers, nothing that is zero."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+from dofkit.models.model_document import DECIMALS
+
+_LETTERS = "pqrsuvwabcdefgh"
+
+
+class JointSum(NamedTuple):
+    """The sum of factors times what joints tell, counted from the drawing; and what it is in the drawing."""
+
+    terms: tuple[tuple[str, float], ...]
+    drawn: float = 0.0
+
+    def text(self, letters: dict[str, str]) -> str:
+        """The sum as text; joints get their letters."""
+        parts = []
+        for name, factor in self.terms:
+            letter = letters.setdefault(name, _letter(len(letters)))
+            parts.append(_term(factor, letter))
+        if round(self.drawn, DECIMALS):
+            parts.append(_signed(figures(self.drawn)))
+        return _joined(parts)
+
+
+def relation(left: JointSum, right: JointSum | None, polynomial: Sequence[float]) -> dict[str, Any]:
+    """The fields of a coupling: left = a0 + a1 right + a2 right^2 + ...
+
+    >>> relation(JointSum((("hip", 1.0),)), JointSum((("knee", 1.0),)), [0, 2, 0, 0, 0])
+    {'joints': {'p': 'hip', 'q': 'knee'}, 'text': 'p = 2 q'}
+    """
+    letters: dict[str, str] = {}
+    one = left.text(letters)
+    parts = [_signed(figures(polynomial[0]))] if polynomial[0] else []
+    if right is not None:
+        other = right.text(letters)
+        base = other if " " not in other else f"({other})"
+        for power, factor in enumerate(polynomial[1:], 1):
+            if factor:
+                parts.append(_term(factor, base if power == 1 else f"{base}^{power}"))
+    return {"joints": {letter: name for name, letter in letters.items()}, "text": f"{one} = {_joined(parts)}"}
+
+
+def bounds(total: JointSum, between: Sequence[float]) -> dict[str, Any]:
+    """The fields of a coupling that keeps a sum between two numbers.
+
+    >>> bounds(JointSum((("hip", 1.0),)), [-1, 0.5])
+    {'joints': {'p': 'hip'}, 'text': '-1 <= p <= 0.5'}
+    """
+    letters: dict[str, str] = {}
+    text = JointSum(total.terms).text(letters)
+    low, high = (figures(b - total.drawn) for b in between)
+    return {"joints": {letter: name for name, letter in letters.items()}, "text": f"{low} <= {text} <= {high}"}
+
+
+def figures(value: float) -> str:
+    """A number without an exponent.
+
+    >>> figures(1e-05), figures(-2.0)
+    ('0.00001', '-2')
+    """
+    text = f"{value:.{DECIMALS}f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def _letter(k: int) -> str:
+    return _LETTERS[k] if k < len(_LETTERS) else f"q{k}"
+
+
+def _term(factor: float, what: str) -> str:
+    """A term with its sign."""
+    size = figures(abs(factor))
+    return ("- " if factor < 0 else "+ ") + (what if size == "1" else f"{size} {what}")
+
+
+def _signed(text: str) -> str:
+    return f"- {text[1:]}" if text.startswith("-") else f"+ {text}"
+
+
+def _joined(parts: Iterable[str]) -> str:
+    told = " ".join(parts)
+    if told.startswith("- "):
+        return f"-{told[2:]}"
+    return told.removeprefix("+ ") or "0"

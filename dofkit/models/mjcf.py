@@ -1,0 +1,234 @@
+"""MJCF, the models of MuJoCo, as scenes: what its compiler tells of bodies, joints, equalities and tendons.
+
+A body stands at its centre of mass. Several joints of one body are in series, as in MuJoCo: bodies without mass, named
+after the joint that moves them, stand between. What MuJoCo welds to the world is the ground.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from dofkit.base.errors import Fault, SceneError
+from dofkit.models.compiled_by_mujoco import CompiledModel, compiled
+from dofkit.models.joint_relations import JointSum, bounds, relation
+from dofkit.models.model_document import (
+    ModelDocument,
+    ModelFile,
+    SceneDraft,
+    listed,
+    number,
+    tolerance_of,
+    vector,
+)
+from dofkit.system import GROUND
+
+#: Attributes that place something.
+_PLACING = ("pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "axis", "fromto", "anchor", "relpose", "ref")
+_KINDS = {"hinge": "revolute", "slide": "prismatic", "ball": "spherical"}
+
+
+def read(file: ModelFile) -> ModelDocument:
+    """The scene of an MJCF file. Raises SceneError for what the compiler does not take."""
+    found = compiled(file)
+    if not found.told["closed"]:
+        hint = "give a pose in which they hold, or switch them off: active='false'"
+        fault = Fault("the equalities hold neither in the pose that is written nor in one near it", hint=hint)
+        raise SceneError((fault,), file.name)
+    title = found.root.get("model") or file.name
+    return _MjcfScene(found, SceneDraft(title), file.limits).document()
+
+
+@dataclass
+class _MjcfScene:
+    """The scene as it grows: ``stands`` is the scene's body of each of MuJoCo's, ``names`` the joint of each.
+
+    ``loops``: more than joints holds bodies together. Without that no place is special, whatever the digits.
+    """
+
+    found: CompiledModel
+    draft: SceneDraft
+    limits: bool
+    stands: list[str] = field(default_factory=list)
+    names: dict[int, str] = field(default_factory=dict)
+    loops: bool = False
+
+    def __post_init__(self) -> None:
+        self.told = self.found.told
+        self.line: dict[tuple[str, str], int] = {}
+        for element in self.found.root.every():
+            kind = "joint" if element.tag == "freejoint" else element.tag
+            self.line.setdefault((kind, element.get("name")), element.line)
+
+    def document(self) -> ModelDocument:
+        """Everything, in the order of the model."""
+        used = {body for e in self.told["equalities"] for body, _ in e.get("ends", ())}
+        used |= {step["end"][0] for t in self.told["tendons"] for step in t["path"] if step["end"]}
+        parents = {b["parent"] for b in self.told["bodies"]}
+        still, markers = [], []
+        for i, body in enumerate(self.told["bodies"]):
+            if body["static"]:
+                self.stands.append(GROUND)
+                still += [body["name"]] if i and body["name"] else []
+            elif not body["joints"] and not body["mass"] and i not in used | parents:
+                self.stands.append(self.stands[body["parent"]])
+                markers.append(body["name"])
+            else:
+                self._body(i, body)
+        if still:
+            self.draft.leave_out(f"{listed(still)}: fixed to the world, so they are the ground")
+        if markers:
+            self.draft.leave_out(f"{listed(markers)}: markers without mass, which nothing mentions")
+        for equality in self.told["equalities"]:
+            self._equality(equality)
+        self._ranges()
+        self._rest()
+        return self.draft.document(self._tolerance(), self.loops)
+
+    def _body(self, index: int, body: Mapping[str, Any]) -> None:
+        name = body["name"] or f"body_{index}"
+        line = self.line.get(("body", body["name"]))
+        below = self.stands[body["parent"]]
+        joints = [(j, self.told["joints"][j]) for j in body["joints"]]
+        for j, joint in joints[:-1]:
+            called = joint["name"] or f"{name}_{joint['kind']}_{j}"
+            between = self.draft.body(f"after_{called}", line, mass=0, inertia=[0, 0, 0])
+            self.draft.place(between, joint["anchor"])
+            self._joint(j, joint, (below, between))
+            below = between
+        rows = [vector(row) for row in body["inertia"]]
+        own = self.draft.body(name, line, mass=number(body["mass"]), inertia=_tidy(rows))
+        self.draft.place(own, body["centre"])
+        self.stands.append(own)
+        if joints:
+            self._joint(*joints[-1], (below, own))
+        else:
+            self.draft.constraint(name, "weld", line, between=[below, own])
+
+    def _joint(self, index: int, joint: Mapping[str, Any], between: tuple[str, str]) -> None:
+        if joint["kind"] == "free":
+            return
+        line = self.line.get(("joint", joint["name"]))
+        given: dict[str, Any] = {"between": [*between], "at": vector(joint["anchor"])}
+        if joint["kind"] != "ball":
+            given["axis"] = vector(joint["axis"])
+        kind = _KINDS[joint["kind"]]
+        self.names[index] = self.draft.constraint(joint["name"] or between[1], kind, line, **given)
+
+    def _equality(self, told: Mapping[str, Any]) -> None:
+        kind, name = told["kind"], told["name"] or told["kind"]
+        line = self.line.get((kind, told["name"])) if told["name"] else None
+        if not told["active"]:
+            self.draft.leave_out(f"the equality {name}: it is switched off")
+        elif kind in ("connect", "weld"):
+            ends = [(self.stands[body], vector(at)) for body, at in told["ends"]]
+            if ends[0][0] == ends[1][0]:
+                self.draft.leave_out(f"the equality {name}: both of its ends belong to {ends[0][0]}")
+                return
+            self.loops = True
+            if kind == "weld":
+                self.draft.constraint(name, "weld", line, between=[body for body, _ in ends])
+            else:
+                points = [at if body == GROUND else {"on": body, "at": at} for body, at in ends]
+                self.draft.constraint(name, "coincident", line, between=points)
+        elif kind in ("joint", "tendon"):
+            self._coupling(name, kind, told, line)
+        else:
+            self.draft.leave_out(f"{name}: of kind {kind}, which only MuJoCo knows", binding=True)
+
+    def _coupling(self, name: str, kind: str, told: Mapping[str, Any], line: int | None) -> None:
+        of = [i for i in told["of"] if i >= 0]
+        if kind == "tendon" and len(of) == 1 and self._string(name, of[0], told["polynomial"][0], line):
+            return
+        sums = [self._joint_sum(i) if kind == "joint" else self._fixed_tendon(i) for i in of]
+        known = [one for one in sums if one is not None]
+        if len(known) < len(sums):
+            self.draft.leave_out(f"{name}: of tendons that run around shapes", binding=True)
+            return
+        given = relation(known[0], known[1] if len(known) > 1 else None, told["polynomial"])
+        self.draft.constraint(name, "coupling", line, **given)
+
+    def _joint_sum(self, index: int) -> JointSum:
+        joint = self.told["joints"][index]
+        return JointSum(((self.names[index], 1.0),), joint["drawn"] - joint["zero"])
+
+    def _fixed_tendon(self, index: int) -> JointSum | None:
+        """What a tendon that is a sum of joints is longer by than in MuJoCo's zero; None for one that is not."""
+        tendon = self.told["tendons"][index]
+        if any(step["kind"] != "joint" for step in tendon["path"]):
+            return None
+        terms = tuple((self.names[step["of"]], step["factor"]) for step in tendon["path"])
+        return JointSum(terms, tendon["length"] - tendon["zero"])
+
+    def _string(self, name: str, index: int, more: float, line: int | None) -> bool:
+        """Write a tendon of a given length from site to site as a string; whether it is one."""
+        tendon = self.told["tendons"][index]
+        if any(step["kind"] != "site" for step in tendon["path"]):
+            return False
+        ends = [(self.stands[step["end"][0]], vector(step["end"][1])) for step in tendon["path"]]
+        along = [at if body == GROUND else {"on": body, "at": at} for body, at in ends]
+        self.loops = True
+        given = {} if not more else {"length": number(tendon["zero"] + more)}
+        self.draft.constraint(name, "string", line, along=along, **given)
+        return True
+
+    def _ranges(self) -> None:
+        """Ranges of joints and tendons: inequalities where they are asked for, else told."""
+        ranged = {name: self.told["joints"][i] for i, name in self.names.items() if self.told["joints"][i]["range"]}
+        plain = {name: joint for name, joint in ranged.items() if joint["kind"] != "ball"}
+        tendons = [(i, t) for i, t in enumerate(self.told["tendons"]) if t["range"]]
+        if not self.limits:
+            shown = [f"{name} from {j['range'][0]:.4g} to {j['range'][1]:.4g}" for name, j in ranged.items()]
+            if shown:
+                self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they are inequalities")
+            if tendons:
+                self.draft.leave_out(f"the ranges of tendons ({listed(t['name'] or str(i) for i, t in tendons)})")
+            return
+        for name, joint in plain.items():
+            given = bounds(JointSum(((name, 1.0),), joint["drawn"]), joint["range"])
+            self.draft.constraint(f"{name} range", "coupling", self.line.get(("joint", joint["name"])), **given)
+        balls = [name for name in ranged if name not in plain]
+        if balls:
+            self.draft.leave_out(f"the ranges of {listed(balls)}: of ball joints")
+        for i, tendon in tendons:
+            total, name = self._fixed_tendon(i), tendon["name"] or f"tendon_{i}"
+            if total is None:
+                self.draft.leave_out(f"the range of the tendon {name}: it runs through space")
+            else:
+                given = bounds(JointSum(total.terms, tendon["length"]), tendon["range"])
+                self.draft.constraint(f"{name} range", "coupling", None, **given)
+
+    def _rest(self) -> None:
+        """What enters the motion without being a constraint, and what became of the model."""
+        told = self.told
+        if any(told["gravity"]) and self.draft.bodies:
+            self.draft.forces.append({"type": "gravity", "acceleration": vector(told["gravity"])})
+        for key, what in (
+            ("contacts", "contacts between shapes: they come and go"),
+            ("actuators", "actuators: they are forces, and constrain nothing"),
+            ("springs", "springs of joints and tendons: they are forces, and constrain nothing"),
+            ("flexible", "flexible bodies: only MuJoCo knows them"),
+        ):
+            if told[key]:
+                self.draft.leave_out(what)
+        for note in told["notes"]:
+            self.draft.leave_out(note)
+
+    def _tolerance(self) -> float:
+        written = (
+            value
+            for root in (self.found.root, *self.found.included)
+            for element in root.every()
+            for key, value in element.attributes.items()
+            if key in _PLACING
+        )
+        places = [*(j["anchor"] for j in self.told["joints"]), *(b["centre"] for b in self.told["bodies"][1:])]
+        size = max((max(c) - min(c) for c in zip(*places, strict=True)), default=1.0)
+        return tolerance_of(written, size)
+
+
+def _tidy(rows: list[list[float | int]]) -> list[Any]:
+    """Three principal moments where that is all."""
+    off = [rows[i][j] for i in range(3) for j in range(3) if i != j]
+    return rows if any(off) else [rows[i][i] for i in range(3)]

@@ -1,0 +1,211 @@
+"""A model's file, and the scene that is made of it: its mapping, where its parts are from, and what was left out."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from decimal import Decimal
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from dofkit.expressions.text import valid_name
+from dofkit.system import BINDING
+
+#: Numbers are rounded to so many decimals: what a compiler of doubles knows.
+DECIMALS = 12
+#: The tolerance lies between these; a file in which no number has so many decimals is taken at its word.
+FINEST, COARSEST, FEW = 1e-9, 1e-3, 3
+#: Of the same kind so many are named.
+MOST_NAMED = 4
+
+_NUMBER = re.compile(r"[-+]?\d*\.?(\d*)(?:[eE]([-+]?\d+))?", re.ASCII)
+
+
+class ModelFile(NamedTuple):
+    """A file as it was found: its bytes, the scene's name, where it stands (None: nowhere).
+
+    ``limits``: ranges of joints become inequalities.
+    """
+
+    data: bytes | str
+    name: str
+    path: Path | None = None
+    limits: bool = False
+
+    @property
+    def text(self) -> str:
+        """Its text."""
+        return self.data if isinstance(self.data, str) else self.data.decode("utf-8-sig", "replace")
+
+
+@dataclass(frozen=True)
+class ModelDocument:
+    """The mapping of a scene, and the line of the model that each part of it is from, by its path.
+
+    ``tolerance``: what the digits of the file are worth, which the scene says only where places may be special.
+    """
+
+    value: dict[str, Any]
+    lines: Mapping[tuple[str | int, ...], int]
+    tolerance: float | None = None
+
+
+@dataclass
+class SceneDraft:
+    """A scene as it is written part by part; names of the model are kept as far as a scene can have them."""
+
+    title: str
+    dimension: int = 3
+    bodies: list[dict[str, Any]] = field(default_factory=list)
+    particles: list[dict[str, Any]] = field(default_factory=list)
+    parameters: dict[str, Any] = field(default_factory=dict)
+    coordinates: list[str] = field(default_factory=list)
+    constraints: list[Any] = field(default_factory=list)
+    forces: list[dict[str, Any]] = field(default_factory=list)
+    configuration: dict[str, Any] = field(default_factory=dict)
+    left_out: list[str] = field(default_factory=list)
+    lines: dict[tuple[str | int, ...], int] = field(default_factory=dict)
+    _bodies: set[str] = field(default_factory=lambda: {"ground", "t"})
+    _constraints: set[str] = field(default_factory=set)
+
+    def body(self, name: str, line: int | None, **given: Any) -> str:
+        """Add a body; the name that it got."""
+        found = identifier(name, self._bodies)
+        self._at(("bodies", len(self.bodies)), line)
+        self.bodies.append({"name": found, **given})
+        return found
+
+    def place(self, body: str, at: Iterable[float]) -> None:
+        """Where the origin of a body stands in the drawing."""
+        self.configuration |= {f"{c}_{body}": number(v) for c, v in zip("xyz", at, strict=False)}
+
+    def particle(self, name: str, line: int | None, at: Iterable[float]) -> str:
+        """Add a particle; the name that it got."""
+        found = identifier(name, self._bodies)
+        self._at(("particles", len(self.particles)), line)
+        self.particles.append({"name": found, "at": vector(at)})
+        return found
+
+    def constraint(self, name: str, kind: str, line: int | None, **given: Any) -> str:
+        """Add a constraint; the name that it got."""
+        found = unique(name, self._constraints)
+        self._at(("constraints", len(self.constraints)), line)
+        self.constraints.append({"name": found, "type": kind, **given})
+        return found
+
+    def leave_out(self, what: str, binding: bool = False) -> None:
+        """Say what was not read, and why; once. ``binding``: it is a constraint, and would take freedom away."""
+        what = f"{BINDING}{what}" if binding else what
+        if what not in self.left_out:
+            self.left_out.append(what)
+
+    def document(self, tolerance: float | None, special: bool) -> ModelDocument:
+        """The scene; with its tolerance where its places may be ``special``."""
+        tolerance = None if tolerance is None else float(f"{tolerance:.2g}")
+        value: dict[str, Any] = {"title": self.title, "dimension": self.dimension}
+        for key in ("parameters", "particles", "bodies", "coordinates", "constraints", "forces"):
+            if getattr(self, key):
+                value[key] = getattr(self, key)
+        self._measurable_axes()
+        if special and tolerance is not None:
+            value["tolerance"] = tolerance
+        if self.configuration:
+            value["configuration"] = self.configuration
+        if self.left_out:
+            value["left_out"] = self.left_out
+        return ModelDocument(value, self.lines, tolerance)
+
+    def _measurable_axes(self) -> None:
+        """Give the axes of coupled joints a length that is a fraction: their angles are told without roots."""
+        coupled = {joint for c in self.constraints for joint in c.get("joints", {}).values()}
+        for constraint in self.constraints:
+            if constraint["name"] in coupled and "axis" in constraint:
+                constraint["axis"] = measurable(constraint["axis"])
+
+    def _at(self, path: tuple[str | int, ...], line: int | None) -> None:
+        if line is not None:
+            self.lines[path] = line
+
+
+def number(value: float) -> float | int:
+    """A number as a person would write it: rounded, whole where it is."""
+    found = round(float(value), DECIMALS)
+    return int(found) if found == int(found) and abs(found) < 1e15 else found
+
+
+def vector(values: Iterable[float]) -> list[float | int]:
+    """Numbers as a person would write them."""
+    return [number(v) for v in values]
+
+
+def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:
+    """A direction along the axis, right to within 1e-9, whose length is a fraction.
+
+    With n of length 1, c its largest component, and (a, b) = the others over 1 + |c|: (2a, 2b, 1 - a^2 - b^2).
+
+    >>> measurable([0, 0, 1]), [float(v) for v in measurable([0.6, 0.0, 0.8])]
+    ([0, 0, 1], [0.666666666, 0.0, 0.8888888891111111])
+    """
+    if sum(map(bool, axis)) == 1:
+        return [*axis]
+    k = max(range(3), key=lambda i: abs(axis[i]))
+    size = math.sqrt(sum(v * v for v in axis))
+    sign = 1 if axis[k] > 0 else -1
+    a, b = (round(Decimal(sign * axis[i] / size / (1 + abs(axis[k]) / size)), 9) for i in range(3) if i != k)
+    found: list[float | int | Decimal] = [sign * 2 * a, sign * 2 * b]
+    found.insert(k, sign * (1 - a * a - b * b))
+    return found
+
+
+def unique(name: str, taken: set[str]) -> str:
+    """The name, with a number where it is taken; it is taken then."""
+    found, k = name, 2
+    while found in taken:
+        found, k = f"{name}_{k}", k + 1
+    taken.add(found)
+    return found
+
+
+def identifier(name: str, taken: set[str]) -> str:
+    """The name of a body or particle as texts can mention it: letters, digits and _.
+
+    >>> identifier("robot0:FF-J1", set()), identifier("9 mm", set())
+    ('robot0_FF_J1', 'n9_mm')
+    """
+    plain = re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_") or "part"
+    plain = plain if plain[0].isalpha() else f"n{plain}"
+    if valid_name(f"x_{plain}") is not None:
+        plain = f"{plain}_"
+    return unique(plain, taken)
+
+
+def decimals(texts: Iterable[str]) -> Iterator[int]:
+    """How many decimals each number in these texts is written with."""
+    for text in texts:
+        for part in text.split():
+            match = _NUMBER.fullmatch(part)
+            if match:
+                yield max(0, len(match[1] or "") - int(match[2] or 0))
+
+
+def tolerance_of(texts: Iterable[str], size: float) -> float:
+    """Half a unit of the last digit of the number that is written longest, as a fraction of the size.
+
+    Where all are short they are meant as they are written, and what a compiler of doubles rounds is left.
+
+    >>> tolerance_of(["0.7071 0 0", "1.5"], 2.0)
+    2.5e-05
+    """
+    longest = max(decimals(texts), default=0)
+    if longest < FEW:
+        return FINEST
+    return min(COARSEST, max(FINEST, 0.5 * 10.0**-longest / (size or 1.0)))
+
+
+def listed(names: Iterable[str]) -> str:
+    """The first of several names, and how many more there are."""
+    every = [*names]
+    more = len(every) - MOST_NAMED
+    return ", ".join(every[:MOST_NAMED]) + (f" and {more} more" if more > 0 else "")

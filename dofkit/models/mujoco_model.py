@@ -1,0 +1,245 @@
+"""What MuJoCo's own compiler makes of a model: bodies, joints, equalities and tendons where they are drawn.
+
+This runs in a worker, which alone imports `mujoco`: a compiler in C may crash, hang or take all memory.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+#: Elements of a model that change nothing about how it moves, and may name files that are missing.
+_SHOWN = ("textures", "skins", "sensors", "keys")
+#: A mass where a body has none that could be read.
+LEAST = 1e-6
+#: The drawing satisfies an equality to within this; steps that look for a drawing which does.
+CLOSED, STEPS = 1e-8, 60
+
+
+class Compiled(NamedTuple):
+    """A model with its state at the drawing, and notes on what became of it."""
+
+    model: Any
+    data: Any
+    notes: list[str]
+
+
+def described_model(given: Mapping[str, Any]) -> dict[str, Any]:
+    """What a model holds, as json can write it. ``given``: its ``path``, or its ``text`` where it has none."""
+    import mujoco
+
+    mujoco.set_mju_user_warning(lambda message: None)
+    path = given["path"]
+    notes: list[str] = []
+    spec = mujoco.MjSpec.from_file(path) if path else mujoco.MjSpec.from_string(given["text"])
+    folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
+    notes += _without_files(spec, folder)
+    _without_looks(spec)
+    try:
+        model = spec.compile()
+    except ValueError:
+        spec.compiler.boundmass = spec.compiler.boundinertia = LEAST
+        model = spec.compile()
+        notes.append("masses: some bodies that move have none that can be read")
+    data = mujoco.MjData(model)
+    compiled = Compiled(model, data, notes)
+    closed = _draw(compiled)
+    return {
+        "closed": closed,
+        "bodies": [*_bodies(compiled)],
+        "joints": [*_joints(compiled)],
+        "equalities": [*_equalities(compiled)],
+        "tendons": [*_tendons(compiled)],
+        "gravity": [float(v) for v in model.opt.gravity],
+        "springs": bool(np.any(model.jnt_stiffness) or np.any(model.tendon_stiffness)),
+        "actuators": int(model.nu),
+        "contacts": bool(model.ngeom and np.any(model.geom_contype | model.geom_conaffinity)),
+        "flexible": int(model.nflex),
+        "nv": int(model.nv),
+        "left": _left(compiled),
+        "notes": notes,
+    }
+
+
+def _without_files(spec: Any, folder: str) -> Iterator[str]:
+    """Take out meshes and height fields whose files are missing, with the shapes made of them."""
+    lost: dict[str, str] = {}
+    below = spec.compiler.meshdir
+    for one in [*spec.meshes, *spec.hfields]:
+        if one.file and not os.path.isfile(os.path.join(folder, below, one.file)):
+            lost[one.name or os.path.splitext(os.path.basename(one.file))[0]] = one.file
+            spec.delete(one)
+    if not lost:
+        return
+    for geom in list(spec.geoms):
+        if geom.meshname in lost or geom.hfieldname in lost:
+            spec.delete(geom)
+    names = [*lost.values()]
+    shown = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+    yield f"the shapes of {shown}: the files are not there, so what they weigh is not known"
+
+
+def _without_looks(spec: Any) -> None:
+    """Take out what is only seen or measured, and bounds on memory that steps of a simulation would need."""
+    spec.memory = -1
+    for material in spec.materials:
+        material.textures = [""] * len(material.textures)
+    for kind in _SHOWN:
+        for one in list(getattr(spec, kind)):
+            spec.delete(one)
+
+
+def _draw(found: Compiled) -> bool:
+    """Make the state that of the drawing: as written, or moved from there until the equalities hold. Do they?"""
+    import mujoco
+
+    model, data = found.model, found.data
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_LIMIT
+    _place(found)
+    rows, gap = _equality_rows(found)
+    if gap.size == 0 or float(np.max(np.abs(gap))) <= CLOSED:
+        return True
+    started = data.qpos.copy()
+    for _ in range(STEPS):
+        step = -np.linalg.lstsq(rows, gap, rcond=1e-10)[0]
+        mujoco.mj_integratePos(model, data.qpos, step, 1.0)
+        _place(found)
+        rows, gap = _equality_rows(found)
+        if float(np.max(np.abs(gap))) <= CLOSED * 1e-3:
+            break
+    if float(np.max(np.abs(gap))) > CLOSED:
+        data.qpos[:] = started
+        _place(found)
+        return False
+    found.notes.append("the pose as it is written: it does not satisfy the equalities, and the drawing is one near it")
+    return True
+
+
+def _place(found: Compiled) -> None:
+    """Where everything stands, and how far every equality is from holding; no dynamics."""
+    import mujoco
+
+    for step in (mujoco.mj_kinematics, mujoco.mj_comPos, mujoco.mj_tendon):
+        step(found.model, found.data)
+    mujoco.mj_makeConstraint(found.model, found.data)
+
+
+def _equality_rows(found: Compiled) -> tuple[Any, Any]:
+    """The equality rows of the Jacobian, and how far each is from being satisfied."""
+    import mujoco
+
+    data, nv = found.data, found.model.nv
+    own = data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY
+    dense = np.zeros((data.nefc, nv))
+    if mujoco.mj_isSparse(found.model):
+        mujoco.mju_sparse2dense(dense, data.efc_J, data.efc_J_rownnz, data.efc_J_rowadr, data.efc_J_colind)
+    else:
+        dense = np.reshape(data.efc_J, (data.nefc, nv))
+    return dense[own], data.efc_pos[own]
+
+
+def _left(found: Compiled) -> int:
+    """MuJoCo's own count at the drawing: nv less the rank of the active equality rows."""
+    rows, _ = _equality_rows(found)
+    return int(found.model.nv - (np.linalg.matrix_rank(rows, tol=1e-8) if rows.size else 0))
+
+
+def _list(values: Any) -> list[float]:
+    return [float(v) for v in np.asarray(values).ravel()]
+
+
+def _name(model: Any, kind: str, index: int) -> str:
+    import mujoco
+
+    return mujoco.mj_id2name(model, getattr(mujoco.mjtObj, f"mjOBJ_{kind}"), index) or ""
+
+
+def _bodies(found: Compiled) -> Iterator[dict[str, Any]]:
+    model, data = found.model, found.data
+    for i in range(model.nbody):
+        turn = np.reshape(data.ximat[i], (3, 3))
+        yield {
+            "name": _name(model, "BODY", i),
+            "parent": int(model.body_parentid[i]),
+            "static": int(model.body_weldid[i]) == 0,
+            "joints": [int(j) for j in range(model.body_jntadr[i], model.body_jntadr[i] + model.body_jntnum[i])],
+            "centre": _list(data.xipos[i]),
+            "origin": _list(data.xpos[i]),
+            "mass": float(model.body_mass[i]),
+            "inertia": [_list(row) for row in turn @ np.diag(model.body_inertia[i]) @ turn.T],
+        }
+
+
+def _joints(found: Compiled) -> Iterator[dict[str, Any]]:
+    model, data = found.model, found.data
+    for i in range(model.njnt):
+        kind = ("free", "ball", "slide", "hinge")[int(model.jnt_type[i])]
+        at = int(model.jnt_qposadr[i])
+        yield {
+            "name": _name(model, "JOINT", i),
+            "kind": kind,
+            "anchor": _list(data.xanchor[i]),
+            "axis": _list(data.xaxis[i]),
+            "range": _list(model.jnt_range[i]) if model.jnt_limited[i] and kind != "free" else None,
+            "zero": float(model.qpos0[at]),
+            "drawn": float(data.qpos[at]),
+        }
+
+
+def _ends(found: Compiled, index: int) -> list[tuple[int, list[float]]]:
+    """The two points of a connect, or the anchors of a weld: (body, place in the world)."""
+    import mujoco
+
+    model, data = found.model, found.data
+    first, second = int(model.eq_obj1id[index]), int(model.eq_obj2id[index])
+    if model.eq_objtype[index] == mujoco.mjtObj.mjOBJ_SITE:
+        return [(int(model.site_bodyid[s]), _list(data.site_xpos[s])) for s in (first, second)]
+    weld = model.eq_type[index] == mujoco.mjtEq.mjEQ_WELD
+    own = (model.eq_data[index, 3:6], model.eq_data[index, :3])
+    arms = own if weld else own[::-1]
+    return [
+        (b, _list(data.xpos[b] + np.reshape(data.xmat[b], (3, 3)) @ arm))
+        for b, arm in zip((first, second), arms, strict=True)
+    ]
+
+
+def _equalities(found: Compiled) -> Iterator[dict[str, Any]]:
+    import mujoco
+
+    model = found.model
+    for i in range(model.neq):
+        kind = mujoco.mjtEq(model.eq_type[i]).name.removeprefix("mjEQ_").lower()
+        told: dict[str, Any] = {
+            "name": _name(model, "EQUALITY", i),
+            "kind": kind,
+            "active": bool(model.eq_active0[i]),
+            "of": [int(model.eq_obj1id[i]), int(model.eq_obj2id[i])],
+        }
+        if kind in ("connect", "weld"):
+            told["ends"] = _ends(found, i)
+        elif kind in ("joint", "tendon"):
+            told["polynomial"] = _list(model.eq_data[i, :5])
+        yield told
+
+
+def _tendons(found: Compiled) -> Iterator[dict[str, Any]]:
+    import mujoco
+
+    model, data = found.model, found.data
+    kinds = {int(kind): kind.name.removeprefix("mjWRAP_").lower() for kind in mujoco.mjtWrap.__members__.values()}
+    for i in range(model.ntendon):
+        path = []
+        for k in range(model.tendon_adr[i], model.tendon_adr[i] + model.tendon_num[i]):
+            kind, of = kinds[int(model.wrap_type[k])], int(model.wrap_objid[k])
+            end = [int(model.site_bodyid[of]), _list(data.site_xpos[of])] if kind == "site" else None
+            path.append({"kind": kind, "of": of, "factor": float(model.wrap_prm[k]), "end": end})
+        yield {
+            "name": _name(model, "TENDON", i),
+            "path": path,
+            "length": float(data.ten_length[i]),
+            "zero": float(model.tendon_length0[i]),
+            "range": _list(model.tendon_range[i]) if model.tendon_limited[i] else None,
+        }

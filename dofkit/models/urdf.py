@@ -1,0 +1,158 @@
+"""URDF, the models of robots in ROS, as scenes: links, joints, what mimics what, and loops where extensions give them.
+
+The drawing has every joint at 0, one that mimics another at its offset. A link stands at its centre of mass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from dofkit.models.joint_relations import JointSum, bounds, relation
+from dofkit.models.model_document import (
+    ModelDocument,
+    ModelFile,
+    SceneDraft,
+    listed,
+    number,
+    tolerance_of,
+    vector,
+)
+from dofkit.models.urdf_elements import FIXED, SCALAR, WITH_AXIS, LoopJoint, Robot, RobotJoint, Transform, read_robot
+from dofkit.system import GROUND
+
+#: The joint of a scene for each kind; one that is free has none.
+_KINDS = {
+    "revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "weld", "planar": "planar",
+    "ball": "spherical", "spherical": "spherical", "cylindrical": "cylindrical",
+}  # fmt: skip
+
+
+def read(file: ModelFile) -> ModelDocument:
+    """The scene of a URDF file. Raises SceneError with all that is at fault, each in its line."""
+    robot = read_robot(file)
+    return _UrdfScene(robot, SceneDraft(robot.name or file.name), file.limits).document()
+
+
+@dataclass
+class _UrdfScene:
+    """The scene as it grows: ``stands`` is the scene's body of each link, ``names`` the constraint of each joint."""
+
+    robot: Robot
+    draft: SceneDraft
+    limits: bool
+    stands: dict[str, str] = field(default_factory=dict)
+    names: dict[str, str] = field(default_factory=dict)
+
+    def document(self) -> ModelDocument:
+        """Everything, in the order of the tree."""
+        robot = self.robot
+        poses = robot.poses()
+        parents = {joint.parent for joint in robot.joints} | {end for loop in robot.loops for end, _ in loop.ends}
+        markers = []
+        for name in poses.order:
+            link, joint = robot.links[name], poses.joint_of.get(name)
+            loose = link.mass == 0 and name not in parents and joint is not None and joint.kind == FIXED
+            if loose and joint is not None:
+                markers.append(name)
+                self.stands[name] = self.stands[joint.parent]
+            elif joint is None and (link.mass == 0 and name in parents):
+                self.stands[name] = GROUND
+                if name != "world":
+                    self.draft.leave_out(f"{name}: the link that all others hang on, without mass, is the ground")
+            else:
+                self._link(name, poses.pose[name], joint)
+            if joint is not None and not loose:
+                self._joint(joint, poses.frame[joint.name])
+        if markers:
+            self.draft.leave_out(f"{listed(markers)}: frames without mass at the end, which nothing hangs on")
+        for joint in poses.closing:
+            self._joint(joint, poses.frame[joint.name])
+        for loop in robot.loops:
+            self._loop(loop, poses.pose)
+        self._mimics()
+        self._ranges()
+        self._rest()
+        loops = bool(robot.loops or poses.closing)
+        return self.draft.document(self._tolerance(poses.pose), loops)
+
+    def _link(self, name: str, pose: Transform, joint: RobotJoint | None) -> None:
+        link = self.robot.links[name]
+        centre = pose.after(link.centre)
+        rows = centre.turn @ link.inertia @ centre.turn.T
+        inertia = [vector(row) for row in rows]
+        plain = not any(inertia[i][j] for i in range(3) for j in range(3) if i != j)
+        told: list[Any] = [inertia[i][i] for i in range(3)] if plain else inertia
+        own = self.stands[name] = self.draft.body(name, link.line, mass=number(link.mass), inertia=told)
+        self.draft.place(own, centre.at)
+        if joint is None:
+            self.draft.constraint(name, "weld", link.line, between=[GROUND, own])
+            self.draft.leave_out(f"what holds {name}, the link that all others hang on: it is taken to be fixed")
+
+    def _joint(self, joint: RobotJoint, frame: Transform) -> None:
+        kind = _KINDS.get(joint.kind)
+        if kind is None:
+            return
+        given: dict[str, Any] = {"between": [self.stands[joint.parent], self.stands[joint.child]]}
+        if joint.kind != FIXED:
+            given["at"] = vector(frame.at)
+        if joint.kind in WITH_AXIS:
+            given["axis"] = vector(frame.turn @ np.array(joint.axis))
+        self.names[joint.name] = self.draft.constraint(joint.name, kind, joint.line, **given)
+
+    def _loop(self, loop: LoopJoint, pose: Mapping[str, Transform]) -> None:
+        """A joint that closes a loop, its place by the first link, its point by both."""
+        (one, first), (other, second) = loop.ends
+        frames = [pose[link].after(at) for link, at in ((one, first), (other, second))]
+        ends = [{"on": self.stands[link], "at": vector(f.at)} for (link, _), f in zip(loop.ends, frames, strict=True)]
+        points = [end["at"] if end["on"] == GROUND else end for end in ends]
+        kind = _KINDS[loop.kind]
+        if loop.kind in ("ball", "spherical"):
+            self.draft.constraint(loop.name, "coincident", loop.line, between=points)
+            return
+        given: dict[str, Any] = {"between": [end["on"] for end in ends]}
+        if loop.kind != FIXED:
+            given["at"] = vector(frames[0].at)
+        if loop.kind in WITH_AXIS:
+            given["axis"] = vector(frames[0].turn @ np.array(loop.axis))
+        self.draft.constraint(loop.name, kind, loop.line, **given)
+
+    def _mimics(self) -> None:
+        """What joints mimic; one that does not move leaves nothing free."""
+        kinds = {joint.name: joint.kind for joint in self.robot.joints}
+        for joint in self.robot.joints:
+            if joint.mimic is None or joint.kind == FIXED:
+                continue
+            other = kinds[joint.mimic.joint]
+            right = None if other == FIXED else JointSum(((self.names[joint.mimic.joint], 1.0),))
+            given = relation(JointSum(((self.names[joint.name], 1.0),)), right, [0.0, joint.mimic.factor])
+            self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **given)
+
+    def _ranges(self) -> None:
+        ranged = [joint for joint in self.robot.joints if joint.range and joint.kind in SCALAR]
+        if ranged and not self.limits:
+            shown = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
+            self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they are inequalities")
+            return
+        drawn = self.robot.drawn()
+        for joint in ranged:
+            given = bounds(JointSum(((self.names[joint.name], 1.0),), drawn.get(joint.name, 0.0)), joint.range or ())
+            self.draft.constraint(f"{joint.name} range", "coupling", joint.line, **given)
+
+    def _rest(self) -> None:
+        if any(body.get("mass") for body in self.draft.bodies):
+            self.draft.forces.append({"type": "gravity", "acceleration": [0, 0, -9.81]})
+        for told in self.robot.unread:
+            self.draft.leave_out(told)
+
+    def _tolerance(self, pose: Mapping[str, Transform]) -> float:
+        places = [at.at for at in pose.values()]
+        size = max((max(c) - min(c) for c in zip(*places, strict=True)), default=1.0)
+        return tolerance_of(self._written(), float(size))
+
+    def _written(self) -> Iterator[str]:
+        for element in self.robot.root.every():
+            yield from (element.attributes[key] for key in ("xyz", "rpy") if key in element.attributes)

@@ -1,0 +1,264 @@
+"""A relation between joints: what gears in space, belts, differentials and joints that mimic others have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from math import gcd, lcm
+from typing import Annotated, ClassVar, Literal, NamedTuple
+
+from pydantic import Discriminator, Field, Tag, WrapValidator
+
+from dofkit.base.errors import NoValueError
+from dofkit.exact.matrices.rows import combined
+from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.terms import linear_terms
+from dofkit.expressions.text import valid_name
+from dofkit.expressions.tree import MINUS_ONE, ONE, TIME, ZERO, Expr, coordinate, mul
+from dofkit.expressions.vectors import Vec, difference, dot, is_zero, length
+from dofkit.scene.constraints.base import ConstraintBase, root
+from dofkit.scene.constraints.joints import Axial, Joint, Measure
+from dofkit.scene.fields import Text, untagged
+from dofkit.scene.frames import Frame, relative
+from dofkit.scene.ledger import FINITE
+from dofkit.scene.names import within_member
+from dofkit.scene.symbols import Symbol
+from dofkit.scene.variation import TypeVariation
+from dofkit.scene.world import Direction, World
+from dofkit.system import JointRate, Kinematics, Relation, TypeFacts, VelocityRow
+
+#: Angles in ratios of integers are written without arcs up to this sum of the integers.
+MOST_TURNS = 8
+
+
+def _coupling_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    """The sum over the joints of the slope of the relation by each, times its rate."""
+    if at.parts:
+        yield combined([(factor, rate(part)) for rate, factor, part in at.parts])
+
+
+def _shape(value: object) -> str:
+    return "lettered" if isinstance(value, Mapping) else "named"
+
+
+#: Names of joints, or a mapping from letters.
+Joints = Annotated[
+    Annotated[dict[str, str], Tag("lettered")] | Annotated[tuple[str, ...], Tag("named")],
+    Discriminator(_shape),
+    WrapValidator(untagged),
+]
+
+
+class Coupling(ConstraintBase):
+    """f(q1, q2, ...) = 0 for angles and displacements of joints: 1 relation; an inequality bounds them.
+
+    Each counts from the drawing: the angle of the second body against the first, right-handed about the axis, or its
+    displacement along it. In space tan(q/2) = v.n / (s |n|) of the relative rotation (s, v). What is linear in angles
+    with small whole factors is written as Im prod (s |n| + i v.n)^k = 0, which holds q modulo whole turns.
+    """
+
+    type: Literal["coupling"] = Field(description="a relation between angles or displacements of joints")
+    examples: ClassVar[Mapping[int, str]] = {
+        0: '{type: coupling, joints: [shoulder, elbow], text: "elbow = 2 shoulder"}'
+    }
+    beside: ClassVar[Mapping[int, tuple[str, ...]]] = {
+        2: (
+            "{name: shoulder, type: revolute, between: [ground, crank], at: [0, 0]}",
+            "{name: elbow, type: revolute, between: [crank, rod], at: [2, 0]}",
+        ),
+        3: (
+            "{name: shoulder, type: revolute, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}",
+            "{name: elbow, type: revolute, between: [crank, rod], at: [2, 0, 0], axis: [0, 0, 1]}",
+        ),
+    }
+    understood: ClassVar[tuple[str, ...]] = ("mimic", "differential", "timing_belt", "transmission", "bevel", "coupled")
+    other_keys: ClassVar[Mapping[str, str]] = {"between": "joints"}
+    joints: Joints = Field(
+        description="names of joints, or a mapping letter -> joint; of one that both turns and slides, `JOINT.angle` "
+        "or `JOINT.displacement`"
+    )
+    text: Text = Field(description="the relation, such as `elbow = 2 shoulder`; may hold t")
+    dimensions: ClassVar[tuple[int, ...]] = (2, 3)
+    facts: ClassVar[TypeFacts] = TypeFacts(_coupling_rows)
+    symbol: ClassVar[Symbol] = Symbol(run="locus")
+    variation: ClassVar[TypeVariation] = TypeVariation(texts=("text",))
+
+    @property
+    def lettered(self) -> dict[str, str]:
+        """The joint of every letter; a name in a list is its own."""
+        return dict(self.joints) if isinstance(self.joints, Mapping) else {name: name for name in self.joints}
+
+    def relations(self, world: World) -> Iterator[Relation]:
+        measured = self._measured(world)
+        letters = tuple(self.lettered)
+        own = replace(within_member(world.names, letters), coordinates=frozenset(letters))
+        before = len(world.faults)
+        found = world.relations(self.text, "text", names=own, allow=FINITE)
+        if measured is None or len(world.faults) > before:
+            return
+        senses = {sense for _, sense in found}
+        if "=" in senses and len(found) > 1:
+            world.fault(
+                "a coupling is one equation, or bounds", "text", hint="write another coupling for the other one"
+            )
+            return
+        for e, sense in found:
+            if sense == "=" and not self._fits(world, e, measured):
+                return
+            yield Relation(_in_turns(e, measured) or _in_arcs(e, measured), sense)
+
+    def _measured(self, world: World) -> dict[Expr, MeasuredJoint] | None:
+        """What every letter stands for; None after a fault, or where a joint itself is at fault."""
+        before = len(world.faults)
+        found = {coordinate(letter): self._joint(world, letter, name) for letter, name in self.lettered.items()}
+        known = {letter: joint for letter, joint in found.items() if joint is not None}
+        return known if len(known) == len(found) and len(world.faults) == before else None
+
+    def _joint(self, world: World, letter: str, written: str) -> MeasuredJoint | None:
+        why = valid_name(letter)
+        if why is not None:
+            world.fault(why, "joints", letter, hint=f'write a letter for it: `joints: {{q: "{written}"}}`')
+            return None
+        name, what = _split(written, world.entries)
+        joint = world.entries.get(name)
+        if joint is None:
+            joints = [key for key, entry in world.entries.items() if isinstance(entry, Joint) and entry.measures]
+            world.unknown("joint", name, joints, "joints", letter)
+            return None
+        measures = joint.measures if isinstance(joint, Joint) else {}
+        if not isinstance(joint, Axial) or (not what and len(measures) != 1) or (what and what not in measures):
+            told = " or ".join(f"`{name}.{key}`" for key in measures)
+            hint = f"write {told}" if told else "name a revolute, prismatic, cylindrical or screw joint"
+            world.fault(f"'{written}' tells no angle or displacement of a joint", "joints", letter, hint=hint)
+            return None
+        what = what or next(iter(measures))
+        found = self._located(world, letter, joint, measures[what])
+        return None if found is None else found._replace(name=f"{name}.{what}")
+
+    def _located(self, world: World, letter: str, joint: Axial, measure: Measure) -> MeasuredJoint | None:
+        """The joint where it is drawn."""
+        planar = world.dimension == 2 and measure.turns
+        if any(end not in world.frames and end != world.ground.name for end in joint.between):
+            return None
+        if (joint.axis is None and not planar) or (joint.at is None and measure.placed):
+            hint = "give the joint its `at` and `axis`"
+            world.fault("a joint in general position has no angle that can be told", "joints", letter, hint=hint)
+            return None
+        axis = None if planar else world.drawn_direction(joint.axis)
+        place = world.drawn_vector(joint.at)
+        if (axis is None and not planar) or (place is None and measure.placed):
+            return None
+        first, second = (world.frame(end, "joints", letter) for end in joint.between)
+        world.drawn.update(joint.between)
+        return MeasuredJoint(first, second, place or (ZERO,) * world.dimension, axis, measure, "")
+
+    def _fits(self, world: World, e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> bool:
+        """Record the rates at the drawing, where every joint stands at 0; whether the relation has a value there."""
+        at: dict[Expr, Expr] = {**dict.fromkeys(measured, ZERO), TIME: ZERO}
+        try:
+            gap = substitute(e, at)
+            slopes = {letter: substitute(diff(e, letter), at) for letter in measured}
+        except NoValueError:
+            world.fault("the relation has no value at the drawing, where every joint stands at 0", "text")
+            return False
+        for letter, joint in measured.items():
+            if not slopes[letter].is_zero:
+                world.mentioned.rates.append(joint.rate(slopes[letter]))
+        if world.differs(gap):
+            off, steep = approximate(gap), root(dot(tuple(slopes.values()), tuple(slopes.values())))
+            message = "the drawing, where every joint stands at 0, contradicts the relation"
+            message += "" if off is None else f" by {abs(off):.6g}"
+            hint = "angles and displacements count from the drawing"
+            world.misfit(None if off is None or not steep else off / steep, message, "text", hint=hint)
+        return True
+
+    def texts(self) -> Iterator[str]:
+        yield from ()
+
+    @property
+    def in_words(self) -> str:
+        named = [f"{letter}: {name}" for letter, name in self.lettered.items() if letter != name]
+        return f"coupling {self.text}" + (f" ({', '.join(named)})" if named else "")
+
+
+class MeasuredJoint(NamedTuple):
+    """A joint where it is drawn, and what of it is measured; its axis is None in the plane."""
+
+    first: Frame
+    second: Frame
+    place: Vec
+    axis: Direction | None
+    measure: Measure
+    name: str
+
+    @property
+    def value(self) -> Expr:
+        """Its angle or displacement."""
+        return self.measure.value(self.first, self.second, self.place, self.axis)
+
+    def rate(self, slope: Expr) -> JointRate:
+        """How its rate enters where the relation has that slope."""
+        size = ONE if self.axis is None else length(self.axis.vector)
+        return JointRate(
+            self.name,
+            slope,
+            self.measure.rate,
+            (self.first.name, self.second.name),
+            self.place,
+            () if self.axis is None else self.axis.vector,
+            slope / size,
+            not self.measure.turns,
+        )
+
+    def half(self) -> tuple[Expr, Expr] | None:
+        """The cosine and sine of half its angle up to a positive factor; None for what is no angle of Gibbs charts."""
+        turned = relative(self.first, self.second) if self.axis is not None and self.measure.turns else None
+        if turned is None or self.axis is None:
+            return None
+        return mul(turned[0], length(self.axis.vector)), dot(turned[1], self.axis.vector)
+
+
+def _split(written: str, entries: Mapping[str, object]) -> tuple[str, str]:
+    """The joint's name, and what of it is meant."""
+    name, dot_, what = written.rpartition(".")
+    return (name, what) if dot_ and written not in entries else (written, "")
+
+
+def _in_arcs(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr:
+    """The relation with every angle as an arc."""
+    return substitute(e, {letter: joint.value for letter, joint in measured.items()})
+
+
+def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:
+    """A homogeneous linear relation of angles of space with small whole factors, without arcs: Im prod z^k."""
+    terms = linear_terms(e)
+    halves = {letter: measured[letter].half() for letter in terms if letter in measured}
+    if len(halves) < len(terms) or any(half is None for half in halves.values()):
+        return None
+    factors = _whole([terms[letter] for letter in halves])
+    if not factors or sum(map(abs, factors)) > MOST_TURNS:
+        return None
+    total = ONE, ZERO
+    for half, k in zip(halves.values(), factors, strict=True):
+        if half is not None:
+            one = half if k > 0 else (half[0], mul(MINUS_ONE, half[1]))
+            for _ in range(abs(k)):
+                total = _product(total, one)
+    return total[1]
+
+
+def _product(a: tuple[Expr, Expr], b: tuple[Expr, Expr]) -> tuple[Expr, Expr]:
+    """Of complex numbers."""
+    if is_zero((a[1],)):
+        return mul(a[0], b[0]), mul(a[0], b[1])
+    return difference(mul(a[0], b[0]), mul(a[1], b[1])), mul(a[0], b[1]) + mul(a[1], b[0])
+
+
+def _whole(factors: Sequence[Fraction]) -> list[int]:
+    """The same ratios in the smallest integers."""
+    below = lcm(*(f.denominator for f in factors))
+    above = [int(f * below) for f in factors]
+    common = gcd(*above)
+    return [a // common for a in above] if common else []

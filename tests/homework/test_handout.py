@@ -1,0 +1,254 @@
+"""Sheets for students: what they say, what they never tell, and each format."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+import dofkit
+from dofkit.homework.assignment import AssignmentError, Prepared, load_assignment
+from dofkit.homework.handout.composition import safe_example
+from dofkit.homework.handout.figures import FigureError
+from dofkit.homework.handout.formulas import formula
+from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, written_sheet
+from dofkit.homework.questions import KINDS
+from dofkit.interface import cli
+from dofkit.interface.assignment_commands import drawing
+from dofkit.pictures.unanswered import unanswered
+
+PENDULUM: dict[str, Any] = {
+    "dimension": 2,
+    "parameters": {"l": "positive"},
+    "particles": ["A"],
+    "constraints": [{"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": "l"}],
+}
+CURVE: dict[str, Any] = {
+    "coordinates": ["x", "y"],
+    "constraints": [{"name": "wire", "type": "equation", "text": "y = x^4"}],
+}
+
+
+def sheet(*problems: dict[str, Any], **more: Any) -> Prepared:
+    return load_assignment({"title": "Sheet 1", "problems": list(problems), **more})
+
+
+def pendulum(**more: Any) -> dict[str, Any]:
+    asked = [{"id": "f", "ask": "dof"}, {"id": "rod", "ask": "equation", "constraint": "rod", "points": 3}]
+    return {"id": "pendulum", "scene": PENDULUM, "questions": asked, **more}
+
+
+def test_points_of_a_problem_are_shared_as_its_questions_have_them() -> None:
+    (problem,) = sheet(pendulum(points=10)).assignment.problems
+    assert [float(q.points) for q in problem.questions] == [2.5, 7.5]
+
+
+def test_other_names_are_read_in_every_kind_of_question() -> None:
+    asked = [
+        {"id": "e", "ask": "equation", "constraint": "rod"},
+        {"id": "q", "ask": "coordinates"},
+        {"id": "r", "ask": "redundant"},
+    ]
+    names = {"x_A": ["u"], "l": "length", "rod": "bar"}
+    prepared = sheet(pendulum(questions=asked, names=names))
+    given = {"e": "u^2 + y_A^2 = length^2", "q": "u", "r": "bar"}
+    result = dofkit.grade(prepared, {"student": "ada", "answers": {"pendulum": given}})
+    assert [item.status for item in result.items] == ["right", "right", "wrong"]
+    assert [item.read_as for item in result.items] == ["x_A^2 + y_A^2 = l^2", "x_A", "rod"]
+    again = dofkit.grade(prepared, {"student": "ada", "answers": {"pendulum": {"e": "u udot + y_A y_Adot = 0"}}})
+    assert again.items[0].read_as == "x_A*x_Adot + y_A*y_Adot = 0"
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ({"names": {"x_A": "y_A"}}, "'y_A' means something already"),
+        ({"names": {"x_B": "u"}}, "the scene declares no 'x_B'"),
+        ({"names": {"x_A": "2u"}}, "begins with"),
+        ({"text": "The rod is [[rodd]]."}, "[[rodd]] is nothing of the scene"),
+        ({"text": "Its length is [[rod.radius]]."}, "[[rod.radius]] is nothing of the scene"),
+        ({"vary": {"drop": ["bar"]}}, "the scene has no constraint 'bar'"),
+        ({"vary": ["colours"]}, "'colours' is not one of"),
+    ],
+)
+def test_what_cannot_stand_in_a_problem_is_told(more: dict[str, Any], told: str) -> None:
+    with pytest.raises(AssignmentError) as caught:
+        sheet(pendulum(**more))
+    assert told in str(caught.value)
+    assert all(fault.hint for fault in caught.value.faults)
+
+
+def test_a_sheet_says_what_is_asked_and_what_things_are_called() -> None:
+    text = "Rod: [[rod]], length [[rod.length]], of $\\frac{1}{2}$."
+    told = written_sheet(sheet(pendulum(text=text, points=4, names={"l": "L"})), drawing()).markdown
+    assert "Rod: link (0, 0)-A, length l, length $l$, of $\\frac{1}{2}$." in told
+    assert "- $x_A$, $y_A$: the place of A." in told
+    assert "- $l$: a positive constant." in told
+    assert "`l` may also be called `L`." in told
+    assert "1. `pendulum.f` How many degrees of freedom does the system have? (points: 1)" in told
+    assert "2. `pendulum.rod` Which equation or equations say what the constraint `rod` demands? (points: 3)" in told
+    assert told.count("![Figure 1](figures/pendulum.svg)") == 1
+
+
+def test_an_equation_that_is_asked_for_is_not_told() -> None:
+    asked = [{"id": "e", "ask": "equation", "constraint": "wire"}]
+    prepared = sheet({"id": "wire", "scene": CURVE, "questions": asked})
+    told = written_sheet(prepared, drawing()).markdown
+    assert "x^4" not in told
+    assert [r for r in remarks(prepared) if "say in `text` what holds" in r]
+    labelled = sheet({"id": "wire", "scene": CURVE, "questions": [{"id": "l", "ask": "label", "constraint": "wire"}]})
+    assert "$y = x^4$" in written_sheet(labelled, drawing()).markdown
+
+
+@pytest.mark.parametrize("name", ["four-bar-linkage", "five-particles-ten-links", "simple-pendulum-link"])
+def test_a_picture_tells_nothing_of_the_answer(name: str) -> None:
+    scene = dofkit.load(name)
+    picture = unanswered(scene, dofkit.classify(scene), "Problem")
+    assert picture is not None
+    told = picture.svg()
+    for word in ("freedom", "proved", "redundant", "moves", "held still", "contradict"):
+        assert word not in told.lower()
+    assert dofkit.draw(scene).svg().lower().count("freedom")
+
+
+def test_a_set_of_coordinates_is_not_drawn() -> None:
+    scene = dofkit.load("x-dy-plus-y-dx")
+    assert unanswered(scene, dofkit.classify(scene), "Problem") is None
+
+
+def test_no_example_is_an_answer_of_the_sheet() -> None:
+    """Twelve free coordinates, so that the first example f = 12 is right here."""
+    scene = {"coordinates": [f"q{i}" for i in range(12)]}
+    prepared = sheet({"id": "many", "scene": scene, "questions": [{"id": "f", "ask": "dof"}]})
+    assert safe_example(prepared, KINDS["dof"]) == "f = 15"
+    constraints = [{"name": f"c{i}", "type": "equation", "text": text} for i, text in enumerate(_FOUR_LABELS)]
+    asked = [{"id": f"l{i}", "ask": "label", "constraint": f"c{i}"} for i in range(4)]
+    labels = {"coordinates": ["x", "y", "z", "u", "v", "w", "r"], "constraints": constraints}
+    assert safe_example(sheet({"id": "labels", "scene": labels, "questions": asked}), KINDS["label"]) is None
+    assert safe_example(sheet({"id": "labels", "scene": labels, "questions": asked[:3]}), KINDS["label"]) is not None
+
+
+#: One constraint for each pair of labels: both no, yes and no, no and yes, both yes.
+_FOUR_LABELS = ("dy = x t dz", "u = t", "dw = v dx", "r = 3")
+
+
+def test_a_lecturer_is_told_what_a_sheet_does_not_say() -> None:
+    scene = {"coordinates": ["x"], "parameters": ["m"], "energies": {"kinetic": "1/2 m xdot^2"}}
+    asked = {"id": "p", "scene": scene, "questions": [{"id": "l", "ask": "lagrangian"}]}
+    assert [r for r in remarks(sheet(asked)) if "say it in `text`" in r]
+    assert not list(remarks(sheet({**asked, "text": "A free particle of mass $m$."})))
+    assert "xdot^2" not in "".join(written_sheet(sheet(asked), drawing()).markdown.split("##")[1:2])
+
+
+def test_every_kind_of_question_can_be_explained() -> None:
+    for cls in KINDS.values():
+        assert cls.wanted.endswith("?")
+        assert cls.how.endswith(".")
+        assert cls.examples
+
+
+@pytest.mark.parametrize(
+    ("text", "latex", "typst"),
+    [
+        ("l^2", "l^{2}", "attach(l, t: 2)"),
+        (r"\frac{g}{l}", r"\frac{g}{l}", "frac(g, l)"),
+        (r"\dot x", r"\dot x", "dot(x)"),
+        ("thetadot", r"\dot{\theta}", "dot(θ)"),
+        (r"\sqrt{2}", r"\sqrt{2}", "sqrt(2)"),
+        (r"\vec F", r"\vec F", "arrow(F)"),
+    ],
+)
+def test_formulas_in_every_notation(text: str, latex: str, typst: str) -> None:
+    found = formula(text)
+    assert (found.latex, found.typst) == (latex, typst)
+    assert found.mathml is not None
+    ElementTree.fromstring(f"<math>{found.mathml}</math>")
+
+
+def test_a_formula_that_cannot_be_set_is_shown_as_typed_and_told() -> None:
+    prepared = sheet(pendulum(text=r"See $\frac{1$ and <script>alert(1)</script>."))
+    assert [r for r in remarks(prepared) if r"$\frac{1$ cannot be set" in r]
+
+
+def test_the_page_needs_no_network_and_runs_nothing(tmp_path: Path) -> None:
+    out = tmp_path / "sheet.html"
+    text = "See <script>alert(1)</script> and [this](javascript:alert(1)).\n\n![x](http://example.org/a.png)"
+    with pytest.raises(FigureError):
+        written_sheet(sheet(pendulum(text=text)), drawing())
+    text = "See <script>alert(1)</script> and [this](javascript:alert(1))."
+    write_sheet(written_sheet(sheet(pendulum(text=text)), drawing()), "html", out)
+    page = out.read_text(encoding="utf-8")
+    assert "<script" not in page
+    assert "&lt;script&gt;" in page
+    assert not re.search(r'(src|href)="(?!data:)', page)
+    assert page.count("<math") == 3
+    assert "prefers-color-scheme: dark" in page
+
+
+def test_a_figure_of_a_file(tmp_path: Path) -> None:
+    (tmp_path / "own.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>')
+    prepared = load_assignment({"title": "T", "problems": [pendulum(figure="own.svg")]}, base=tmp_path)
+    found = written_sheet(prepared, drawing())
+    assert found.figures["figures/pendulum.svg"].data.startswith(b"<svg")
+    for wrong in ("own.txt", "nothing.png"):
+        with pytest.raises(FigureError):
+            written_sheet(load_assignment({"title": "T", "problems": [pendulum(figure=wrong)]}, tmp_path), drawing())
+    assert not written_sheet(sheet(pendulum(figure="none")), drawing()).figures
+
+
+def test_markdown_has_latex_for_other_readers(tmp_path: Path) -> None:
+    write_sheet(
+        written_sheet(sheet(pendulum(text="angle $theta$, typed `$theta$`")), drawing()), "md", tmp_path / "s.md"
+    )
+    told = (tmp_path / "s.md").read_text(encoding="utf-8")
+    assert "angle $\\theta$, typed `$theta$`" in told
+    assert (tmp_path / "figures" / "pendulum.svg").exists()
+
+
+def test_pdf(tmp_path: Path) -> None:
+    pytest.importorskip("typst", reason="needs typst")
+    text = '# [ ] $x_1 <= l$ * _ \\ # @ `a"b` \\$ "quoted" <b> // - = + ~\n\n> quoted\n\n1. one\n2. *two*\n\n$$ l^2 $$'
+    write_sheet(written_sheet(sheet(pendulum(text=text)), drawing()), "pdf", tmp_path / "s.pdf")
+    assert (tmp_path / "s.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.sweep
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+def test_tex_compiles(tmp_path: Path) -> None:
+    pytest.importorskip("typst", reason="needs typst")
+    text = (
+        '50% of $theta$ & x_1 # { } ~ ^ \\ θ ² – "q" <b>\n\n```\na_b\n```\n\n> quoted\n\n1. one\n2. *two*\n\n$$ l^2 $$'
+    )
+    write_sheet(written_sheet(sheet(pendulum(text=text)), drawing()), "tex", tmp_path / "s.tex")
+    done = subprocess.run(
+        ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "s.tex"],
+        cwd=tmp_path,
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stdout[-2000:]
+
+
+FORMATS = [form for form in HANDOUTS if form in ("html", "md") or find_spec("typst") is not None]
+
+
+def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    made = tmp_path / "sheet.yaml"
+    made.write_text(
+        "title: One\nproblems:\n- {id: p, scene: simple-pendulum-link, questions: [{id: f, ask: dof}]}\n",
+        encoding="utf-8",
+    )
+    for form in FORMATS:
+        cli.app(["assignment", "handout", str(made), "--format", form], standalone_mode=False)
+        assert made.with_suffix(f".{form}").exists()
+    assert capsys.readouterr().out.splitlines() == [str(made.with_suffix(f".{form}")) for form in FORMATS]
+    with pytest.raises(SystemExit):
+        cli.app(["assignment", "handout", str(made), "--format", "docx"])
+    assert "docx" in capsys.readouterr().err

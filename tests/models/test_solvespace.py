@@ -1,0 +1,126 @@
+"""SolveSpace's sketches as scenes: names, every kind of constraint, and 200 random ones against the numeric rank."""
+
+from __future__ import annotations
+
+import math
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+from models.sketches import RandomSketch, distance, random_sketch
+
+import dofkit
+from dofkit.base.errors import SceneError
+from dofkit.models.sketch_relations import KINDS
+
+pytest.importorskip("defusedxml")
+
+
+def load(text: str) -> dofkit.Scene:
+    return dofkit.loads(text.encode("latin-1"), "sketch")
+
+
+def square() -> RandomSketch:
+    """Four lines about a square of side 2, end to end."""
+    sketch = RandomSketch()
+    corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]
+    for k in range(4):
+        sketch.line(corners[k], corners[(k + 1) % 4])
+    for k in range(4):
+        (h, a), (i, b) = sketch.points[2 * k + 1], sketch.points[(2 * k + 2) % 8]
+        sketch.add(20, lambda q, a=a, b=b: [q[a] - q[b], q[a + 1] - q[b + 1]], ptA=h, ptB=i)  # type: ignore[misc]
+    return sketch
+
+
+def test_names_are_those_that_solvespace_shows() -> None:
+    scene = load(square().text())
+    assert [p.name for p in scene.particles][:3] == ["r004_start", "r004_end", "r005_start"]
+    assert scene.constraints[0].name == "c001-points-coincident"
+    assert scene.particles[1].at == (2, 0)
+
+
+def test_a_square_has_as_much_freedom_as_its_corners() -> None:
+    """16 coordinates less 4 times 2 are 8; level and upright edges leave the place and two sides."""
+    sketch = square()
+    assert dofkit.classify(load(sketch.text())).dof == 8
+    for k, (base, a, b) in enumerate(sketch.lines):
+        way = 1 if k % 2 == 0 else 0
+        sketch.add((81, 80)[way], lambda q, a=a, b=b, w=way: [q[a + w] - q[b + w]], entityA=base)  # type: ignore[misc]
+    assert dofkit.classify(load(sketch.text())).dof == 4
+    sketch.add(121, lambda q: [0j], entityA=sketch.lines[0][0], entityB=sketch.lines[2][0])
+    report = dofkit.classify(load(sketch.text()))
+    assert report.dof == 4
+    assert report.redundant == ["c009-parallel"]
+
+
+def test_a_reference_dimension_only_measures() -> None:
+    sketch = square()
+    distance(sketch, random.Random(0))
+    text = sketch.text().replace("AddConstraint\n", "AddConstraint", 4)
+    last = text.rindex("AddConstraint")
+    scene = load(f"{text[:last]}Constraint.reference=1\n{text[last:]}")
+    assert len(scene.constraints) == 4
+    assert any("reference dimension" in told for told in scene.left_out)
+
+
+def test_a_constraint_that_is_not_read_is_a_warning() -> None:
+    sketch = square()
+    sketch.add(110, lambda q: [0j])
+    report = dofkit.classify(load(sketch.text()))
+    assert any("less freedom: constraint c005: of kind same-orientation" in told for told in report.warnings)
+
+
+START = "\xb1\xb2\xb3SolveSpaceREVa\n"
+POINT = "Entity.h.v=00010001\nEntity.type={}\nAddEntity\n"
+FAULTS = {
+    "no entity": START,
+    "no point of this file is drawn in a workplane": START + POINT.format(2000),
+    "line 2, column 1: Entity.type is 'no'": START + POINT.format("no"),
+}
+
+
+@pytest.mark.parametrize("message", FAULTS)
+def test_faults(message: str, tmp_path: Path) -> None:
+    place = tmp_path / "it.slvs"
+    place.write_bytes(FAULTS[message].encode("latin-1"))
+    with pytest.raises(SceneError) as raised:
+        dofkit.load(place)
+    assert message in str(raised.value)
+
+
+def test_every_kind_that_is_read_has_a_random_sketch() -> None:
+    """But two, whose equations are those of distances and angles."""
+    met = {line.rpartition("=")[2] for seed in range(200) for line in random_sketch(seed).text().split("\n")
+           if line.startswith("Constraint.type")}  # fmt: skip
+    assert {str(k) for k, kind in KINDS.items() if kind.says is not None} - met == {"52", "53", "54"}
+
+
+def compared(seed: int) -> str:
+    """How a random sketch compares: right, open, or what is wrong."""
+    sketch = random_sketch(seed)
+    j = sketch.jacobian()
+    rank = int(np.linalg.matrix_rank(j, tol=1e-7)) if j.size else 0
+    report = dofkit.classify(load(sketch.text()))
+    if report.instantaneous_dof is None:
+        return "open"
+    if report.instantaneous_dof != len(sketch.drawn) - rank:
+        return f"{seed}: {report.instantaneous_dof} for {len(sketch.drawn) - rank}"
+    if report.singular is False:
+        nullity = sum(group.nullity for group in report.redundancies)
+        if nullity != len(j) - rank or report.dof != len(sketch.drawn) - rank:
+            return f"{seed}: dof {report.dof}, nullity {nullity} for {len(j) - rank}"
+    return "right"
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_random_sketches_have_the_freedom_of_their_rank(seed: int) -> None:
+    assert compared(seed) == "right"
+
+
+@pytest.mark.sweep
+def test_200_random_sketches_have_the_freedom_of_their_rank() -> None:
+    told = [compared(seed) for seed in range(200)]
+    wrong = [one for one in told if one not in ("right", "open")]
+    assert not wrong
+    assert told.count("open") <= math.floor(0.02 * len(told))
