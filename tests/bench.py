@@ -5,12 +5,14 @@ python tests/bench.py [repeats]
 
 from __future__ import annotations
 
+import random
 import statistics
 import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from itertools import combinations
 
 import dofkit
@@ -85,6 +87,64 @@ def rolling_disc() -> object:
     return dofkit.classify(dofkit.load(DISC))
 
 
+def discs(number: int) -> dict[str, object]:
+    """Equal discs, each rolling by itself."""
+    places = [name for k in range(number) for name in (f"x{k}", f"y{k}", f"theta{k}", f"phi{k}")]
+    rolls = [f"d{q}{k} = R {f}(theta{k}) dphi{k}" for k in range(number) for q, f in (("x", "cos"), ("y", "sin"))]
+    return {"parameters": {"R": "positive"}, "coordinates": places, "constraints": rolls}
+
+
+def turned(seed: int) -> dict[str, object]:
+    """A delta robot with its constraints in any order, turned, moved and scaled anyhow."""
+    rng = random.Random(f"delta {seed}")
+    c, s = rng.choice([(1, 0), (Fraction(3, 5), Fraction(4, 5)), (Fraction(-5, 13), Fraction(12, 13))])
+    size, away = rng.choice([1, 7, Fraction(1, 10)]), rng.choice([0, 5, Fraction(-7, 3)])
+
+    def moved(p: Sequence[Fraction | int], point: bool = True) -> list[str]:
+        x, y, z = p[0] * c - p[1] * s, p[0] * s + p[1] * c, p[2]
+        return [str(size * v + away) if point else str(v) for v in (x, y, z)]
+
+    constraints: list[dict[str, object]] = []
+    for k, (a, b) in enumerate([(1, 0), (Fraction(-3, 5), Fraction(4, 5)), (Fraction(-5, 13), Fraction(-12, 13))]):
+        arm = f"arm{k}"
+        pin = {"at": moved((3 * a, 3 * b, 0)), "axis": moved((-b, a, 0), False)}
+        constraints.append({"type": "revolute", "between": ["ground", arm], **pin})
+        for side in (1, -1):
+            ends = [{"on": arm, "at": moved((5 * a - side * b, 5 * b + side * a, 0))}]
+            ends.append({"on": "platform", "at": moved((2 * a - side * b, 2 * b + side * a, -4))})
+            constraints.append({"type": "link", "between": ends})
+    rng.shuffle(constraints)
+    return {"bodies": ["arm0", "arm1", "arm2", "platform"], "constraints": constraints}
+
+
+def bounded(what: str, scene: Mapping[str, object], dof: int, bound: float) -> None:
+    """One line: the whole report from the mapping on, in processor time, against its bound."""
+    start = time.process_time()
+    report = dofkit.classify(dofkit.load(scene))
+    spent = time.process_time() - start
+    right = "right" if report.dof == dof else f"{report.dof}, not {dof}"
+    print(f"{what:<58} {spent:9.2f} s  {right}  (at most {bound:g} s)")
+
+
+def large() -> None:
+    """What grows: open trees, many loops on one tree, equal blocks; and one mechanism told in fifty ways."""
+    from shared.trees import tree_with_loops
+
+    dofkit.classify(tree_with_loops(3, 1, 0)[0])
+    rows = [("open tree, 62 bodies", 62, 0, 0.3), ("open tree, 1 000 bodies", 1000, 0, 3.0)]
+    rows += [("tree of 43 bodies with 10 four-bars", 43, 10, 4.0), ("tree of 100 with 40 four-bars", 100, 40, 10.0)]
+    for what, bodies, loops, bound in rows:
+        scene, dof = tree_with_loops(bodies, loops, 7)
+        bounded(what, scene, dof, bound)
+    bounded("1 000 equal discs", discs(1000), 4000, 1.5)
+    spent = []
+    for seed in range(50):
+        scene = dofkit.load(turned(seed))
+        spent.append(min(seconds(lambda scene=scene: dofkit.classify(scene)) for _ in range(3)))
+    ratio = max(spent) / min(spent)
+    print(f"{'a delta robot, 50 orders, places, turns and sizes':<58} {ratio:9.2f}-fold  (at most 2)")
+
+
 def stability() -> None:
     """Of every family of scenes with known truth: how many trials, and the share right, undecided and wrong."""
     from shared.families import FAMILIES
@@ -111,6 +171,7 @@ def main() -> None:
     told(f"the whole catalog ({len(catalog) - 4}), cold, against the same", everything, sympy, "at most 6")
     report, wedge = medians(rolling_disc, wedges, rounds=10 * ROUNDS)
     told("rolling disc, warm: whole report against wedge, simplify", report, wedge, "below 1")
+    large()
     stability()
 
 

@@ -317,6 +317,29 @@ def screenshots(pages: Sequence[Path], folder: Path, width: int = 390, height: i
     return made
 
 
+_FRAME = """<iframe id=f src="{page}" width={width} height=900></iframe><p id=o></p><script>
+onload = () => {{
+  const e = f.contentDocument.documentElement;
+  o.textContent = "fits:" + (e.scrollWidth <= e.clientWidth);
+}}
+</script>"""
+
+
+def too_wide(pages: Sequence[Path], folder: Path, width: int = 390) -> list[Path]:
+    """The pages that have to be moved sideways on a telephone."""
+    assert CHROMIUM is not None
+    found = []
+    for page in pages:
+        frame = folder / "fits.html"
+        frame.write_text(_FRAME.format(page=page.as_uri(), width=width))
+        options = ["--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", "--dump-dom"]
+        command = [CHROMIUM, *options, f"--user-data-dir={folder / 'profile'}", frame.as_uri()]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+        if "fits:true" not in done.stdout:
+            found.append(page)
+    return found
+
+
 def pages_of(folder: Path) -> list[Path]:
     """Pages of every kind: the overview, the review, two students, a sheet, and the table of variants."""
     found = []

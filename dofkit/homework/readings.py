@@ -23,6 +23,7 @@ from dofkit.homework.notebooks import QuestionError
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.repairs import nearest_reading
 from dofkit.homework.result import Item
+from dofkit.homework.sentences.said import Language
 from dofkit.scene.reading import load
 
 
@@ -56,10 +57,12 @@ def reading_of(names: str | os.PathLike[str], problem: str, question: str, answe
     except DoubtError as error:
         return Understood(True, f"{where} can be read; left open here: {plain(error.message)}")
     except TextError as error:
-        return Understood(False, f"{where}: {_stopped(error, problem, asked, given, key)}")
+        return Understood(
+            False, f"{where}: {_stopped(error, problem, asked, given, key, prepared.assignment.language)}"
+        )
 
 
-def _stopped(error: TextError, problem: str, asked: QuestionBase, given: Given, key: Key) -> str:
+def _stopped(error: TextError, problem: str, asked: QuestionBase, given: Given, key: Key, language: Language) -> str:
     """Why reading stopped, where, and what would be read."""
     error = in_whole(given, error, partial(asked.read, key=key))
 
@@ -70,7 +73,7 @@ def _stopped(error: TextError, problem: str, asked: QuestionBase, given: Given, 
     found = unreadable(error, () if nearest is None else (nearest,))
     item = Item(
         problem=problem, question=asked.id, score=None, max_score=float(asked.points), status="unreadable", codes=[],
-        read_as="", feedback=found.feedback(), column=found.column, answer=shown_text(given),
+        read_as="", feedback=found.feedback(language), column=found.column, answer=shown_text(given),
         would_read=None if nearest is None else nearest.read_as,
     )  # fmt: skip
     return remark(item)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 
 from dofkit.base.errors import SceneError
 from dofkit.base.wording import verb
+from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr, parameter
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.elaboration import names_by_position
@@ -19,6 +21,13 @@ from dofkit.system import Constraint, ListedForce, Rotation, System
 SPECIAL = (
     "The drawing has numbers where lengths are parameters: it fits only special values of them, "
     "so it is not used as a reference configuration."
+)
+#: Below this size a sine is taken for 0: such a drawing is not looked at.
+SINGULAR = 1e-9
+#: Said where the drawing shows no velocities.
+LEVEL = (
+    "The drawing is not used as a reference configuration: texts name Euler angles, which are singular where {} is "
+    "drawn (theta = 0: the other two angles turn alike). Give another theta in `configuration` to draw it elsewhere."
 )
 
 
@@ -39,7 +48,11 @@ def system_of(scene: Scene, found: Survey) -> System:
         warnings.append(SPECIAL)
     elif not found.generic:
         reference = reference_of(drawing, found.drawn, pose, partial(_touched, found.constraints))
-        if reference is None:
+        level = [] if reference is None else _level(drawing, _touched(found.constraints))
+        if level:
+            reference = None
+            warnings.append(LEVEL.format(", ".join(level)))
+        elif reference is None:
             warnings += _partly(found, undrawn(drawing, found.drawn, pose, _touched(found.constraints)))
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
@@ -78,6 +91,17 @@ def _partly(found: Survey, missing: Sequence[str]) -> Iterator[str]:
     if missing and found.drawn:
         shown = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
         yield f"There is no reference configuration: {shown} {verb(len(missing))} not drawn."
+
+
+def _level(drawing: Drawing, touched: frozenset[str]) -> list[str]:
+    """The bodies with Euler angles in texts that are drawn where these are singular: sin(theta) = 0."""
+    found = []
+    for frame in drawing.frames.values():
+        if frame.chart == "euler" and not touched.isdisjoint(frame.angles):
+            tilt = approximate(frame.initial[1])
+            if tilt is None or abs(math.sin(tilt)) < SINGULAR:
+                found.append(frame.name)
+    return found
 
 
 def _rotations(drawing: Drawing) -> tuple[Rotation, ...]:

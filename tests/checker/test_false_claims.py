@@ -108,13 +108,28 @@ PLACES: dict[str, False_] = {
         "dof was verified at another point",
     ),
 }
-ACROSS = {"rule": "crossing", "minor": minor("", ""), "zero": "c1", "speeds": [{"x": "1"}, {"y": "1"}]}
+#: The set is xdotdot = -1, and all of x.
+RESTING = {
+    "rule": "isolated",
+    "minor": minor("c2", "xdotdot"),
+    "zero": "c1",
+    "speeds": {"x": "1"},
+    "order": 2,
+}
 NAMES: dict[str, False_] = {
-    # at xdotdot = -1 it says -x^2 - y^2 = 0
     "a coordinate with the name of a second derivative": (
-        {"coordinates": ["x", "y", "xdotdot"], "constraints": ["x^2*(1 + 2*xdotdot) = y^2"]},
-        [claim("/dof", 2, "squeeze", about="component", most=ACROSS, least=ACROSS)],
-        {"points": [{"id": "P", "values": {"x": "0", "y": "0", "xdotdot": "-1"}}]},
+        {"coordinates": ["x", "xdotdot"], "constraints": ["x^2*(1 + xdotdot) = 0", "xdotdot = -1"]},
+        [
+            claim(
+                "/dof",
+                0,
+                "squeeze",
+                about="component",
+                most=RESTING,
+                least={"rule": "span", "at": "P", "fields": [], "rows": [], "words": [], "columns": []},
+            )
+        ],
+        {"points": [{"id": "P", "values": {"x": "0", "xdotdot": "-1"}}]},
         "has the name of a derivative",
     ),
 }

@@ -35,6 +35,8 @@ class BothNeeded:
     def beside(self, rows: Iterable[int]) -> set[int]:
         return {0, 1, 2}
 
+    within = beside
+
 
 def test_a_relation_follows_from_what_implies_it_and_from_no_less() -> None:
     rows = OwnedRows([{0: 1}, {1: 1}, {0: 1}], [0, 1, 2], [True] * 3, 101, implication=BothNeeded())

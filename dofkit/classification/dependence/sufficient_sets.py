@@ -33,6 +33,9 @@ class Implication(Protocol):
     def beside(self, rows: Iterable[int]) -> set[int]:
         """The rows that share a coordinate with some rows, those among them."""
 
+    def within(self, rows: Iterable[int]) -> set[int]:
+        """The rows that mention no other bodies and particles than some rows do, those among them."""
+
 
 @dataclass
 class SufficientSets:
@@ -68,16 +71,22 @@ class SufficientSets:
         return self._asked <= WORK
 
     def _grown(self, row: int, support: Sequence[int], among: Sequence[int]) -> list[int] | None:
-        """The support with the rows around it, as far as it takes to imply the row; None where that is never enough."""
+        """The support with the rows around it, as far as it takes to imply the row; None where that is never enough.
+
+        First those of its own bodies, then those that share coordinates with them, and so on.
+        """
         grown = set(support)
-        while True:
+        near = self.implication.within([row, *grown])
+        if near.intersection(among) <= grown:
             near = self.implication.beside([row, *grown])
+        while True:
             more = {i for i in among if i in near} | grown
             if more == grown or not self._ask(sorted(more)):
                 return None
             grown = more
             if self.implication.seems(row, sorted(grown)):
                 return sorted(grown)
+            near = self.implication.beside([row, *grown])
 
     def _fewest(self, row: int, rows: Sequence[int], needed: Sequence[int]) -> list[int]:
         """Rows of which the row follows, less those of constraints without which it does too, the last written first.

@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import stat
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
 from itertools import islice
 from typing import Any, BinaryIO
 
-from dofkit.homework.answers.roster import named_by
+from dofkit.homework.answers.roster import own_name
 from dofkit.homework.answers.submission import (
     MOST_BYTES,
     FilePlace,
@@ -33,6 +35,9 @@ DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), ("
 STDIN = "-"
 #: What a file with answers is called that tells nothing of who hands it in.
 GENERIC = frozenset({"answers", "answer", "submission", "solution", "antworten", "abgabe", "homework", "sheet"})
+#: What Gradescope puts beside the folders of submissions that are downloaded, and what it says of each.
+METADATA = "submission_metadata.yml"
+_SUBMITTED = re.compile(r"^(?P<folder>submission_\d+):|^\s+(?:- )?:(?P<what>name|email): *(?P<said>.+)$", re.MULTILINE)
 #: Files that systems leave in folders.
 _LEFT = frozenset({"thumbs.db", "desktop.ini", "__macosx"})
 
@@ -106,14 +111,35 @@ def _claimed(one: Handed, source: str) -> Handed:
     path = one.place.file
     if source == STDIN or not path:
         return one
-    within = os.path.relpath(path, clean(source)) if os.path.isdir(source) else os.path.join(*_last_two(path))
+    folder = os.path.isdir(source)
+    within = os.path.relpath(path, clean(source)) if folder else os.path.join(*_last_two(path))
     *folders, _ = [part for part in within.split(os.sep) if part not in ("", os.curdir, os.pardir)]
     stem = _stem(path)
-    claims = (stem, *reversed(folders)) if os.path.isdir(source) or stem.lower() in GENERIC else (stem,)
+    claims = (stem, *reversed(folders)) if folder or stem.lower() in GENERIC else (stem,)
+    if folder and folders and (submitter := submitters(source).get(folders[0])):
+        return replace(one, claims=(*claims, submitter), name=submitter if one.name == stem else one.name)
     if one.name != stem or not isinstance(one.data, bytes | None):
         return replace(one, claims=claims)
     own = claims[1] if stem.lower() in GENERIC and len(claims) > 1 else stem
-    return replace(one, claims=claims, name=next(named_by(own)))
+    return replace(one, claims=claims, name=own_name(own))
+
+
+@lru_cache(maxsize=4)
+def submitters(source: str) -> dict[str, str]:
+    """Of every folder that Gradescope's export has whose it is: the address, else the name; several by commas."""
+    try:
+        with open(os.path.join(source, METADATA), "rb") as file:
+            text = file.read(MOST_BYTES).decode("utf-8", "replace")
+    except OSError:
+        return {}
+    found: dict[str, dict[str, list[str]]] = {}
+    folder = ""
+    for said in _SUBMITTED.finditer(text):
+        folder = said["folder"] or folder
+        if said["what"] and folder:
+            found.setdefault(folder, {}).setdefault(said["what"], []).append(clean(said["said"]).strip("\"' \r"))
+    told = {folder: fields.get("email") or fields.get("name", []) for folder, fields in found.items()}
+    return {folder: ", ".join(filter(None, names)) for folder, names in told.items() if any(names)}
 
 
 def _last_two(path: str) -> tuple[str, str]:
@@ -137,7 +163,7 @@ def _folder(folder: str, known: Columns, left_out: frozenset[str]) -> Iterator[H
         return
     for name, is_folder, is_link in entries:
         path = os.path.join(folder, name)
-        if name.startswith(".") or name.lower() in _LEFT or os.path.realpath(path) in left_out:
+        if name.startswith(".") or name.lower() in (*_LEFT, METADATA) or os.path.realpath(path) in left_out:
             continue
         if is_link:
             yield _unreadable(path, "it is a link, which is not followed")

@@ -18,7 +18,7 @@ _HEAD = """#set page(paper: "a4", margin: 2.2cm, numbering: "1")
 #show heading: set block(above: 1.3em, below: 0.8em)
 #show raw: set text(font: "DejaVu Sans Mono", size: 9pt)
 """
-_SPECIAL = frozenset("\\#$*_`<>@[]~\"'/=+-")
+_SPECIAL = frozenset("\\#$*_`<>@[]~\"'/=+-.")
 
 
 class TypesetterMissingError(DofkitError):

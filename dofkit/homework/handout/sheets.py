@@ -17,6 +17,7 @@ from dofkit.homework.handout.page import page_of
 from dofkit.homework.handout.paper import pdf_of, pdf_of_picture, typst_of
 from dofkit.homework.handout.tex import tex_of
 from dofkit.homework.problem import Problem
+from dofkit.homework.questions import MOTION
 from dofkit.homework.questions.equations import EquationQuestion
 from dofkit.homework.statement import named
 
@@ -110,6 +111,8 @@ def remarks(prepared: Prepared) -> Iterator[str]:
         for text in unset_formulas(problem.text or ""):
             yield f"problem '{problem.id}': the formula ${text}$ cannot be set, and is shown as it is typed"
         if problem.text is None:
+            if any(isinstance(question, MOTION) for question in problem.questions):
+                yield f"problem '{problem.id}': the sheet does not say what the forces and masses are: say it in `text`"
             scene = named(prepared.keys[problem.id].scene)
             asked = [n for q in problem.questions if isinstance(q, EquationQuestion) for n in q.constraint]
             for name in dict.fromkeys(n for n in asked if scene[n].facts.written):

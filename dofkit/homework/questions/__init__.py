@@ -13,7 +13,7 @@ from dofkit.homework.questions.motion import GeneralizedForce, Lagrangian, Momen
 from dofkit.homework.questions.names import Coordinates, Redundant
 from dofkit.homework.questions.numbers import CountQuestion, Dof, NumberQuestion, VelocityDof
 
-__all__ = ["KINDS", "AnyQuestion", "Earlier", "Identifier", "NumberQuestion", "Points", "QuestionBase"]
+__all__ = ["KINDS", "MOTION", "AnyQuestion", "Earlier", "Identifier", "NumberQuestion", "Points", "QuestionBase"]
 
 AnyQuestion = Annotated[
     Dof
@@ -31,6 +31,8 @@ AnyQuestion = Annotated[
     Field(discriminator="ask"),
 ]
 
+#: What is asked of the equations of motion.
+MOTION = (Lagrangian, Momentum, GeneralizedForce, MotionQuestion)
 #: What can be asked for -> its class.
 KINDS: dict[str, type[QuestionBase]] = {
     q.kind(): q

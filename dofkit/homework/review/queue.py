@@ -83,6 +83,7 @@ def cells_of(queued: QueuedAnswer) -> dict[str, str]:
         "id": queued.id,
         "problem": item.problem,
         "question": item.question,
+        "variant": item.variant or "",
         "text": item.answer or "",
         "why": place + item.feedback,
         "readings": " | ".join(read_as for read_as, _ in ways),

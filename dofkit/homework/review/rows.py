@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 #: The columns of the table, in order; those that a person fills in come last.
 COLUMNS = (
-    "id", "problem", "question", "text", "why", "readings", "would_earn", "max_points", "students", "given_by",
-    "points", "remark", "decided_by",
+    "id", "problem", "question", "variant", "text", "why", "readings", "would_earn", "max_points", "students",
+    "given_by", "points", "remark", "decided_by",
 )  # fmt: skip
 #: Who decided, where the table does not say.
 SOMEONE = "review"

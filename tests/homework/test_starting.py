@@ -1,0 +1,50 @@
+"""A first assignment asks of each scene what is most worth asking."""
+
+from __future__ import annotations
+
+import pytest
+
+from dofkit.homework.key.key import Key
+from dofkit.homework.starting import best_questions
+from dofkit.scene.catalog import catalog_names
+from dofkit.scene.reading import load
+
+
+def asked(name: str) -> list[str]:
+    found = best_questions(Key(load(name)))
+    return [f"{q['ask']} {q.get('constraint') or q.get('coordinate') or ''}".strip() for q in found]
+
+
+@pytest.mark.parametrize(
+    ("name", "worth"),
+    [
+        # two velocities beside four degrees of freedom, and forms that do not integrate
+        ("disc-rolling-on-plane", {"dof", "velocity_dof", "label along_y", "integral along_y"}),
+        # something follows from the rest
+        ("five-particles-ten-links", {"dof", "redundant"}),
+        # an equation that has to be found, a choice of coordinates
+        ("simple-pendulum-link", {"dof", "coordinates", "label rod", "equation rod"}),
+        # energies
+        ("trolley-pendulum-linearized", {"dof", "lagrangian", "motion"}),
+        # time enters
+        ("bead-on-rotating-rod", {"dof", "label rod"}),
+        ("x-dy-plus-y-dx", {"dof", "label c1", "integral c1"}),
+    ],
+)
+def test_what_is_most_worth_asking(name: str, worth: set[str]) -> None:
+    found = asked(name)
+    assert worth <= set(found)
+    assert len(found) == 5
+
+
+def test_an_equation_that_the_scene_tells_is_not_asked_for() -> None:
+    assert not [one for one in asked("x-dy-plus-y-dx") if one.startswith("equation")]
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize("name", catalog_names())
+def test_five_questions_of_every_scene(name: str) -> None:
+    found = asked(name)
+    assert 1 <= len(found) <= 5
+    assert len(set(found)) == len(found)
+    assert "dof" in found

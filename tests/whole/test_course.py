@@ -1,0 +1,22 @@
+"""A whole course: fifty students, four sheets with variants, review, grading again, every platform."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import course
+import pytest
+
+
+@pytest.mark.sweep
+def test_a_course_runs_from_the_sheets_to_the_gradebooks(tmp_path: Path) -> None:
+    counted = dict(course.run(tmp_path))
+    assert list(counted) == list(course.SHEETS)
+    for told in counted.values():
+        assert told["students"] == course.STUDENTS
+        assert told["decided"] > 0
+        assert told["open after"] < told["open before"] + told["decided"]
+        assert told["right"] > 0.5 * told["answers"]
+    if course.CHROMIUM is None:
+        pytest.skip("there is no Chromium to look at the pages with")
+    assert course.too_wide(course.pages_of(tmp_path), tmp_path) == []
