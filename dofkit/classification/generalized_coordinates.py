@@ -10,7 +10,7 @@ import numpy as np
 
 from dofkit.base.deadline import expired
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
-from dofkit.classification.turned_coordinates import ANYWHERE, partly_turned
+from dofkit.classification.turned_coordinates import ANYWHERE, TurnedGroup, chosen_at_drawing, partly_turned
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
@@ -64,6 +64,9 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
     whole = direct if len(direct) == a.dof and not partly_turned(direct, turning) else None
+    drawn = None if whole or not turning else chosen_at_drawing(TurnedGroup(block, tuple(a.hidden)), setting, turning)
+    if drawn is not None and len(drawn) == a.dof:
+        return drawn
     if len(block.coordinates) > MAX_COLUMNS or expired():
         return whole
     if block.forms or block.nonlinear:

@@ -6,13 +6,16 @@ angles are only read off where all three rates are solved for; a Gibbs vector ma
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
 import networkx as nx
-from flint import arb, arb_mat
+from flint import arb, arb_mat, nmod_mat
 
+from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.real_search import RealPoint, RealSearch
@@ -31,6 +34,8 @@ from dofkit.system import Rotation
 ANYWHERE = 0.3
 #: What is added to a number of floating point, so that the ball holds the number meant.
 NEARLY = arb(0, 1e-12)
+#: Coordinates at most of what is looked at where it is drawn, and where it is searched for.
+MOST_DRAWN, MOST_SEARCHED = 700, 60
 #: Points at which the angles are looked at.
 LOOKED = 4
 
@@ -43,8 +48,8 @@ class TurnedGroup(NamedTuple):
 
     block: Block
     hidden: tuple[Expr, ...]
-    places: int
-    fixed: frozenset[str]
+    places: int = 1
+    fixed: frozenset[str] = frozenset()
 
 
 def partly_turned(chosen: Collection[str], rotations: Sequence[Rotation]) -> tuple[Rotation, ...]:
@@ -86,11 +91,72 @@ def _stays(a: Answer) -> bool:
     return a.dof == 0 and a.verdict == "proved" and (a.about == "reference" or a.linear)
 
 
+def chosen_at_drawing(group: TurnedGroup, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
+    """The first coordinates whose differentials complete the rows of the relations at the drawing.
+
+    Over GF(p), where a minor that is not 0 is not 0 over the numbers either. None where angles are singular there or
+    drawn at others than right ones, and for what is large.
+    """
+    names = group.block.coordinates
+    if setting.reference is None or len(names) > MOST_DRAWN or not any(map(_right_rates, turning)):
+        return None
+    chart = make_chart(group.block, setting, group.hidden)
+    point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
+    if point is None or not on_variety(chart, point):
+        return None
+    place = {name: k for k, name in enumerate(names)}
+    columns = [place.get(str(s.args[-1])) if s != ex.TIME else None for s in chart.symbols]
+    rows: list[dict[int | None, int]] = [
+        {columns[c]: v for c, v in row.items()} for row in field_jacobian(chart, point)
+    ]
+    rates = {name: {name: 1} for name in names} | {
+        a: row for r in turning if place.keys() >= {*r.names} for a, row in _right_rates(r).items()
+    }
+    rows += [{place[g]: v for g, v in rates[name].items()} for name in names]
+    before = len(rows) - len(names)
+    found = [names[j - before] for j in _first_independent(rows, len(names), point.p) if j >= before]
+    return None if any(not _right_rates(r) for r in partly_turned(found, turning)) else found
+
+
+def _first_independent(rows: Sequence[Mapping[int | None, int]], width: int, p: int) -> list[int]:
+    """The rows, in order, that are independent of those before, over GF(p)."""
+    table = nmod_mat(width, len(rows), p)
+    for j, row in enumerate(rows):
+        for i, value in row.items():
+            if i is not None:
+                table[i, j] = value % p
+    reduced, rank = table.rref()
+    return [next(j for j in range(len(rows)) if int(reduced[i, j])) for i in range(rank)]
+
+
+def _right_rates(r: Rotation) -> dict[str, dict[str, int]]:
+    """The Euler angles' rates by those of half the Gibbs vector where the body is drawn at right angles; else none."""
+    phi, theta = map(_right_angles, r.initial[:2])
+    if phi is None or theta is None or theta % 2 == 0:
+        return {}
+    s = (0, 1, 0, -1)
+    a, b = s[theta] * s[phi], -s[theta] * s[(phi + 1) % 4]
+    # the axes e_z, n = (-b, a, 0) and k = (a, b, 0) are orthonormal
+    by_angle = ((0, 0, 1), (-b, a, 0), (a, b, 0))
+    return {angle: dict(zip(r.names, row, strict=True)) for angle, row in zip(r.names, by_angle, strict=True)}
+
+
+def _right_angles(e: Expr) -> int | None:
+    """How many right angles an angle is, less whole turns; None where it is no whole number of them."""
+    k = round((approximate(e) or 0.0) * 2 / math.pi)
+    return k % 4 if e == ex.mul(ex.num(Fraction(k, 2)), ex.PI) else None
+
+
 def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Setting, turning: Sequence[Rotation]) -> bool:
     """Is there a certified configuration at which the chosen coordinates are independent, and enough?
 
     Their differentials and the rows of the relations have full rank there: a minor's ball excludes 0.
     """
+    own = [name for name in group.block.coordinates if name in chosen]
+    if chosen_at_drawing(group, setting, turning) == own:
+        return True
+    if len(group.block.coordinates) > MOST_SEARCHED:
+        return False
     chart = make_chart(group.block, setting, group.hidden)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
     for seed in range(LOOKED):
