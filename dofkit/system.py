@@ -6,7 +6,7 @@ Everything after this module works on `System` and never reads the scene again.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Literal, NamedTuple, Protocol
 
@@ -260,7 +260,8 @@ class System:
     (constraint index, particle, particle), ``distances`` those between points of any kind that constraints
     hold, by constraint index; ``connections`` what each constraint of given or generic geometry
     connects, ``starts`` where the bodies' origins stand. ``size``: the largest distance between given points.
-    ``left_out``: what the scene says that it leaves out.
+    ``left_out``: what the scene says that it leaves out. ``drawn``: a pose that is no ``reference`` since Euler angles
+    are singular there, so that coordinates tell no velocities of bodies.
     """
 
     name: str
@@ -284,6 +285,12 @@ class System:
     size: float = 1.0
     warnings: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
+    drawn: Mapping[Expr, Expr] | None = None
+
+    @property
+    def in_coordinates(self) -> System:
+        """With every drawing as reference: to compare relations between coordinates, whatever bodies do there."""
+        return self if self.drawn is None else replace(self, reference=self.drawn)
 
     @property
     def longest(self) -> int:

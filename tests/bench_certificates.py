@@ -123,7 +123,8 @@ def coverage(what: str, given: Sequence[Any], goal: str, pool: ProcessPoolExecut
     shown, left, rest = 0, Counter[str](), Counter[tuple[str, str]]()
     names: dict[tuple[str, str], list[str]] = defaultdict(list)
     for one in told:
-        paths = [claim["path"] for claim in one.certificate["claims"]]
+        probable = {f"/{field}" for field, verdict in one.report["verdicts"].items() if verdict["verdict"] != "proved"}
+        paths = [claim["path"] for claim in one.certificate["claims"] if claim["path"] not in probable]
         shown += sum(1 for path in paths if not fields or path.rpartition("/")[2] in FIELDS)
         for path in one.certificate["uncovered"]:
             about = path.startswith("/verdicts/")

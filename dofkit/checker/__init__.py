@@ -3,8 +3,6 @@
 It shares nothing with the engines that made the claims, and imports nothing of dofkit outside this room.
 """
 
-from __future__ import annotations
-
 from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import Verification, verify
 

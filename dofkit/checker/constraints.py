@@ -1,7 +1,5 @@
 """Every type of constraint: the equations it stands for, and the points, bodies and directions that it mentions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -10,21 +8,7 @@ from typing import Any
 
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector, apart, cross, dot, length, less, scaled, square
 from dofkit.checker.grammar import KnownNames, Sided, parse, parse_relations
-from dofkit.checker.trees import (
-    ONE,
-    TWO,
-    ZERO,
-    Effort,
-    Tree,
-    add,
-    call,
-    difference,
-    number,
-    power,
-    refuse,
-    symbol,
-    times,
-)
+from dofkit.checker.trees import ONE, TWO, ZERO, Effort, Tree, add, call, difference, power, refuse, symbol, times
 from dofkit.checker.values import evaluated, excludes_zero, in_velocities, substituted, symbols_in
 
 Entry = Mapping[str, Any]
@@ -290,7 +274,7 @@ def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
     if first.cayley is not None and second.cayley is not None:
         return less(second.cayley, first.cayley)
     a, b = (tuple(zip(*frame.turn, strict=True)) for frame in (first, second))
-    half = power(add(times(first.under, second.under), *(dot(a[i], b[i]) for i in range(3))), number(-1))
+    half = power(add(times(first.under, second.under), *(dot(a[i], b[i]) for i in range(3))), difference(ZERO, ONE))
     return [times(half, difference(dot(a[i], b[j]), dot(a[j], b[i]))) for i, j in ((0, 1), (1, 2), (2, 0))]
 
 

@@ -3,14 +3,12 @@
 A rule looks at the evidence of a claim and gives the value that it shows.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from flint import fmpq_mat
 
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.fields import Told, admissible, independent, involutive, isolated, of_word, pinned, span
+from dofkit.checker.fields import Told, admissible, independent, involutive, isolated, of_word, span
 from dofkit.checker.trees import refuse
 from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
 
@@ -37,9 +35,8 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     else:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
-        ones = [evidence.relation(row) for row in other.rows if rows]
-        fits = all(one.kind == "finite" and (one.owner or not evidence.is_open(one.left)) for one in ones)
-        refuse(not fits, "a family is of configurations, whatever parameters are")
+        for row in map(evidence.relation, rows or ()):
+            refuse(row.kind != "finite" or (not row.owner and evidence.is_open(row.left)), "it is no family of poses")
         point, found = other.point, size - len(other.rows)
     refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
     verified[f"{path} at"] = evidence.is_about(claim["about"], point)
@@ -215,9 +212,8 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     follow from the rows, is no less in coordinates with the second angle (``beside``: another minor of these rows). Or
     relations of one coordinate each keep all three.
     """
-    minor = {**MOST, "isolated": pinned}[claim["rule"]](evidence, claim)
-    columns = {*minor.columns, *(claim["speeds"] if claim["rule"] == "isolated" else ())}
-    whole = sorted((*columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
+    minor = MOST[claim["rule"]](evidence, claim)
+    whole = sorted((*minor.columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
     refuse(not whole, "the columns of the minor are not all the other coordinates")
     other = evidence.minor(claim.get("beside", claim["minor"]))
     refuse(other.point is not minor.point or set(other.rows) != set(minor.rows), "another minor is of other rows")
@@ -226,7 +222,7 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     turned = [angles for angles in evidence.problem.turns if angles[1] not in other.columns or {*angles} <= still]
     if turned:
         evidence.accounts(minor, evidence.finite)
-    refuse(same_place(evidence, minor.point, verified, turned) != len(columns), "their number is not a verified dof")
+    refuse(same_place(evidence, minor.point, verified, turned) != len(minor.rows), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names_told(claim)
 

@@ -1,7 +1,5 @@
 """What a certificate puts forward at points: rows that hold, a minor of them that is not 0, and what follows there."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 from typing import Any, NamedTuple
 

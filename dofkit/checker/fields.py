@@ -4,8 +4,6 @@ The points that can be reached along fields form an immersed manifold, whose tan
 there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to relations never leave them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Sequence
 from itertools import chain
 from typing import Any
@@ -111,14 +109,12 @@ def involutive(evidence: CheckedEvidence, given: Told, allowed: Collection[str] 
     return minor
 
 
-def take_cover(evidence: CheckedEvidence, name: Any) -> None:
+def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
     """Blocks of rows, each with fields that keep it: near a minor's point its rows give all (constant rank theorem).
 
     The fields are tangent identically, so a block has rank at most its variables less its fields, and the minor shows
     that the sum is reached.
     """
-    if ("covers", name) in evidence.seen:
-        return
     given, total = evidence.named("covers", name), 0
     minor, rows = evidence.minor(given["minor"]), [row for block in given["blocks"] for row in block["rows"]]
     once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
@@ -136,9 +132,8 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> None:
         independent(evidence, fields, block["columns"], minor.point)
         total += min(len(own) - len(fields), len(block["rows"]))
     refuse(not once or total != len(minor.rows), "each finite relation once, and the rank of the minor are needed")
-    evidence.seen["covers", name] = rows
-    for row in set(rows) - set(minor.rows):
-        evidence.consequences.append(Consequence(row, minor.rows, at=minor.point.name))
+    evidence.consequences += (Consequence(row, minor.rows, at=minor.point.name) for row in {*rows} - {*minor.rows})
+    return rows
 
 
 def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tree: Tree, order: int) -> Any:
@@ -167,42 +162,17 @@ def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tr
     return minor.point.value_with(lefts[-1], rates)
 
 
-def _stationary(evidence: CheckedEvidence, given: Told) -> tuple[CheckedMinor, Tree, tuple[str, ...]]:
-    """A minor of finite relations of the scene, and another finite one, all analytic and without time."""
-    minor, name = evidence.minor(given["minor"]), given["zero"]
-    names = (*minor.rows, name)
-    trees = [evidence.relation(one).left for one in names]
-    unfit = evidence.moving or evidence.problem.functions or any("t" in symbols_in(tree) for tree in trees)
-    refuse(unfit or not set(names) <= set(evidence.finite), "finite relations of the scene are needed, without time")
-    evidence.on_set(minor.point, names)
-    return minor, trees[-1], names
-
-
 def isolated(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
     """A minor whose rows leave a dimension more than there is: another relation is not 0 on all that they leave.
 
     It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only.
     """
-    minor, zero, _ = _stationary(evidence, given)
-    numbers = {q: evidence.text(text) for q, text in given["speeds"].items()}
-    free = set(evidence.problem.coordinates) - set(minor.columns)
-    refuse(not numbers.keys() <= free or any(map(symbols_in, numbers.values())), "numbers for free coordinates")
-    balls = {q: minor.point.value(tree) for q, tree in numbers.items()}
-    value = along_curve(evidence, minor, balls, zero, given["order"])
+    minor, name = evidence.minor(given["minor"]), given["zero"]
+    unfit = evidence.moving or evidence.problem.functions or evidence.holds_time((*minor.rows, name))
+    refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "finite relations of the scene, without time")
+    evidence.on_set(minor.point, (*minor.rows, name))
+    speeds = {q: minor.point.value(evidence.text(text)) for q, text in given["speeds"].items()}
+    refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")
+    value = along_curve(evidence, minor, speeds, evidence.relation(name).left, given["order"])
     refuse(not excludes_zero(value), "the zero on the curve is not shown to be isolated")
-    return minor
-
-
-def pinned(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
-    """An `isolated` zero where the coordinates (``pins``) of fields rest, which keep all: the set is their orbit there.
-
-    Every point near it is moved to one where the pins rest; these are on a curve, with an isolated zero.
-    """
-    minor, (_, _, names), pins = isolated(evidence, given), _stationary(evidence, given), given["pins"]
-    fields = [field_named(evidence, name) for name in given["fields"]]
-    whole = len(given["speeds"]) == 1 and sorted((*minor.columns, *pins, *given["speeds"]))
-    apart = whole != sorted(evidence.problem.coordinates)
-    refuse(apart or any("t" in field for field in fields), "columns, pins and one more are the coordinates")
-    tangent(evidence, fields, names)
-    independent(evidence, fields, pins, minor.point)
     return minor

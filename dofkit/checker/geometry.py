@@ -5,8 +5,6 @@ the rotation by the angle less its reference value; in space it is R R_ref^T wit
 read with Cayley parameters g = (a, b, c), A = ((1 - g.g) I + 2 g g^T + 2 [g]) / (1 + g.g).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 

@@ -4,8 +4,6 @@ Words first: what each name means, and how letters written together fall into na
 relation, sum, term, factor, primary. What could be read in two ways is an error.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Rules for the labels of a constraint, for what integrates, and for what can be met and what cannot."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from itertools import combinations
 from typing import Any
@@ -32,19 +30,14 @@ def finite(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 def inequality(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """An inequality is not holonomic; where there is nothing else, it has no independent equation."""
     counted = claim["field"] == "independent"
-    refuse(not evidence.owned(claim["owner"], ("inequality",)), "no inequality")
-    refuse(counted and evidence.owned(claim["owner"]), "there are equations as well")
+    fits = evidence.owned(claim["owner"], ("inequality",)) and not (counted and evidence.owned(claim["owner"]))
+    refuse(not fits, "no inequality, or equations as well")
     return 0 if counted else False
 
 
 def _setting(evidence: CheckedEvidence, claim: Told) -> tuple[str, ...]:
     """The relations that may be used: all, or the constraint's own where it is taken alone."""
     return own(evidence, claim) if claim["field"] == "holonomic_alone" else evidence.equations
-
-
-def _near(evidence: CheckedEvidence, claim: Told, point: CheckedPoint) -> None:
-    if claim["field"] != "holonomic_alone":
-        evidence.is_about("here", point)
 
 
 def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
@@ -58,7 +51,8 @@ def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         refuse(not all(evidence.relation(name).leaf for name in rows), "an integral is a step `integral`")
         evidence.follow(rows, allowed, point, "what is taken together")
     evidence.on_set(point, start)
-    _near(evidence, claim, point)
+    if claim["field"] != "holonomic_alone":
+        evidence.is_about("here", point)
     evidence.follow(own(evidence, claim), {*start, *rows}, point, "what keeps its value")
     return True
 
@@ -69,7 +63,8 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     A consequence of finite relations holds for all directions in which the orbit of the fields extends.
     """
     (point, _), name = admissible(evidence, claim, _setting(evidence, claim)), claim["pairs"]
-    _near(evidence, claim, point)
+    if claim["field"] != "holonomic_alone":
+        evidence.is_about("here", point)
     forbids = name in own(evidence, claim) and evidence.relation(name).kind == "velocity"
     refuse(not forbids, "what the bracket pairs with is no velocity relation of the constraint")
     vector = of_word(evidence, claim["word"], claim["fields"])
@@ -277,11 +272,11 @@ def refuted(evidence: CheckedEvidence, given: Told, verified: Told, names: Seque
     sided = {name: evidence.squares(terms) for name, terms in given.get("inequality", {}).items()}
     factors = {name: evidence.text(text) for name, text in given.get("c", {}).items()}
     together = names is None and given["path"] == "/feasible"
-    refuse(len(sided) + bool(factors) > 1 and sided and not together, "an inequality is refuted by itself")
+    several = len(sided) + bool(factors) > 1 and sided
+    refuse((several and not together) or {*sided} & {*factors}, "an inequality is refuted by itself")
     strict = [s for name, s in sided.items() if together and evidence.relation(name).strict]
-    positive = evidence.is_nowhere_zero(total[0], True)
-    positive |= total[0] == ZERO and any(evidence.is_nowhere_zero(s, True) for s in strict)
-    refuse(not positive, "what is left over is not positive")
+    more = total[0] == ZERO and any(evidence.is_nowhere_zero(s, True) for s in strict)
+    refuse(not more and not evidence.is_nowhere_zero(total[0], True), "what is left over is not positive")
     for name, factor in (*sided.items(), *factors.items()):
         one = evidence.relation(name)
         fits = name in held and not one.leaf and (one.kind == "inequality") == (name in sided)

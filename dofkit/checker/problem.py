@@ -8,8 +8,6 @@ rate of time is ``tdot``. A generic symbol ``square_c3`` is the square of a leng
 constraint, ``length_c3`` the length of a string, ``place_c3`` and ``axis_c3`` components of a place or of an axis.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence

@@ -5,8 +5,6 @@ for*: where it holds, the relation it was made from holds. Either may need expre
 point, and others to have a value there, so that it is true near the point.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple, TypeVar, cast
@@ -15,8 +13,7 @@ from flint import arb
 
 from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.grammar import KnownNames, parse
-from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import CheckedRelation
+from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
 from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, put_in, symbols_in
@@ -31,7 +28,7 @@ _PLAIN = frozenset(("symbol", "sum", "product", "sin", "cos", "exp", "apply"))
 class CheckedTexts:
     """The texts that a certificate may write about a problem, their signs, and where they have a value."""
 
-    def __init__(self, problem: Problem, effort: Effort) -> None:
+    def __init__(self, problem: CheckedProblem, effort: Effort) -> None:
         self.problem, self.effort = problem, effort
         count = 2 * len(problem.coordinates) + len(problem.parameters) + len(problem.generic)
         self.ring = CheckedRing(effort, min(count, MOST_SYMBOLS))
@@ -116,10 +113,6 @@ class Consequence(NamedTuple):
     at: str | None = None
 
 
-#: What a step makes: the left sides of relations, and consequences.
-Made = tuple[dict[str, Tree], list[Consequence]]
-
-
 def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
     """The derivative by time along a motion."""
     return along({name: symbol(name + "dot") for name in names}, tree)
@@ -128,7 +121,7 @@ def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
 class CheckedRelations(CheckedTexts):
     """The relations of the scene and of the steps, each step looked at once."""
 
-    def __init__(self, problem: Problem, parts: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
+    def __init__(self, problem: CheckedProblem, parts: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
         super().__init__(problem, effort)
         self.parts = parts
         self.known = {one.name: one for one in problem.relations}
@@ -157,7 +150,7 @@ class CheckedRelations(CheckedTexts):
             except FAULTS as error:
                 self.faults[name] = f"step `{name[:60]}`: {told(error)}"
 
-    def _implied(self, step: dict[str, Any]) -> Made:
+    def _implied(self, step: dict[str, Any]) -> tuple[dict[str, Tree], list[Consequence]]:
         """h g^k + squares = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
 
         ``g`` is a relation, or a new function. With squares h is positive, and k even (real Nullstellensatz). Where
@@ -185,7 +178,7 @@ class CheckedRelations(CheckedTexts):
         used = *step["c"], *(name for name, _ in given)
         return {target: left} if new else {}, [Consequence(target, used, needs, defined)]
 
-    def _rate(self, step: dict[str, Any]) -> Made:
+    def _rate(self, step: dict[str, Any]) -> tuple[dict[str, Tree], list[Consequence]]:
         """What is constantly 0, or keeps its value, has the derivative 0."""
         of = self.relation(step["of"])
         refuse(of.kind != "finite", "only a finite relation has a rate")

@@ -8,8 +8,6 @@ an identity of real numbers wherever both sides have a value. So what has the no
 value; the converse is never used.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import reduce

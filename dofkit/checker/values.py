@@ -3,8 +3,6 @@
 Every operation on balls encloses the true one, where it is defined and smooth around.
 """
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field

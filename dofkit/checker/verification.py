@@ -126,11 +126,9 @@ path                                    rule           fields
 /integrable_part                        integrals      minor (rows finite or integrals, n - dof many), steps [ID]: of
                                                        the texts of the basis, in order; /dof verified before at the
                                                        same point. Nothing more where the basis is null
-/generalized_coordinates                minor,         as above, minor: rows finite or integrals; the columns (and
-                                        frobenius,     the only one of speeds) are all the other coordinates; /dof
-                                        isolated       verified before, at the same point. isolated: fields [id] and
-                                                       pins [coordinate] besides: the fields are tangent to rows and
-                                                       zero, the pins, which are the value, a minor of them
+/generalized_coordinates                minor,         as above, minor: rows finite or integrals; the columns are
+                                        frobenius      all the other coordinates; /dof verified before, at the same
+                                                       point
 /growth_vector                          span           spans: for each entry {"words", "columns"}; at, fields, rows,
                                                        minor (regular: all rows). Upper bounds: their number, and /dof
                                                        verified before, at the same point
@@ -173,10 +171,9 @@ Local claims (holonomic, circuit, independent, ...) are made at the scene's conf
 given that meets the relations; else at any point. Claims are verified in their order.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 from dofkit.checker import dimension_rules as numbers
@@ -206,7 +203,7 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/redundant", "cofactors", numbers.redundant),
     ("independent", "independent", numbers.independence),
     ("/integrable_part", "integrals", labels.integrable_part),
-    ("/generalized_coordinates", "minor, frobenius, isolated", numbers.generalized_coordinates),
+    ("/generalized_coordinates", "minor, frobenius", numbers.generalized_coordinates),
     ("/growth_vector", "span", numbers.growth),
     ("circuit", "cofactors", numbers.circuit),
     ("holonomic, holonomic_alone", "finite", labels.finite),
@@ -305,11 +302,10 @@ class Verifier:
         field = parts[3] if len(parts) == 4 and parts[1] == "constraints" else ""
         whole = about == "everywhere" or path == "/conflicting" or value is False
         refuse(cayley and whole and not field and path not in LOCAL, "a chart is no whole")
-        misplaced = parts[0] or ("about" in claim and path not in ("/dof", "/velocity_dof"))
-        refuse(misplaced, "no path, or an `about` of what is no number of freedoms")
+        refuse(parts[0] or ("about" in claim and path not in ("/dof", "/velocity_dof")), "no path, or a spare `about`")
         evidence = self.evidence(cayley)
         for name in claim.get("covers", []):
-            take_cover(evidence, name)
+            evidence.once(("covers", name), partial(take_cover, evidence, name))
         owner = parts[-2].replace("~1", "/").replace("~0", "~")
         found = RULES[field or path, rule](evidence, {**claim, "owner": owner, "field": field}, self.verified)
         same = json.dumps(found, sort_keys=True) == json.dumps(value, sort_keys=True)

@@ -67,8 +67,10 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     if len(block.coordinates) > MAX_COLUMNS or expired():
         return whole
     if block.forms or block.nonlinear:
+        if whole or not (block.finite or a.hidden):
+            return whole
         finite = Block(block.coordinates, block.finite, block.conditions)
-        return whole or _nearby(finite, a.dof, setting, turning, a.hidden)
+        return _nearby(finite, a.dof, setting, turning, a.hidden)
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
@@ -142,9 +144,7 @@ def _nearby(
         if tangent.shape[0] == dof:
             chosen = None if drawn is None else _regular_columns(chart, tangent, drawn, turning)
             chosen = _columns(chart, tangent) if chosen is None else chosen
-            if len(chosen) == dof:
-                return chosen
-            continue
+            return chosen if len(chosen) == dof else None
         regular = len(chart.nodes) == len(block.coordinates) - dof
         secants = None if regular or tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
         if secants is not None:

@@ -30,6 +30,7 @@ from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import coursera, gradescope, prairielearn
 from dofkit.homework.formats.documents import text
 from dofkit.homework.judgement import needs_review
+from dofkit.homework.own_sheets import NobodysSheetError, own_of
 from dofkit.homework.result import Item, Result
 from dofkit.homework.runs.batch import Orders
 from dofkit.homework.runs.keeper import Keeper
@@ -70,7 +71,7 @@ def _gradescope_users(root: Path) -> list[Participant]:
     known = [_object(user) for user in users] if isinstance(users, list) else []
     found = [[clean(str(user.get(key) or "")) for key in ("email", "name", "sid", "id")] for user in known]
     return [
-        Participant(email or name or own, name=name, email=email, number=sid, own=own)
+        Participant(email or name or own, name=name, email=email, number=sid, other=own)
         for email, name, sid, own in found
         if email or name or own
     ]
@@ -129,7 +130,11 @@ def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = 
     student = ", ".join(user.student for user in users) or "student"
     prepared = _prepared(site, assignment, student, reviewed)
     _write(site, undecided(prepared, student, "grading was cut short."), prepared)
-    one = _only_hand_in(site, prepared)
+    try:
+        prepared = own_of(prepared, [name for user in users for name in (user.student, *user.called())])
+        one = _only_hand_in(site, prepared)
+    except NobodysSheetError as error:
+        one = Result(student=student, score=None, max_score=Orders.of(prepared).max_score, items=[], error=str(error))
     result = one if isinstance(one, Result) else _result(one, prepared, site.seconds, memory, student)
     named = isinstance(one, Handed) and result.student not in ("", student, *one.claims)
     doubt = by_platform(users, result.student) if named else None

@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Generator, Hashable, Mapping, Sequence
+from collections.abc import Generator, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, TypeVar, cast
 
@@ -75,6 +75,21 @@ def own(prepared: Prepared, student: str) -> Prepared:
     Raises NobodysSheetError for who is not among its students, and where the sheet comes out another way than it did.
     """
     return _last(own_steps(prepared, student))
+
+
+def own_of(prepared: Prepared, names: Iterable[str]) -> Prepared:
+    """The sheet of whoever goes by one of ``names``, as a platform knows its user by several.
+
+    Raises NobodysSheetError where that is nobody or more than one, as of a group whose sheets differ.
+    """
+    variants = prepared.assignment.variants
+    if variants is None:
+        return prepared
+    known = {one.student for name in names if (one := variants.find(name)) is not None}
+    if len(known) != 1:
+        told = "several of its students" if known else "none of its students"
+        raise NobodysSheetError(f"every student has a sheet of their own here, and this was handed in by {told}")
+    return own(prepared, known.pop())
 
 
 def own_steps(prepared: Prepared, student: str) -> Generator[str, None, Prepared]:

@@ -138,7 +138,11 @@ CertificateFiles = Annotated[
 ]
 CertificateFolder = Annotated[
     Path | None,
-    typer.Option("--certificates", metavar="DIR", help="Write what each problem's key rests on, for appeals."),
+    typer.Option(
+        "--certificates",
+        metavar="DIR",
+        help="Write, for appeals, what keys rest on and what shows that equations are right or wrong.",
+    ),
 ]
 Strict = Annotated[bool, typer.Option("--strict", help="Nothing may be uncovered either.")]
 

@@ -206,7 +206,7 @@ def _redundancy(known: Study) -> Reply:
 
 def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:
     read = read_equations(answer["text"], vocabulary_of(scene).names, constants=False)
-    system = lower(with_equations(scene, read, ANSWER))
+    system = lower(with_equations(scene, read, ANSWER)).in_coordinates
     answered_by, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
     found = compare(system, answered_by, own, read.constants, engines).sameness
     if found is Sameness.UNDECIDED:

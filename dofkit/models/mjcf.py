@@ -17,6 +17,7 @@ from dofkit.models.model_document import (
     ModelDocument,
     ModelFile,
     SceneDraft,
+    inertia_of,
     listed,
     number,
     tolerance_of,
@@ -97,8 +98,7 @@ class _MjcfScene:
             self.draft.place(between, joint["anchor"])
             self._joint(j, joint, (below, between))
             below = between
-        rows = [vector(row) for row in body["inertia"]]
-        own = self.draft.body(name, line, mass=number(body["mass"]), inertia=_tidy(rows))
+        own = self.draft.body(name, line, mass=number(body["mass"]), inertia=inertia_of(body["inertia"]))
         self.draft.place(own, body["centre"])
         self.stands.append(own)
         if joints:
@@ -226,9 +226,3 @@ class _MjcfScene:
         places = [*(j["anchor"] for j in self.told["joints"]), *(b["centre"] for b in self.told["bodies"][1:])]
         size = max((max(c) - min(c) for c in zip(*places, strict=True)), default=1.0)
         return tolerance_of(written, size)
-
-
-def _tidy(rows: list[list[float | int]]) -> list[Any]:
-    """Three principal moments where that is all."""
-    off = [rows[i][j] for i in range(3) for j in range(3) if i != j]
-    return rows if any(off) else [rows[i][i] for i in range(3)]

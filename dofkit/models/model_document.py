@@ -78,8 +78,9 @@ class SceneDraft:
         return found
 
     def place(self, body: str, at: Iterable[float]) -> None:
-        """Where the origin of a body stands in the drawing."""
+        """Where the origin of a body stands in the drawing; turned as its inertia is told (`inertia_of`)."""
         self.configuration |= {f"{c}_{body}": number(v) for c, v in zip("xyz", at, strict=False)}
+        self.configuration[f"theta_{body}"] = "pi/2"
 
     def particle(self, name: str, line: int | None, at: Iterable[float]) -> str:
         """Add a particle; the name that it got."""
@@ -157,6 +158,21 @@ def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:
     found: list[float | int | Decimal] = [sign * 2 * a, sign * 2 * b]
     found.insert(k, sign * (1 - a * a - b * b))
     return found
+
+
+def inertia_of(rows: Sequence[Sequence[float]]) -> list[Any]:
+    """An inertia in the axes of a body that is drawn turned by a right angle about x: three moments where that is all.
+
+    At theta = 0 Euler's angles are no coordinates, so that no equations of motion could be given there. The body's
+    axes stand along x, z and -y of the world.
+
+    >>> inertia_of([[1, 0, 0], [0, 2, 0], [0, 0, 3]])
+    [1, 3, 2]
+    """
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = (vector(row) for row in rows)
+    if not (xy or xz or yz):
+        return [xx, zz, yy]
+    return [[xx, xz, -xy], [xz, zz, -yz], [-xy, -yz, yy]]
 
 
 def unique(name: str, taken: set[str]) -> str:

@@ -28,11 +28,14 @@ class SketchMentions(NamedTuple):
 
 
 class SketchKind(NamedTuple):
-    """A kind: its name in SolveSpace, and what it says (None: it is not read); ``needs``: points, lines and rounds."""
+    """A kind: its name in SolveSpace, and what it says (None: it is not read).
+
+    ``needs``: how many points, lines and rounds, in one way or another.
+    """
 
     name: str
     says: Callable[[SketchMentions], Iterator[Written]] | None
-    needs: tuple[int, int, int] = (0, 0, 0)
+    needs: tuple[tuple[int, int, int], ...] = ()
 
 
 def _equation(text: str) -> Written:
@@ -181,38 +184,38 @@ def _wrapped(text: str) -> str:
 
 #: The kinds by their numbers in a file.
 KINDS: Mapping[int, SketchKind] = {
-    20: SketchKind("points-coincident", _coincident, (2, 0, 0)),
-    30: SketchKind("pt-pt-distance", _distance, (2, 0, 0)),
+    20: SketchKind("points-coincident", _coincident, ((2, 0, 0),)),
+    30: SketchKind("pt-pt-distance", _distance, ((2, 0, 0),)),
     31: SketchKind("pt-plane-distance", None),
-    32: SketchKind("pt-line-distance", _line_distance, (1, 1, 0)),
+    32: SketchKind("pt-line-distance", _line_distance, ((1, 1, 0),)),
     33: SketchKind("pt-face-distance", None),
     34: SketchKind("proj-pt-pt-distance", None),
     41: SketchKind("pt-in-plane", None),
-    42: SketchKind("pt-on-line", _on_line, (1, 1, 0)),
+    42: SketchKind("pt-on-line", _on_line, ((1, 1, 0),)),
     43: SketchKind("pt-on-face", None),
-    50: SketchKind("eq-length", _equal_length, (0, 2, 0)),
-    51: SketchKind("length-ratio", _length_ratio, (0, 2, 0)),
-    52: SketchKind("eq-length-and-pt-ln-dist", _length_and_distance, (1, 2, 0)),
-    53: SketchKind("eq-pt-line-distances", _equal_distances, (2, 2, 0)),
-    54: SketchKind("eq-angle", _equal_angle, (0, 4, 0)),
+    50: SketchKind("eq-length", _equal_length, ((0, 2, 0),)),
+    51: SketchKind("length-ratio", _length_ratio, ((0, 2, 0),)),
+    52: SketchKind("eq-length-and-pt-ln-dist", _length_and_distance, ((1, 2, 0),)),
+    53: SketchKind("eq-pt-line-distances", _equal_distances, ((2, 2, 0),)),
+    54: SketchKind("eq-angle", _equal_angle, ((0, 4, 0),)),
     55: SketchKind("eq-line-len-arc-len", None),
-    56: SketchKind("length-difference", _length_difference, (0, 2, 0)),
+    56: SketchKind("length-difference", _length_difference, ((0, 2, 0),)),
     60: SketchKind("symmetric", None),
-    61: SketchKind("symmetric-h", _mirrored_on_axis(0), (2, 0, 0)),
-    62: SketchKind("symmetric-v", _mirrored_on_axis(1), (2, 0, 0)),
-    63: SketchKind("symmetric-line", _mirrored, (2, 1, 0)),
-    70: SketchKind("at-midpoint", _midpoint, (1, 1, 0)),
-    80: SketchKind("horizontal", _level(1)),
-    81: SketchKind("vertical", _level(0)),
-    90: SketchKind("diameter", _diameter, (0, 0, 1)),
-    100: SketchKind("pt-on-circle", _on_circle, (1, 0, 1)),
+    61: SketchKind("symmetric-h", _mirrored_on_axis(0), ((2, 0, 0),)),
+    62: SketchKind("symmetric-v", _mirrored_on_axis(1), ((2, 0, 0),)),
+    63: SketchKind("symmetric-line", _mirrored, ((2, 1, 0),)),
+    70: SketchKind("at-midpoint", _midpoint, ((1, 1, 0),)),
+    80: SketchKind("horizontal", _level(1), ((2, 0, 0), (0, 1, 0))),
+    81: SketchKind("vertical", _level(0), ((2, 0, 0), (0, 1, 0))),
+    90: SketchKind("diameter", _diameter, ((0, 0, 1),)),
+    100: SketchKind("pt-on-circle", _on_circle, ((1, 0, 1),)),
     110: SketchKind("same-orientation", None),
-    120: SketchKind("angle", _angle, (0, 2, 0)),
-    121: SketchKind("parallel", _parallel, (0, 2, 0)),
-    122: SketchKind("perpendicular", _perpendicular, (0, 2, 0)),
-    123: SketchKind("arc-line-tangent", _tangent_line, (0, 1, 1)),
+    120: SketchKind("angle", _angle, ((0, 2, 0),)),
+    121: SketchKind("parallel", _parallel, ((0, 2, 0),)),
+    122: SketchKind("perpendicular", _perpendicular, ((0, 2, 0),)),
+    123: SketchKind("arc-line-tangent", _tangent_line, ((0, 1, 1),)),
     124: SketchKind("cubic-line-tangent", None),
-    125: SketchKind("curve-curve-tangent", _tangent_arcs, (0, 0, 2)),
-    130: SketchKind("eq-radius", _equal_radius, (0, 0, 2)),
-    200: SketchKind("lock-where-dragged", _dragged, (1, 0, 0)),
+    125: SketchKind("curve-curve-tangent", _tangent_arcs, ((0, 0, 2),)),
+    130: SketchKind("eq-radius", _equal_radius, ((0, 0, 2),)),
+    200: SketchKind("lock-where-dragged", _dragged, ((1, 0, 0),)),
 }  # fmt: skip

@@ -156,8 +156,7 @@ class _SketchScene:
             return
         mentioned = self._mentioned(record)
         given = len(mentioned.points), len(mentioned.lines), len(mentioned.rounds)
-        level = kind.needs == (0, 0, 0) and (given[1] == 1 or given[0] == 2)
-        if not level and given != kind.needs:
+        if given not in kind.needs:
             self.draft.leave_out(f"{name}: it mentions what is not in the plane that is read", binding=True)
             return
         written = list(kind.says(mentioned))

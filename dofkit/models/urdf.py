@@ -16,6 +16,7 @@ from dofkit.models.model_document import (
     ModelDocument,
     ModelFile,
     SceneDraft,
+    inertia_of,
     listed,
     number,
     tolerance_of,
@@ -83,10 +84,7 @@ class _UrdfScene:
         link = self.robot.links[name]
         centre = pose.after(link.centre)
         rows = centre.turn @ link.inertia @ centre.turn.T
-        inertia = [vector(row) for row in rows]
-        plain = not any(inertia[i][j] for i in range(3) for j in range(3) if i != j)
-        told: list[Any] = [inertia[i][i] for i in range(3)] if plain else inertia
-        own = self.stands[name] = self.draft.body(name, link.line, mass=number(link.mass), inertia=told)
+        own = self.stands[name] = self.draft.body(name, link.line, mass=number(link.mass), inertia=inertia_of(rows))
         self.draft.place(own, centre.at)
         if joint is None:
             self.draft.constraint(name, "weld", link.line, between=[GROUND, own])

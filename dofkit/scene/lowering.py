@@ -43,14 +43,14 @@ def system_of(scene: Scene, found: Survey) -> System:
     """The mathematics of a scene that was surveyed without faults."""
     drawing, vocabulary = found.drawing, found.drawing.vocabulary
     pose = pose_of(drawing)
-    reference, warnings = None, list(found.warnings)
+    reference, singular, warnings = None, None, list(found.warnings)
     if found.special:
         warnings.append(SPECIAL)
     elif not found.generic:
         reference = reference_of(drawing, found.drawn, pose, partial(_touched, found.constraints))
         level = [] if reference is None else _level(drawing, _touched(found.constraints))
         if level:
-            reference = None
+            reference, singular = None, reference
             warnings.append(LEVEL.format(", ".join(level)))
         elif reference is None:
             warnings += _partly(found, undrawn(drawing, found.drawn, pose, _touched(found.constraints)))
@@ -77,6 +77,7 @@ def system_of(scene: Scene, found: Survey) -> System:
         size=found.size,
         warnings=tuple(warnings),
         left_out=scene.left_out,
+        drawn=singular,
     )
 
 

@@ -449,10 +449,10 @@ from shared.late import let_time_run_out
 mark = sys.argv.pop(1)
 let_time_run_out(pytest.MonkeyPatch(), 0, Path(mark))
 real = telling.SceneFile.read
-def read(data, name):
+def read(data, name, *more):
     if name in ("crash", "busy"):
         getattr(worker_jobs, name)(mark)
-    return real(data, name)
+    return real(data, name, *more)
 telling.SceneFile.read = read
 sys.argv = ["dofkit", "classify", *sys.argv[1:]]
 dofkit.interface.cli.main()

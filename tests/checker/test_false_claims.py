@@ -114,8 +114,6 @@ RESTING = {
     "minor": minor("c2", "xdotdot"),
     "zero": "c1",
     "speeds": {"x": "1"},
-    "fields": [],
-    "pins": [],
     "order": 2,
 }
 NAMES: dict[str, False_] = {

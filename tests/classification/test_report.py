@@ -23,12 +23,20 @@ def governor(*, drawn: bool) -> dict[str, Any]:
 
 
 def test_what_is_undecided_for_want_of_a_drawing_says_so() -> None:
-    blind = dofkit.classify(governor(drawn=False))
+    tangent = {"dimension": 2, "particles": ["A"], "constraints": ["exp(x_A + y_A) = 1 + x_A + y_A"]}
+    blind = dofkit.classify(tangent)
     assert blind.dof is None
-    assert any("give `at` for A, B, C" in warning for warning in blind.warnings)
+    assert any("give `at` for A" in warning for warning in blind.warnings)
+    seen = dofkit.classify(tangent | {"particles": [{"name": "A", "at": [0, 0]}]})
+    assert seen.dof == 1
+    assert not any("give `at`" in warning for warning in seen.warnings)
+
+
+def test_the_drawing_tells_the_part_of_the_set() -> None:
+    """With the collar at the pivot each mass has a circle to itself; as drawn only the height is free."""
+    assert dofkit.classify(governor(drawn=False)).dof == 2
     seen = dofkit.classify(governor(drawn=True))
     assert (seen.dof, seen.verdict) == (1, "proved")
-    assert not any("give `at`" in warning for warning in seen.warnings)
 
 
 def test_what_shows_an_answer_is_no_warning() -> None:

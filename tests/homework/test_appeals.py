@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -29,3 +30,59 @@ def test_every_problem_has_its_certificate(tmp_path: Path, capsys: pytest.Captur
         found = dofkit.verify(given, path)
         assert (found.failed, found.verified) == ([], found.claims)
         assert found.claims
+
+
+#: A circle about the origin, and a skate beside it; what is asked for is the equation of each.
+SHEET = """
+title: Two
+problems:
+- id: ring
+  scene:
+    coordinates: [x, y, u, v, theta]
+    parameters: {l: positive}
+    constraints:
+    - {name: circle, text: "x^2 + y^2 = l^2"}
+    - {name: skate, text: "du sin(theta) = dv cos(theta)"}
+  questions:
+  - {id: circle, ask: equation, constraint: circle, points: 1}
+  - {id: skate, ask: equation, constraint: skate, points: 1}
+"""
+#: Answers, whether they are right, and how many certificates tell so.
+ANSWERS = {
+    "ada": ("2 x^2 + 2 y^2 - 2 l^2 = 0", "2 sin(theta) du - 2 cos(theta) dv = 0", "right", 2),
+    "ben": ("x^2 + y^2 = 4 l^2", "du cos(theta) + dv sin(theta) = 0", "wrong", 1),
+}
+
+
+@pytest.mark.parametrize("student", ANSWERS)
+def test_answers_in_equations_have_certificates(
+    student: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    circle, skate, status, many = ANSWERS[student]
+    sheet, given, folder = tmp_path / "sheet.yaml", tmp_path / "given.json", tmp_path / "why"
+    sheet.write_text(SHEET)
+    given.write_text(json.dumps({"student": student, "answers": {"ring": {"circle": circle, "skate": skate}}}))
+    assert run(str(sheet), [str(given)], GradingOptions(certificates=folder))
+    assert [item["status"] for item in json.loads(capsys.readouterr().out)["items"]] == [status, status]
+    told = json.loads((folder / "answers.json").read_text())
+    assert [(one["question"], one["status"], len(one["files"])) for one in told] == [
+        ("circle", status, many),
+        ("skate", status, many),
+    ]
+    for file in (file for one in told for file in one["files"]):
+        found = dofkit.verify(None, folder / file)
+        assert (found.failed, found.verified) == ([], 1)
+        claim = json.loads((folder / file).read_text())["claims"][0]
+        assert (claim["path"], claim["value"]) == ("/feasible", status == "wrong")
+
+
+def test_answers_without_evidence_say_why(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    # the root has no value where it would be of a negative number: no cofactor does everywhere
+    sheet, given, folder = tmp_path / "sheet.yaml", tmp_path / "given.json", tmp_path / "why"
+    sheet.write_text(SHEET)
+    given.write_text(json.dumps({"student": "cleo", "answers": {"ring": {"circle": "sqrt(x^2 + y^2) = l"}}}))
+    assert run(str(sheet), [str(given)], GradingOptions(certificates=folder))
+    capsys.readouterr()
+    (told,) = json.loads((folder / "answers.json").read_text())
+    assert (told["status"], told["files"]) == ("right", [])
+    assert told["uncovered"] == "no cofactors were found that do everywhere"

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import doctest
+import importlib
 import io
 from pathlib import Path
 from typing import Any
@@ -10,7 +12,7 @@ from typing import Any
 import pytest
 
 from dofkit.homework.answers.attribution import by_platform, by_roster
-from dofkit.homework.answers.roster import Participant, Roster, RosterError, load_roster, named_by
+from dofkit.homework.answers.roster import Participant, Roster, RosterError, load_roster
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, FormatError
 from dofkit.homework.formats.apart import apart_path
@@ -236,7 +238,6 @@ def test_what_two_go_by_names_nobody(tmp_path: Path) -> None:
         (("grace", "Ada Lovelace_12_assignsubmission_file_"), "grace", "S1", True),
         (("class",), "grace", "S2", False),
         (("class",), "mallory", "mallory", False),
-        (("ada",), "ada:3", "S1", False),
     ],
 )
 def test_whose_it_is(claims: tuple[str, ...], student: str, expected: str, doubted: bool, tmp_path: Path) -> None:
@@ -244,13 +245,36 @@ def test_whose_it_is(claims: tuple[str, ...], student: str, expected: str, doubt
     assert (found.student, found.doubt is not None) == (expected, doubted)
 
 
+def test_what_names_nobody_is_its_owners(tmp_path: Path) -> None:
+    known = roster(CANVAS, tmp_path)
+    assert by_roster(known, ("ada",), "ada:3", True) == ("S1", None)
+    assert by_roster(known, ("ada",), "ada:3").doubt is not None
+    assert by_roster(known, ("Ada Lovelace_3_assignsubmission_file_",), "Ada Lovelace_3", True) == ("S1", None)
+
+
 def test_whose_it_is_at_a_platform() -> None:
-    ada = Participant("ada@x", name="Ada Lovelace", email="ada@x", own="7")
+    ada = Participant("ada@x", name="Ada Lovelace", email="ada@x", other="7")
     assert [by_platform([ada], name) for name in ("", "Ada", "ADA@x", "7", "Lovelace, Ada")] == [None] * 5
     assert by_platform([], "bob") is None
     assert "ada@x's, and names 'bob'" in str(by_platform([ada], "bob"))
 
 
-def test_names_of_files() -> None:
-    assert next(named_by("Ada Lovelace_123_assignsubmission_onlinetext_onlinetext")) == "Ada Lovelace"
-    assert list(named_by("ada")) == ["ada"]
+def test_canvas_numbers_its_files_by_its_own_ids(tmp_path: Path) -> None:
+    known = roster("name,canvas id,id number\nAda,101,7\nBob,102,101\nEve,103,8\n", tmp_path)
+    named = [known.owners([claim]) for claim in ("adal_101_9_answers", "x_8_9_answers", "Eve_1_assignsubmission_file_")]
+    assert [[owner.name for owner in owners] for owners in named] == [["Ada"], [], ["Eve"]]
+
+
+def test_a_platform_is_given_its_own_ids_only(prepared: Prepared, tmp_path: Path) -> None:
+    rows, _ = tables("moodle", prepared, tmp_path, result("ada"), known=roster(CANVAS, tmp_path))
+    assert [row[0] for row in rows] == ["useridnumber", "S1"]
+    of_moodle = roster("name,userid,idnumber\nAda,5,S1\n", tmp_path)
+    rows, _ = tables("canvas", prepared, tmp_path, result("ada"), known=of_moodle)
+    assert rows[2] == ["Ada", "", "S1", "", "", "2"]
+
+
+@pytest.mark.parametrize("module", ["roster", "submission"])
+def test_documentation(module: str) -> None:
+    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.answers.{module}"))
+    assert outcome.failed == 0
+    assert outcome.attempted > 0

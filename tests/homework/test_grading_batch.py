@@ -193,12 +193,15 @@ def test_a_file_called_answers_is_its_folders(tmp_path: Path) -> None:
     for folder in ("Ada Lovelace_12_assignsubmission_file_", "bob"):
         (tmp_path / folder).mkdir()
         (tmp_path / folder / "Answers.yaml").write_text("p: {f: 2}")
-    (tmp_path / "Eve_9_assignsubmission_file_hw.yaml").write_text("p: {f: 2}")
+    for stem in ("Eve_9_assignsubmission_file_hw", "sheet_1_2_ada", "sheet_1_2_bob"):
+        (tmp_path / f"{stem}.yaml").write_text("p: {f: 2}")
     handed = list(hand_ins([str(tmp_path)], KNOWN))
     assert [(h.name, h.claims) for h in handed] == [
-        ("Ada Lovelace", ("Answers", "Ada Lovelace_12_assignsubmission_file_")),
-        ("Eve", ("Eve_9_assignsubmission_file_hw",)),
+        ("Ada Lovelace_12", ("Answers", "Ada Lovelace_12_assignsubmission_file_")),
+        ("Eve_9", ("Eve_9_assignsubmission_file_hw",)),
         ("bob", ("Answers", "bob")),
+        ("sheet_1_2_ada", ("sheet_1_2_ada",)),
+        ("sheet_1_2_bob", ("sheet_1_2_bob",)),
     ]
     (direct,) = hand_ins([str(tmp_path / "bob" / "Answers.yaml")], KNOWN)
     assert (direct.name, direct.claims) == ("bob", ("Answers", "bob"))

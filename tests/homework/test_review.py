@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import ast
 import csv
+import doctest
+import importlib
 import io
 import json
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -22,6 +25,8 @@ from dofkit.homework.key.codes import CODES
 from dofkit.homework.result import Item
 from dofkit.homework.review.filled_table import ReviewError, read_table
 from dofkit.homework.review.identity import answer_id, mark_of, question_mark
+from dofkit.homework.review.rows import Decision
+from dofkit.homework.runs.journal import fingerprint
 
 ROD = {
     "dimension": 2,
@@ -101,6 +106,13 @@ def saved(rows: list[dict[str, str]], delimiter: str) -> str:
     writer.writeheader()
     writer.writerows(rows)
     return stream.getvalue()
+
+
+@pytest.mark.parametrize("module", ["review.identity", "answers.typed"])
+def test_documentation(module: str) -> None:
+    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.{module}"))
+    assert outcome.failed == 0
+    assert outcome.attempted > 0
 
 
 # what is open
@@ -429,6 +441,21 @@ def test_reading_alone_and_certificates_go_with_it(course: Course) -> None:
     assert (status, len(out.splitlines()), table.read_bytes()) == (0, 4, before)
     assert course.grade("--certificates", str(course.folder / "why"))[0] == 0
     assert [path.name for path in (course.folder / "why").iterdir()] == ["p.json"]
+
+
+def test_an_interrupted_run_does_not_go_on_with_other_decisions() -> None:
+    plain = load_assignment(SHEET)
+    made = [replace(plain, decisions={"a": Decision(Fraction(points), "so")}) for points in (1, 2, 2)]
+    marks = [fingerprint(one, False) for one in (plain, *made)]
+    assert len(set(marks)) == 3
+    assert marks[2] == marks[3]
+
+
+def test_a_table_that_is_not_there_is_told(course: Course) -> None:
+    status, out, err = course.grade("--reviewed", str(course.folder / "no.csv"))
+    assert (status, out) == (2, "")
+    assert "no.csv" in err
+    assert not course.out.exists()
 
 
 def test_a_review_within_the_folder_of_answers_is_no_submission(course: Course) -> None:

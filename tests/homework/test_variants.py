@@ -19,8 +19,10 @@ from dofkit.base.documents import read_document
 from dofkit.homework.answers.roster import load_roster
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import Prepared, load_assignment
+from dofkit.homework.autograder import main
 from dofkit.homework.class_sheets import VaryError, class_sheets, write_class
 from dofkit.homework.echo import echo
+from dofkit.homework.export import OtterError, export_otter
 from dofkit.homework.grading import Grader
 from dofkit.homework.key.key import Key
 from dofkit.homework.notebooks import QuestionError, item_of
@@ -122,11 +124,22 @@ def test_support_in_motion_where_the_problem_says_so() -> None:
     aspects = ["names", "supports"]
     prepared = varied(problem("p", PENDULUM, {"ask": "dof"}, LABEL, vary=aspects), students=20)
     moving = [v for sheet in sheets(prepared) for v in sheet.variants if v.changed]
-    assert 3 < len(moving) < 17
+    assert 3 < len(moving) < 20
     assert {v.key.constraints["rod"].scleronomic for v in moving} == {False}
     assert {v.key.report.dof for v in moving} == {1}
     alone = varied(problem("p", PENDULUM, {"ask": "dof"}, LABEL), students=20)
     assert not [v for sheet in sheets(alone) for v in sheet.variants if v.changed], "its label would be another"
+
+
+def test_a_link_may_hang_on_what_moves() -> None:
+    """Asked for its label; where its equation is asked for, the sheet would have nothing to tell of it."""
+    scene = {**PENDULUM, "constraints": [{"name": "rod", "type": "link", "between": [[2, "1/2"], "A"], "length": "l"}]}
+    prepared = varied(problem("p", scene, {"ask": "dof"}, LABEL, vary=["supports"]))
+    told = {s.changed: s.key.scene.constraints[0].in_words for s in prepared.structures["p"]}
+    text = "(x_A - (2 + a*cos(omega*t)))^2 + (y_A - (0.5))^2 = l^2"
+    assert told["rod: it hangs on a support that moves by a cos(omega t)"] == text
+    asked = problem("p", scene, LABEL, {"ask": "equation", "constraint": "rod"}, vary=["supports"])
+    assert {s.changed for s in varied(asked).structures["p"]} == {"", "rod: its length grows at the speed v"}
 
 
 def test_two_problems_may_trade_their_labels() -> None:
@@ -264,6 +277,29 @@ def test_what_a_person_decides_counts_for_one_variant() -> None:
     assert first.marks != second.marks
     ids = {answer_id("curve", "q1", "the angle", sheet.marks["curve"]) for sheet in (first, second)}
     assert len(ids) == 2
+
+
+def test_a_platform_says_whose_sheet_it_is(tmp_path: Path) -> None:
+    """Whatever the file and what is in it are called; nobody's and a group's are not graded by somebody's key."""
+    prepared = varied(SHEET[1], students=2)
+    sheet = tmp_path / "assignment.json"
+    sheet.write_text(prepared.assignment.model_dump_json(exclude_none=True))
+    right = own(prepared, "s1").keys["truss"].report.dof
+    folder = tmp_path / "autograder"
+    (folder / "submission").mkdir(parents=True)
+    (folder / "submission" / "s0.json").write_text(json.dumps({"answers": {"truss": {"q0": right}}}))
+
+    def graded(*users: dict[str, str]) -> Any:
+        (folder / "submission_metadata.json").write_text(json.dumps({"users": users}))
+        assert main(["gradescope", str(sheet), "--root", str(folder)]) == 0
+        return json.loads((folder / "results" / "results.json").read_text())
+
+    found = graded({"email": "one@x.org", "name": "Student 1", "id": "7"})
+    assert found["score"] == 1.0
+    assert "several of its students" in graded({"email": "s0"}, {"email": "s1"})["output"]
+    assert "none of its students" in graded({"email": "zoe@x.org"})["output"]
+    with pytest.raises(OtterError):
+        export_otter(sheet, tmp_path / "otter")
 
 
 # of types

@@ -159,7 +159,7 @@ def test_an_open_tree_has_the_freedom_of_its_joints(seed: int) -> None:
     scene, dof = tree_with_loops(12, 0, seed)
     report = dofkit.classify(dofkit.load(scene))
     assert told(scene) == moves(dof, dof)
-    assert (report.verdict, report.redundant, report.redundancies) == ("proved", [], [])
+    assert (report.verdicts["dof"].verdict, report.redundant, report.redundancies) == ("proved", [], [])
     assert len(report.generalized_coordinates or []) == dof
     for joint, entry in zip(scene["constraints"], report.constraints, strict=True):
         assert entry.equations == entry.independent == 6 - FREEDOMS[joint["type"]]

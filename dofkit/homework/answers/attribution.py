@@ -19,10 +19,11 @@ class Attribution(NamedTuple):
     doubt: str | None = None
 
 
-def by_roster(roster: Roster, claims: Sequence[str], student: str) -> Attribution:
+def by_roster(roster: Roster, claims: Sequence[str], student: str, by_default: bool = False) -> Attribution:
     """Whose it is by a roster; ``claims``: the names of its file and folders; ``student``: whom it names.
 
-    One whom the roster does not know keeps the name. Of several owners the outermost is taken: platforms name folders.
+    ``by_default``: it names nobody, and ``student`` stands for that. One whom the roster does not know keeps the name.
+    Of several owners the outermost is taken: platforms name folders.
     """
     named, owners = roster.find(student), roster.owners(claims)
     if not owners:
@@ -30,7 +31,7 @@ def by_roster(roster: Roster, claims: Sequence[str], student: str) -> Attributio
     owner = owners[-1]
     if len(owners) > 1:
         return Attribution(owner.student, doubt_of(owner.student, owners[0].student))
-    by_default = student in claims or student.rpartition(":")[0] in claims
+    by_default = by_default or student in claims
     if named is owner or (named is None and (by_default or owner.goes_by(student))):
         return Attribution(owner.student)
     return Attribution(owner.student, doubt_of(owner.student, student))

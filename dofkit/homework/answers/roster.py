@@ -46,14 +46,15 @@ _HEADERS: Mapping[str, frozenset[str]] = {
         {"username", "user name", "login", "login id", "sis login id", "uid", "anmeldename", "nutzername",
          "nom d'utilisateur", "nombre de usuario"}
     ),
-    "own": frozenset({"userid", "user id", "canvas id", "moodle id"}),
+    "canvas": frozenset({"canvas id"}),
+    "moodle": frozenset({"userid", "moodle id"}),
     "section": frozenset({"section", "sections", "group", "gruppe"}),
 }  # fmt: skip
 #: Of what one person has, and nobody else.
-_UNIQUE = ("email", "number", "username", "own")
+_UNIQUE = ("email", "number", "username", "canvas", "moodle", "other")
 #: Folders and files as Moodle calls them when all submissions are downloaded, and as Canvas does.
-_MOODLE = re.compile(r"(?P<name>.+?)_\d+_assignsubmission_\w+")
-_CANVAS = re.compile(r"[^\W_]+_(?:LATE_)?(?P<id>\d+)_\d+_", re.IGNORECASE)
+_MOODLE = re.compile(r"(?P<who>.+?)(?P<number>_\d+)_assignsubmission_\w+")
+_CANVAS = re.compile(r"[^\W_]+_(?:LATE_)?(?P<who>\d+)_\d+_", re.IGNORECASE)
 
 
 class RosterError(DofkitError):
@@ -64,8 +65,8 @@ class RosterError(DofkitError):
 class Participant:
     """A person in a course; what is not known is empty.
 
-    ``student``: what results call them, no two alike. ``own``: the number that the platform itself gave them, such as
-    Canvas's ``ID``; ``number``: that of the university.
+    ``student``: what results call them, no two alike. ``canvas``, ``moodle``: the number that the
+    platform itself gave them, Canvas's ``ID`` and Moodle's ``userid``; ``number``: that of the university.
     """
 
     student: str
@@ -73,13 +74,15 @@ class Participant:
     email: str = ""
     number: str = ""
     username: str = ""
-    own: str = ""
+    canvas: str = ""
+    moodle: str = ""
+    other: str = ""
     section: str = ""
     line: int = 0
 
     def called(self) -> Iterator[str]:
         """Everything they go by."""
-        yield from (text for text in (self.name, self.email, self.number, self.username, self.own) if text)
+        yield from filter(None, (self.name, *(getattr(self, name) for name in _UNIQUE)))
         last, comma, first = self.name.partition(",")
         if comma:
             yield f"{first} {last}"
@@ -114,22 +117,26 @@ class Roster:
 
     def owners(self, claims: Sequence[str]) -> list[Participant]:
         """Whom the names of a file and of its folders name, the innermost first; usually one, or nobody."""
-        known = (next(filter(None, map(self.find, named_by(claim))), None) for claim in claims)
-        return list(dict.fromkeys(member for member in known if member is not None))
+        return list(dict.fromkeys(owner for owner in map(self._owner, claims) if owner is not None))
+
+    def _owner(self, claim: str) -> Participant | None:
+        """Whom a name of a file or a folder names, as platforms write it."""
+        if found := _MOODLE.match(claim):
+            return self.find(found["who"])
+        if found := _CANVAS.match(claim):
+            by_canvas = next((member for member in self.members if member.canvas == found["who"]), None)
+            return by_canvas or self.find(claim)
+        return self.find(claim)
 
 
-def named_by(claim: str) -> Iterator[str]:
-    """Who may be meant by the name of a file or a folder, as platforms write them.
+def own_name(claim: str) -> str:
+    """What one is called whom nothing else names but a file or a folder: never as another is.
 
-    >>> list(named_by("Ada Lovelace_123_assignsubmission_file_"))
-    ['Ada Lovelace', 'Ada Lovelace_123_assignsubmission_file_']
-    >>> list(named_by("lovelaceada_LATE_12_345_answers"))
-    ['12', 'lovelaceada_LATE_12_345_answers']
+    >>> own_name("Ada Lovelace_123_assignsubmission_file_"), own_name("sheet_1_2_ada")
+    ('Ada Lovelace_123', 'sheet_1_2_ada')
     """
-    for pattern in (_MOODLE, _CANVAS):
-        if found := pattern.match(claim):
-            yield found[1]
-    yield claim
+    found = _MOODLE.match(claim)
+    return claim if found is None else found["who"] + found["number"]
 
 
 def _key(text: str) -> str:
@@ -187,7 +194,8 @@ def _fields(header: list[str], shown: str) -> dict[str, int]:
             if word in called:
                 found.setdefault(name, i)
     if "id" in words:
-        found.setdefault("own" if "number" in found or "sis login id" in words else "number", words.index("id"))
+        canvas = {"sis user id", "sis login id"} & set(words)
+        found.setdefault("canvas" if canvas else "other" if "number" in found else "number", words.index("id"))
     if not {"name", "last", *_UNIQUE} & set(found):
         raise RosterError(
             f"{shown} tells nobody apart: its header is {clean(', '.join(header))[:120]}; "

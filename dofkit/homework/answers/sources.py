@@ -17,7 +17,7 @@ from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
 from itertools import islice
 from typing import Any, BinaryIO
 
-from dofkit.homework.answers.roster import named_by
+from dofkit.homework.answers.roster import own_name
 from dofkit.homework.answers.submission import (
     MOST_BYTES,
     FilePlace,
@@ -121,7 +121,7 @@ def _claimed(one: Handed, source: str) -> Handed:
     if one.name != stem or not isinstance(one.data, bytes | None):
         return replace(one, claims=claims)
     own = claims[1] if stem.lower() in GENERIC and len(claims) > 1 else stem
-    return replace(one, claims=claims, name=next(named_by(own)))
+    return replace(one, claims=claims, name=own_name(own))
 
 
 @lru_cache(maxsize=4)

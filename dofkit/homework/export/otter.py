@@ -56,9 +56,14 @@ class OtterError(DofkitError):
 def export_otter(assignment: str | os.PathLike[str], folder: Path) -> list[Path]:
     """Write the master notebook and its files into a folder; the paths written.
 
-    Raises AssignmentError, OtterError where two questions would have the same test, and OSError.
+    Raises AssignmentError, OtterError where two questions would have the same test or every student has another sheet,
+    and OSError.
     """
     prepared = load_assignment(assignment)
+    if prepared.assignment.variants is not None:
+        raise OtterError(
+            "every student has a sheet of their own, and otter has the same tests for all: use dofkit grade"
+        )
     folder.mkdir(parents=True, exist_ok=True)
     texts = {
         f"{_plain(Path(assignment).stem)}.ipynb": json.dumps(_notebook(prepared), indent=1, ensure_ascii=False) + "\n",

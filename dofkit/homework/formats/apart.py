@@ -77,8 +77,8 @@ def with_rows(
     for result in results:
         member = None if roster is None else roster.find(result.student)
         why = unfit(result)
-        if why is None and roster is not None and member is None:
-            why = "they are not in the roster"
+        if roster is not None and member is None:
+            why = "they are not in the roster" + (f"; {why}" if why else "")
         if why is None and member is None and not is_cell(result.student):
             why = "the name cannot stand in a table as it is"
         if why is None and (mark := mark_of(result.student if member is None else member.student)) in seen:

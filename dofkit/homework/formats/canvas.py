@@ -82,8 +82,8 @@ def _identity(student: str, member: Participant | None) -> list[str]:
     """``Student, ID, SIS User ID, SIS Login ID, Section``."""
     if member is None:
         return [student, "", "", student, ""]
-    login = member.username or ("" if member.own or member.number else member.email)
-    numbers = [member.own, member.number, login]
+    login = member.username or ("" if member.canvas or member.number else member.email)
+    numbers = [member.canvas, member.number, login]
     named = member.name or member.student
     if POINTS in named:
         named = next(filter(None, numbers), named)

@@ -31,7 +31,7 @@ from dofkit.homework.result import Result
 
 #: What Moodle calls a column, and who a member is there; the platform's own first.
 _COLUMNS: dict[str, Callable[[Participant], str]] = {
-    "userid": lambda member: member.own,
+    "userid": lambda member: member.moodle,
     "useridnumber": lambda member: member.number,
     "username": lambda member: member.username,
     "useremail": lambda member: member.email,

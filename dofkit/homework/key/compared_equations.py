@@ -53,7 +53,7 @@ class PosedAnswer(NamedTuple):
 def with_answer(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
     """What is found of the scene with the answer. Raises TextError where the scene cannot hold it."""
     try:
-        system = lower(with_equations(key.scene, read, ANSWER))
+        system = lower(with_equations(key.scene, read, ANSWER)).in_coordinates
         return question(PosedAnswer(system, range(len(key.scene.constraints), len(system.constraints))))
     except SceneError as error:
         fault = error.faults[0]

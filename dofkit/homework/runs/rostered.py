@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from dofkit.homework.answers.attribution import by_roster
 from dofkit.homework.answers.roster import Roster
@@ -20,7 +20,8 @@ def rostered(
 
 
 def _line(roster: Roster, one: Handed, line: ResultLine) -> ResultLine:
-    student, doubt = by_roster(roster, one.claims, line.student)
+    by_default = not isinstance(one.data, Mapping) and line.student == one.name
+    student, doubt = by_roster(roster, one.claims, line.student, by_default)
     if (student, doubt) == (line.student, None):
         return line
     said = json.loads(line.text)

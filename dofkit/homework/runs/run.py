@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, closing, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rich.console import Console
@@ -19,7 +19,7 @@ from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.formats.apart import apart_path
 from dofkit.homework.result import Result
-from dofkit.homework.runs.appeals import write_certificates
+from dofkit.homework.runs.appeals import JudgedAnswer, judged_answers, write_certificates
 from dofkit.homework.runs.batch import Orders, ResultLine
 from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
 from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
@@ -107,7 +107,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
-        one = _Run(form, prepared, orders, crew, seen, roster)
+        one = _Run(form, prepared, orders, crew, seen, roster, options.certificates is not None)
         if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
@@ -115,7 +115,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     if one.doubted:
         print(f"a person has to say whose they are: {one.doubted} of the submissions have a 'doubt'", file=sys.stderr)
     if options.certificates is not None:
-        write_certificates(prepared, options.certificates)
+        write_certificates(prepared, options.certificates, one.answers)
     return one.failed == 0
 
 
@@ -134,7 +134,10 @@ def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
 
 @dataclass
 class _Run:
-    """One run; ``failed`` counts the submissions that could not be graded, ``doubted`` those that may be another's."""
+    """One run; ``failed`` counts the submissions that could not be graded, ``doubted`` those that may be another's.
+
+    ``answers`` are kept for appeals.
+    """
 
     form: Format
     prepared: Prepared
@@ -142,12 +145,14 @@ class _Run:
     crew: GradingCrew
     seen: HandedIn
     roster: Roster | None = None
+    appeals: bool = False
     failed: int = 0
     doubted: int = 0
+    answers: list[JudgedAnswer] = field(default_factory=list)
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
         """Print results as they come."""
-        lines = (line.text for _, found in self._with_lines(stream, sys.stdout.isatty()) for line in found)
+        lines = self._kept(line.text for _, found in self._with_lines(stream, sys.stdout.isatty()) for line in found)
         if self.form.name != NATIVE:
             self.form.written(map(Result.model_validate_json, lines), self.prepared, sys.stdout, self.roster)
             return
@@ -165,12 +170,23 @@ class _Run:
             self.failed += journal.failed
             for one, lines in self._with_lines(left, False):
                 journal.write(one, lines)
+        self._keep(_results(path) if self.appeals and not self.orders.check_only else ())
         if self.form.name != NATIVE:
             self.form.written(_results(path), self.prepared, out, self.roster)
         review.write(path, self.prepared)
         if self.form.name != NATIVE:
             path.unlink()
         journal.finish()
+
+    def _keep(self, results: Iterable[Result]) -> None:
+        """Keep answers that may be appealed."""
+        self.answers += judged_answers(self.prepared, results)
+
+    def _kept(self, lines: Iterator[str]) -> Iterator[str]:
+        """Lines, of which answers are kept."""
+        for text in lines:
+            self._keep([Result.model_validate_json(text)] if self.appeals and not self.orders.check_only else ())
+            yield text
 
     def _with_lines(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[ResultLine]]]:
         """Everything with its results, counted, and shown on a terminal how far it is."""

@@ -7,12 +7,16 @@ from typing import TYPE_CHECKING, Any
 from dofkit.base.surface import handed_on
 
 if TYPE_CHECKING:
+    from dofkit.methods.certificates.answers import certificates_of
     from dofkit.methods.certificates.verifying import verify
 
-__all__ = ["verify"]
+__all__ = ["certificates_of", "verify"]
 
 #: What is handed on, and where it lives: imported when it is first asked for.
-_HOMES = {"verify": "dofkit.methods.certificates.verifying"}
+_HOMES = {
+    "certificates_of": "dofkit.methods.certificates.answers",
+    "verify": "dofkit.methods.certificates.verifying",
+}
 
 
 def __getattr__(name: str) -> Any:

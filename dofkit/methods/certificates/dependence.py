@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -25,15 +25,24 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
     if scenery.has_step(step):
         return True
     try:
-        found = _combination(scenery, name, kinds, point, [])
-        if found is None and own.kind == "finite":
-            order = puts(scenery, [*solved_pairs(scenery, kinds, point), *kinds])
-            found = _combination(scenery, name, kinds, point, order) if order else None
-        if found is not None:
+        for found in combined(scenery, name, kinds, point):
             scenery.add_step({"id": step, "by": "implied", "of": name, **found})
+            return True
     except (CheckError, NoEstimateError):
         return False
-    return found is not None
+    return False
+
+
+def combined(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint) -> Iterator[dict[str, Any]]:
+    """Cofactors that are numbers, as they seem; and those after coordinates that relations give are put in."""
+    found = _combination(scenery, name, rows, point, [])
+    if found is not None:
+        yield found
+    finite = [row for row in rows if scenery.evidence.relation(row).kind == "finite"]
+    order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
+    found = _combination(scenery, name, rows, point, order) if order else None
+    if found is not None:
+        yield found
 
 
 def _combination(

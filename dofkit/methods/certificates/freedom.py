@@ -13,7 +13,7 @@ from dofkit.methods.certificates.forms import integrable_names, involutive_rows,
 from dofkit.methods.certificates.integrals import integral_of_text
 from dofkit.methods.certificates.rigid_fields import backing
 from dofkit.methods.certificates.room import Room, Told
-from dofkit.methods.certificates.stationary import isolations, stationary
+from dofkit.methods.certificates.stationary import stationary
 from dofkit.report import ConstraintEntry
 
 
@@ -133,9 +133,6 @@ def generalized_coordinates(room: Room) -> Iterator[Told]:
             yield {**found, "beside": room.minor(turned)}
     if room.scenery.evidence.moving:
         for found in involutive_rows(room, integrable_names(room), others):
-            yield found
-    for found in isolations(room):
-        if set(found["pins"]) == set(chosen):
             yield found
 
 

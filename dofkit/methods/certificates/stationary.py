@@ -23,7 +23,7 @@ def stationary(room: Room) -> Iterator[Told]:
     standing = room.standing
     if standing is None or not standing.dependent:
         return
-    for found in isolations(room):
+    for found in _isolations(room):
         most = {key: part for key, part in found.items() if key not in ("fields", "pins")}
         yield {"rule": "squeeze", "about": room.about, "most": most, "least": _orbit(room, found)}
     if room.report.verdicts["dof"].argument == CROSSING:
@@ -32,7 +32,7 @@ def stationary(room: Room) -> Iterator[Told]:
                 yield {"rule": "squeeze", "about": room.about, "most": most, "least": least}
 
 
-def isolations(room: Room) -> Iterator[Told]:
+def _isolations(room: Room) -> Iterator[Told]:
     """The rule `isolated`, with the generalized coordinates for pins, or what moves with the fields."""
     chosen = room.report.generalized_coordinates
     for wanted in (chosen, room.problem.coordinates) if room.report.verdicts["dof"].argument == ISOLATED else ():

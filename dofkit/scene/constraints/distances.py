@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, pairwise
 from typing import Annotated, Any, ClassVar, Literal
@@ -78,14 +79,45 @@ class Link(ConstraintBase):
                 yield {"type": cls.kind(), "between": list(pair)}
 
     def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
+        """Its length in motion, or the place in the world that it hangs on."""
         found = length_in_motion(self.written(), names)
         if found is not None:
             yield found
+        moved = _hung_on_what_moves(self, names)
+        if moved is not None:
+            yield moved
 
     @property
     def in_words(self) -> str:
         ends = "-".join(show_point(end) for end in self.between)
         return f"link {ends}" + ("" if self.length is None else f", length {as_written(self.length)}")
+
+
+def _hung_on_what_moves(link: Link, names: NamesAtHand) -> Replacement | None:
+    """A particle on a link of constant length whose other end moves to and fro in the world, as an equation."""
+    places = [end for end in link.between if isinstance(end, tuple)]
+    points = [names.owned.get(end, ()) for end in link.between if isinstance(end, str)]
+    length = "" if link.length is None else as_written(link.length)
+    if (
+        len(places) != 1
+        or len(points) != 1
+        or len(points[0]) != len(places[0])
+        or not length
+        or re.search(r"\bt\b", length)
+    ):
+        return None
+    reach, rate = names.fresh("a"), names.fresh("omega")
+    sway = f"{reach}*cos({rate}*t)"
+    shifts = [as_written(part) for part in places[0]]
+    ends = [sway if shifts[0] == "0" else f"{shifts[0]} + {sway}", *shifts[1:]]
+    squares = [
+        q if p == "0" else f"({q} - {p if p.isalnum() else f'({p})'})" for q, p in zip(points[0], ends, strict=True)
+    ]
+    whole = length if length.isalnum() else f"({length})"
+    fields = {"type": "equation", "text": f"{' + '.join(f'{s}^2' for s in squares)} = {whole}^2"}
+    fields |= {} if link.name is None else {"name": link.name}
+    told = f"it hangs on a support that moves by {reach} cos({rate} t)"
+    return Replacement("supports", fields, {reach: "positive", rate: "positive"}, told)
 
 
 def _between_names(written: Mapping[str, Any]) -> bool:
