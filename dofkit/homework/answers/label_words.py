@@ -75,7 +75,7 @@ _SLASH = re.compile(r"[/|+()\[\]]|(?<=[a-z])\.(?=[a-z])")
 #: `holonomic: yes, scleronomic: no`, and `holonomic not`; a negated group may mean each or not all.
 _TOLD = re.compile(
     rf"([^\W\d_][\w\u2010-\u2015-]*)(\s*[:=]\s*|\s+[-\u2013\u2014]?\s*)({'|'.join(sorted({*YES, *NO, 'não', 'sí'}))})"
-    r"\b(?=\s*(?:[,;.)\n]|$|(?:and|und|et|y|e)\s))",
+    r"\b(?=\s*(?:[,;.)\n]|$|(?:and|und|et|y|e)\s|[^\W\d_][\w-]*\s*[:=]))",
     re.IGNORECASE,
 )
 _GROUP_DENIED = re.compile(r"\b(?:not|nicht|non|no|pas|nao|não)\s*\([^()]*\w[\s,&]+\w[^()]*\)", re.IGNORECASE)

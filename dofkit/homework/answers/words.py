@@ -152,4 +152,6 @@ def chosen(words: Iterable[Word], known: Sequence[str], what: str) -> list[str]:
             hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(known[:12])}"
             raise TextError(f"there is no {what} '{word.text[:40]}'", word.column, hint)
         found[meant] = None
+    if not found:
+        raise TextError(f"no {what} is named", 1, f"the {what}s are {', '.join(known[:12])}; or write: none")
     return list(found)
