@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import sympy as sp
 from shared.work import counted
 
 from dofkit.homework.answers.submission import of_value
@@ -172,6 +173,48 @@ def test_what_is_no_text(question: str, answer: Any) -> None:
     item = graded(grader(), question, answer)
     assert item.status in ("unreadable", "missing", "wrong", "needs_review", "right")
     assert item.status != "right" or not answer  # nothing moves in this scene, and nothing is redundant
+
+
+#: Signs and words that say nothing, over and over.
+FILLED = [",", ";", "$", "`", "«", "\\;", "&", '"', "because ", "or ", "(", "²", "1 (a) ", "not ", "non-", "a’b", "x, "]
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+@pytest.mark.parametrize("unit", FILLED, ids=named)
+def test_what_is_only_repeated_is_refused_in_few_words(question: str, unit: str) -> None:
+    item, calls = counted(lambda: graded(grader(), question, (unit * 2000)[:2000]))
+    assert calls < GRADED
+    assert item.status in ("unreadable", "missing", "needs_review", "wrong")
+    assert len(item.feedback) < 600
+
+
+class LoudText(str):
+    """A text of a notebook whose methods must not run."""
+
+    __slots__ = ()
+
+    def strip(self, *_: Any) -> str:
+        raise AssertionError("it ran")
+
+    __str__ = __repr__ = strip
+
+
+class LoudNumber(float):
+    """A number of a notebook whose methods must not run."""
+
+    __slots__ = ()
+
+    def __float__(self) -> float:
+        raise AssertionError("it ran")
+
+    def __repr__(self) -> str:
+        raise AssertionError("it ran")
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_methods_of_an_answer_do_not_run(question: str) -> None:
+    for answer in (LoudText("5"), LoudNumber(5), sp.Function("f")(sp.Symbol("x"))):
+        assert graded(grader(), question, answer).status in ("unreadable", "wrong", "needs_review")
 
 
 def test_one_answer_does_not_change_another() -> None:

@@ -19,7 +19,12 @@ from dofkit.homework.questions import KINDS
 FOLDER = Path(__file__).parent / "natural"
 FILES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
 #: Many equations are compared there.
-HEAVY = {"equations": pytest.mark.sweep, "motion": pytest.mark.sweep, "rewritings": pytest.mark.sweep}
+HEAVY = {
+    "attacks": pytest.mark.sweep,
+    "equations": pytest.mark.sweep,
+    "motion": pytest.mark.sweep,
+    "rewritings": pytest.mark.sweep,
+}
 OPEN = frozenset({"unreadable", "needs_review", "missing"})
 
 

@@ -193,7 +193,7 @@ def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Look
     if kind == "superscript":
         digits = "".join(SUPERSCRIPTS[c] for c in found)
         if not digits.lstrip("+-").isdigit() or len(digits) > 4 or digits.rfind("-") > 0 or "+" in digits:
-            raise TextError(f"the superscript `{found}` is no exponent", column, "write `^` and the exponent")
+            raise TextError(f"the superscript `{found[:12]}` is no exponent", column, "write `^` and the exponent")
         return Token(kind, start, end, num(int(digits)), found, int(digits))
     if kind == "wrong":
         message, hint = _WRONG.get(found, (f"`{found}` is not read", "write `=`, `<=`, `>=`, `<`, `>` or arithmetic"))

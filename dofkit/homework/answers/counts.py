@@ -9,7 +9,7 @@ from fractions import Fraction
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import LEADING, NEGATIONS, NUMBERS, REASONS, UNITS, plain, words
+from dofkit.homework.answers.prose import DOUBTS, LEADING, NEGATIONS, NUMBERS, REASONS, UNITS, plain, words
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError
@@ -19,9 +19,24 @@ _COMMA = re.compile(r"(?<=\d),(?=\d)")
 _GROUP = re.compile(r"\s*\(([^()]*)\)")
 _SEGMENT = re.compile(
     r"[;\n]|,(?!\d)|:(?!=)|(?<=[^\d\s])\.(?=\s)|\s[-–—]\s(?=[^\W\d_]{3})|"
-    r"(?<=\s)(?:so|therefore|hence|thus|also|donc|luego|quindi|portanto|daher|folglich)(?=\s)",
+    r"⇒(?=\s*[^\W\d_]+\s*=)|(?<=\s)(?:so|therefore|hence|thus|also|donc|luego|quindi|portanto|daher|folglich)(?=\s)",
     re.IGNORECASE,
 )
+#: Brackets of a set, and a number in bold letters of Markdown.
+_BRACKETS, _BOLD = re.compile(r"[{}\[\]]"), re.compile(r"\A\s*\*\*([^*]+)\*\*(?=\s*\Z)")
+#: What bounds a number without telling it; another number beside it in parentheses; a number before a further name.
+_BOUND = re.compile(
+    r"[<>≤≥≠±]|!=|\\(?:leq?|geq?|neq?|lt|gt)(?![a-z])"
+    r"|\b(?:plus|moins|m[aá]s|menos|pi[uù]|meno|mais)\s+(?:de|di|do|que|d['’])(?![^\W\d_])",
+    re.IGNORECASE,
+)
+_OTHERWISE = re.compile(r"\b(?:or|oder|ou|oppure|rather|actually|eigentlich)\b", re.IGNORECASE)
+_BEFORE_NAME = re.compile(r"\s*\d+(?:\s+[^\W\d_]+){1,2}\s*")
+#: A denial of so many words without a number says something of what else there is.
+_REMARK_WORDS = 4
+_ALONE = re.compile(r"(?<![\w^*/+.-])(?:\d{1,4}|[^\W\d_]+)(?![\w^*/+.])")
+#: What other quantities are called.
+_OTHERS = words("n k f dof x y z t theta phi")
 _NAMED = re.compile(r"\s*([^\W\d_]+)\s*=")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
 _WORD = re.compile(r"d\.\s?o\.\s?f\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?", re.IGNORECASE)
@@ -39,27 +54,40 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
     ``called``: what the number asked for is called; where others stand beside it, only this one counts. Raises
     TextError, with its column; DoubtError where it says several.
     """
-    script = script_of(one_text(answer)).replaced(_COMMA, ".")
+    script = script_of(one_text(answer)).replaced(_BOLD, r"\1").replaced(_COMMA, ".")
+    if not re.search(r"[\\^_]", script.text):
+        script = script.replaced(_BRACKETS, " ")
     reason = REASONS.search(script.text)
     body = script if reason is None else script.cut(0, reason.start())
-    told, first = set[Fraction](), None
+    told, first, unread = set[Fraction](), None, set[int]()
     segments = list(_segments(body))
     named = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in called]
-    for segment in named or segments:
+    foreign = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in _OTHERS - called]
+    if segments and len(foreign) == len(segments):
+        raise DoubtError("it is called as another quantity is.", segments[0].columns[0], _HINT)
+    others = [one for one in segments if one not in named and _only_number(one.text)]
+    for segment in [*named, *others] if named else segments:
         try:
             found = _segment(segment)
         except DoubtError:
             raise
         except TextError as error:
             first = first or segment.moved(error)
+            unread |= _beside(segment.text)
             continue
         if found is not None:
             told.add(found)
     if not told:
         raise first or TextError("there is no number in this answer", 1, _HINT)
-    if len(told) > 1:
+    if len(told) > 1 or (not named and not told >= unread):
         raise DoubtError("it says more than one number.", 1, _HINT)
     return told.pop()
+
+
+def _beside(text: str) -> set[int]:
+    """The numbers that stand alone in a part that is not read; `one` may be an article."""
+    found = (NUMBERS.get(plain(w), int(w) if w.isdecimal() else 0) for w in _ALONE.findall(text))
+    return {n for n in found if n > 1}
 
 
 def _segments(script: Script) -> Iterator[Script]:
@@ -68,6 +96,8 @@ def _segments(script: Script) -> Iterator[Script]:
         before = script.text[: group.start()].rstrip()
         if before and before[-1] not in "+-*/=(^":
             inside = script.cut(*group.span(1))
+            if _OTHERWISE.search(inside.text) and _FIGURE.search(inside.text):
+                raise DoubtError("it says more than one number.", inside.columns[0], _HINT)
             if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
                 yield inside
             script = script.replaced(re.compile(re.escape(group[0])), _blank)
@@ -91,6 +121,9 @@ def _segment(script: Script) -> Fraction | None:
     """The number of a part; None where it holds none. Raises DoubtError where its sums do not agree."""
     place, found, failure = 0, list[Fraction](), None
     text = script.text
+    bound = _BOUND.search(text)
+    if bound is not None:
+        raise DoubtError("it bounds the number, and does not tell it.", script.columns[bound.start()], _HINT)
     for cut in [*(m.span() for m in _SIGNS.finditer(text)), (len(text), len(text))]:
         piece = script.cut(place, cut[0])
         place = cut[1]
@@ -100,6 +133,8 @@ def _segment(script: Script) -> Fraction | None:
             failure = error
             if place >= len(text):
                 raise
+            if _BEFORE_NAME.fullmatch(piece.text):
+                raise DoubtError("it says more than one number.", piece.columns[0], _HINT) from None
             continue
         if value is not None:
             found.append(value)
@@ -124,14 +159,16 @@ def _value(script: Script) -> Fraction | None:
         and all(w in _NONE or w in UNITS or w in LEADING for w in words)
     ):
         return Fraction(0)
-    if any(w in NEGATIONS for w in words):
+    counted = _FIGURE.search(script.text) is not None or any(w in NUMBERS for w in words)
+    if any(w in DOUBTS for w in words) or (
+        any(w in NEGATIONS for w in words) and (counted or len(words) < _REMARK_WORDS)
+    ):
         raise DoubtError("it says what the number is not.", script.columns[0], _HINT)
     if script.text.rstrip().endswith("?"):
         raise DoubtError("a question mark leaves it open.", script.columns[0], _HINT)
     figures = _FIGURE.search(script.text)
     start = len(script.text) if figures is None else figures.start()
-    counted = script.replaced(_WORD, lambda m: _counted(m, m.start() < start))
-    rest = counted.replaced(_ENDING, "")
+    rest = script.replaced(_WORD, lambda m: _counted(m, m.start() < start)).replaced(_ENDING, "")
     if not rest.text.strip():
         return None
     if re.search(r"[^\W\d_]", rest.text) and not _FIGURE.search(rest.text):

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from dofkit.base.errors import TextError
 from dofkit.base.spelling import closest
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import plain, words
+from dofkit.homework.answers.prose import DOUBTS, NO, YES, plain, words
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import Word, one_text, split_words
 from dofkit.homework.judgement import DoubtError, Given
@@ -58,11 +58,13 @@ _WORDS: dict[str, tuple[str, bool]] = {
 #: What misspelt labels are compared with.
 _GUESSED = [w for w in _WORDS if w[:3] in ("hol", "scl", "skl", "rhe", "bil", "uni")]
 _LONGEST = 24
-_NEGATIONS = words("not non no non- not- isn't isnt nicht kein keine never neither nor weder noch pas ni nao ne' né")
+_NEGATIONS = words(
+    "not non no non- not- isn't isnt nicht kein keine never neither nor weder noch pas ni nao ne' nem cannot can't none"
+)
 #: Words over which a negation reaches.
 _FILLING = words(
     "a an the is it be also really either both ist es eine ein auch est un une aussi es una e' son "
-    "constraint zwangsbedingung liaison ligadura vincolo explicitly"
+    "constraint zwangsbedingung liaison ligadura vincolo explicitly called named considered said to as"
 )  # fmt: skip
 #: Words of other meanings that look like labels.
 _OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear", "nonzero", "integrabel"})
@@ -70,6 +72,22 @@ _OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear
 ALIKE = 0.86
 _HYPHEN = re.compile("[-\u2010-\u2015_]")
 _SLASH = re.compile(r"[/|+()\[\]]|(?<=[a-z])\.(?=[a-z])")
+#: `holonomic: yes, scleronomic: no`, and `holonomic not`; a negated group may mean each or not all.
+_TOLD = re.compile(
+    rf"([^\W\d_][\w\u2010-\u2015-]*)(\s*[:=]\s*|\s+[-\u2013\u2014]?\s*)({'|'.join(sorted({*YES, *NO, 'não', 'sí'}))})"
+    r"\b(?=\s*(?:[,;.)\n]|$|(?:and|und|et|y|e)\s|[^\W\d_][\w-]*\s*[:=]))",
+    re.IGNORECASE,
+)
+_GROUP_DENIED = re.compile(r"\b(?:not|nicht|non|no|pas|nao|não)\s*\([^()]*\w[\s,&]+\w[^()]*\)", re.IGNORECASE)
+_JOINED = re.compile(r"([^\W\d_][\w\u2010-\u2015-]*)\s*(?:[/&+]|\b(?:and|und|et|y|e|or|oder|ou)\b)\s*\Z", re.IGNORECASE)
+#: What a negation that stands apart from the labels may speak of, in the same clause or in brackets.
+_REASONED = re.compile(
+    r"integr|time|zeit|temps|tiempo|tempo|veloc|geschwind|vitess|depend|abhang|explici|explizi|side|seitig|(?<!')\bt\b"
+)
+_BEFORE, _NEAR = 3, 6
+#: A `no` before a whole sentence.
+_REPLY = re.compile(r"\A\s*(?:no|nein|non|nao|não)\s*[,.;:!]", re.IGNORECASE)
+_ITALIAN_NOR = re.compile(r"\bné\b", re.IGNORECASE)
 _TIMELESS, _TIMED = " timeindependent ", " timedependent "
 #: What is said in several words.
 _PHRASES = tuple(
@@ -108,8 +126,11 @@ def read_labels(answer: Given) -> dict[str, frozenset[bool]]:
     """
     found: dict[str, frozenset[bool]] = {}
     negated, unread = False, None
-    for word in _split(answer):
+    given = _split(answer)
+    for place, word in enumerate(given):
         text = plain(word.text.strip(".:!()\"'"))
+        if text in DOUBTS or text.endswith("%"):
+            raise DoubtError("a word leaves it open.", word.column, _HINT)
         label = None if text in _OTHERS else _label(text.rstrip("?"))
         if label is not None:
             if text.endswith("?"):
@@ -121,11 +142,21 @@ def read_labels(answer: Given) -> dict[str, frozenset[bool]]:
         if text in _NEGATIONS:
             negated = not negated
         elif label is not None or text not in _FILLING:
+            if negated and label is None:
+                _reasoned(given[max(place - _BEFORE, 0) : place + _NEAR])
             negated = False
+    if found and negated:
+        raise DoubtError("what is negated is open.", given[-1].column, _HINT)
     if unread is not None or not found:
         told = f"'{unread.text[:40]}' is no label" if unread is not None else "there is no label in this answer"
         raise TextError(told, unread.column if unread is not None else 1, _HINT)
     return found
+
+
+def _reasoned(following: list[Word]) -> None:
+    """Raises DoubtError where a negation among these words speaks of nothing that is a reason for a label."""
+    if _REASONED.search(" ".join(plain(w.text) for w in following)) is None:
+        raise DoubtError("what is negated is open.", following[0].column, _HINT)
 
 
 _ORDINARY = frozenset({"nombre", "name", "phenomenon", "denominator"})
@@ -135,11 +166,26 @@ def _split(answer: Given) -> list[Word]:
     if not isinstance(answer, str):
         return split_words(answer)
     script: Script = script_of(one_text(answer))
+    denied = _GROUP_DENIED.search(script.text)
+    if denied is not None:
+        raise DoubtError("what is negated is open.", script.columns[denied.start()], _HINT)
+    script = script.replaced(_REPLY, "").replaced(_TOLD, _answered).replaced(_ITALIAN_NOR, "neither")
     for pattern, by in _PHRASES:
         script = script.replaced(pattern, by)
     script = script.replaced(_SLASH, " ")
     found = [Word(w.text, script.columns[w.column - 1]) for w in split_words(script.text)]
     return [Word(part, w.column) for w in found for part in _parted(w.text)]
+
+
+def _answered(match: re.Match[str]) -> str:
+    """A label that a word after it affirms or denies."""
+    label, told = match[1], plain(match[3])
+    if _label(plain(label)) is None:
+        return match[0]
+    before = _JOINED.search(match.string[: match.start()])
+    if told in NO and before is not None and _label(plain(before[1])) is not None:
+        raise DoubtError("what is negated is open.", None, _HINT)
+    return f"not {label}" if told in NO else label
 
 
 def _parted(text: str) -> list[str]:

@@ -81,7 +81,7 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\bd\s*/\s*(?:dt|\(dt\))\s*(?=[(\[{])", "Ddt"),
         (r"\\frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\}\s*(?:\\left)?\s*(?=[(\[{])", "Ddt"),
         (r"\{,\}", "."),
-        (r"\\(?:text|mathrm|textrm|mbox|textit|textbf)\s*\{\s*([^{}]*)\}", r" \1 "),
+        (r"\\(?:text|mathrm|textrm|mbox|textit|textbf|mathbf|boldsymbol|bm)\s*\{\s*([^{}]*)\}", r" \1 "),
         (r"\\pm(?![A-Za-z])", "±"),
         (r"\\mp(?![A-Za-z])", "∓"),
         (r"\\(?:quad|qquad)(?![A-Za-z])|\\[,;:! ]", " "),

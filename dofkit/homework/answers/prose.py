@@ -49,7 +49,8 @@ LEADING = words(
     "gibt es hier ist sind man wir haben anzahl antwort also le la les systeme il y a on nombre est sont reponse "
     "el los sistema tiene hay numero son respuesta che ci sono ha risposta o os tem sao resposta exactly genau "
     "exactement exactamente esattamente got only nur seulement solo of freedom degrees mechanism body particle "
-    "koerper"
+    "koerper just simply think believe i c'e ce follows besitzt possede possiede possui pendulum pendel doppelpendel "
+    "pendule pendolo pendulo"
 )
 #: After these comes a reason, which is read over.
 REASONS = re.compile(
@@ -59,12 +60,28 @@ REASONS = re.compile(
 )
 #: Words that turn a statement round or leave it open.
 NEGATIONS = words("not no nicht kein keine pas nao não non never isn't")
+#: Words that take back what is said, or leave it open.
+DOUBTS = words(
+    "maybe perhaps possibly probably doubt doubtful doubts wrong false incorrect untrue unsure opposite contrary "
+    "hardly if would could might seems seemingly looks scarcely barely "
+    " unlikely anything lacks rather unless except almost quasi partly partially far "
+    "vielleicht eventuell moglicherweise vermutlich zweifel bezweifle falsch gegenteil kaum unwahr keineswegs "
+    "keinesfalls fast teilweise unsicher wenn falls sofern ware konnte scheint "
+    "peut-etre faux fausse incorrect contraire guere presque doute incorrecte "
+    "quizas quiza acaso incorrecto incorrecta opuesto contrario contraria dudo apenas casi tal-vez "
+    "forse falso falsa sbagliato errato opposto dubito quasi appena errada errado talvez duvido quase"
+)
+#: What is answered to a word such as `holonomic:`.
+YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro")
+NO = words("no false not nein falsch nicht non faux falso falsa nao")
 #: The answers that there is none, in small letters and without accents; a dash alone is no answer.
 NONE = _phrases(
     "none|no|nope|nothing|null|nil|empty|∅|{}|[]|()|there is none|there are none|does not exist|no integral|"
     "not integrable|it does not integrate|does not integrate|doesn't integrate|it is not integrable|"
     "cannot be integrated|can't be integrated|non integrable|non-integrable|nonintegrable|no integrable|no redundant|"
-    "no redundancy|not redundant|nothing is redundant|none of them|none is redundant|none are redundant|"
+    "no redundancy|not redundant|nothing is redundant|"
+    "nothing can be dropped|none can be dropped|no constraint can be dropped|"
+    "no integral exists|there is no such relation|none of them|none is redundant|none are redundant|"
     "no redundant constraints|no constraint|no constraints|no redundant constraint|there is no integral|"
     "no finite relation|none exists|no such relation|not possible|not holonomic|nonholonomic|non-holonomic|"
     "it is non-holonomic|it is nonholonomic|non holonomic|"
@@ -113,5 +130,5 @@ def says_nothing(answer: object) -> bool:
 
 def says_none(text: str) -> bool:
     """Does a text say that there is none?"""
-    told = plain(text)
+    told = plain(REASONS.split(text, maxsplit=1)[0])
     return told in NONE or plain(re.split(r"[,;:(]| - | – | — ", told)[0]) in NONE

@@ -13,7 +13,7 @@ from dofkit.base.errors import TextError
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import spelled
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import FILLING, REASONS, plain, says_none
+from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, REASONS, plain, says_none
 from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import Given
 from dofkit.scene.fields import as_written, exact
@@ -21,11 +21,14 @@ from dofkit.scene.fields import as_written, exact
 #: No answer is read beyond this.
 MOST_CHARACTERS = 2000
 _SEPARATORS = re.compile(r"[,;\s]+(?:and|und|et|&)[,;\s]+|[,;\s]+|\s*&\s*")
-_REMARK = re.compile(r"(?<=\w)\s*\([^()]*[^\W\d_]{3}[^()]*\)")
+_REMARK = re.compile(r"(?<=\w)\s*\((?:\s*=[^()]*|[^()]*[^\W\d_]{3}[^()]*)\)")
+_TRANSPOSED = re.compile(r"(?<=\))\s*\^\s*\{?\s*(?:\\top|\\?(?:mathrm|text)?\s*\{?\s*T)\s*\}{0,2}(?!\w)")
 _OF_TIME = re.compile(r"(?<=\w)\s?\(t\)")
+_LEAD = re.compile(r"\A[^:=\d]*:(?!=)")
 _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=")
 _COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
 _OR = re.compile(r",?\s+(?:or|oder|ou|oppure)\s+", re.IGNORECASE)
+_LOWERED = {0x2080 + n: str(n) for n in range(10)}
 _BRACES = re.compile(r"_\{(\w+)\}")
 
 
@@ -58,7 +61,7 @@ def split_words(answer: object) -> list[Word]:
     """The words of an answer: a list, or a text with commas, semicolons, spaces or "and" between them."""
     if isinstance(answer, Sequence) and not isinstance(answer, str):
         return [Word(one_text(part).strip(), 1) for part in answer]
-    script = script_of(one_text(answer))
+    script = script_of(one_text(answer)).replaced(_TRANSPOSED, "")
     return list(_words(script.replaced(_COMMAND, "").replaced(_BRACES, r"_\1")))
 
 
@@ -106,6 +109,10 @@ def names_of(answer: object, known: Sequence[str], what: str, others: Mapping[st
         answer = answer if reason is None else answer[: reason.start()]
         answer = _OF_TIME.sub("", answer)
         answer = _TITLE.sub(lambda m: " " * len(m[0]), answer) if "q" not in known else answer
+        lead = _LEAD.match(answer)
+        if lead is not None and not any(ChoiceOfNames(known).meant(w) for w in re.findall(r"\w+", lead[0])):
+            denied = (NEGATIONS | DOUBTS) & {plain(w) for w in re.findall(r"[^\W\d_]+", lead[0])}
+            answer = answer if denied else " " * lead.end() + answer[lead.end() :]
         answer = _REMARK.sub(lambda m: " " * len(m[0]), answer)
     words = split_words(answer)
     table = ChoiceOfNames(known)
@@ -126,7 +133,7 @@ class ChoiceOfNames:
 
     def meant(self, text: str) -> str | None:
         """The one name that a text means."""
-        text = spelled(text.strip("`'\".:"))
+        text = spelled(text.strip("`'\".:").translate(_LOWERED))
         loose = self._loose.get(text.lower(), self._loose.get(text.lower().replace("_", "").replace("-", "")))
         return self._exact.get(text, loose)
 
@@ -145,4 +152,6 @@ def chosen(words: Iterable[Word], known: Sequence[str], what: str) -> list[str]:
             hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(known[:12])}"
             raise TextError(f"there is no {what} '{word.text[:40]}'", word.column, hint)
         found[meant] = None
+    if not found:
+        raise TextError(f"no {what} is named", 1, f"the {what}s are {', '.join(known[:12])}; or write: none")
     return list(found)

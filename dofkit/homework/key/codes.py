@@ -30,7 +30,7 @@ _OF_EQUATIONS = {
     "STRONGER": "It implies the constraint, but forbids more.",
     "DIFFERENT": "Another constraint.",
     "ROUNDED": "The constraint with a number that was rounded, where the exact one was asked for.",
-    "EMPTY": "It always holds, and says nothing.",
+    "EMPTY": "Nothing satisfies it together with the other constraints.",
     "UNDECIDED": "Whether it is the same constraint could not be decided.",
     "INTEGRABLE": "The constraint integrates to a finite relation, and it was said not to.",
     "NOT_INTEGRABLE": "The constraint does not integrate to a finite relation, and one was given.",
@@ -39,16 +39,19 @@ _OF_EQUATIONS = {
 }
 _OF_NAMES = {
     "REDUNDANT_MISSED": "Some constraint that follows from the others was left out of the answer.",
+    "INCOMPLETE": "The coordinates named do not fix the configuration.",
+    "DEPENDENT": "The constraints tie the coordinates named to each other.",
     "NOT_REDUNDANT": "Without the constraints named the system would move more freely.",
 }
 _OF_MOTION = {
     "TOTAL_ENERGY": "The energy T + V stands where the Lagrangian T - V was asked for.",
-    "SIGN": "V - T stands where the Lagrangian T - V was asked for.",
+    "SIGN": "The sign is wrong, as that of V - T where the Lagrangian T - V was asked for.",
     "WRONG_LAGRANGIAN": "Another Lagrangian: it differs by more than a total derivative by time.",
     "WRONG_MOMENTUM": "It is not the derivative of the Lagrangian by that velocity.",
     "WRONG_FORCE": "It is not the derivative of the Lagrangian by that coordinate, with the forces without potential.",
     "WRONG_MOTION": "An equation that does not hold for the motion.",
     "NO_ACCELERATION": "An equation that holds but does not say what the acceleration is.",
+    "INEQUALITY": "An inequality stands where an equation of motion was asked for.",
     "OTHER_COORDINATE": "The equation of motion of another coordinate.",
     "FOLLOWS": "It follows from the equations of motion.",
 }

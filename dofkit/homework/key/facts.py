@@ -17,6 +17,9 @@ from dofkit.system import System, TypeFacts
 _STRINGS = ("string", "rope", "cable", "cord")
 _PLANE = {1: 1, 2: 3, 3: 6}
 
+#: Coordinates of a point in space.
+SPACE = 3
+
 
 @dataclass(frozen=True)
 class BarCounts:
@@ -96,14 +99,24 @@ class SurfaceCounts:
 
     @cached_property
     def planes(self) -> int:
-        """Equations of their own that hold one coordinate at a number, z = 0."""
-        found = 0
+        """Equations of their own that hold one Cartesian coordinate at a number, z = 0."""
+        return sum(name[0] in "xyzXYZ" for name in self._held) if len(self.key.coordinates) >= SPACE else 0
+
+    @property
+    def fixed(self) -> int:
+        """Equations of their own that hold any coordinate at a number."""
+        return len(self._held)
+
+    @cached_property
+    def _held(self) -> list[str]:
+        found = []
         for entry, constraint in zip(self.key.report.constraints, self.system.constraints, strict=True):
             kind = constraint.facts
             own = kind.written and kind.surface and not kind.shared and entry.form == "finite"
             for relation in constraint.relations if own else ():
                 moving = [s for s in relation.expr.symbols if s.args[0] == "coordinate"]
-                found += len(moving) == 1 and relation.expr.op in ("sym", "add") and not _powers(relation.expr)
+                if len(moving) == 1 and relation.expr.op in ("sym", "add") and not _powers(relation.expr):
+                    found.append(str(moving[0].args[1]))
         return found
 
 

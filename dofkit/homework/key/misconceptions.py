@@ -19,13 +19,14 @@ Numbers = Iterator[int | Fraction]
 class Misconception(NamedTuple):
     """An error: its stable ``code``, the ``hint`` for who made it, and the numbers f that it ``predicts``.
 
-    ``anyway``: it gives this number whichever freedom is asked for.
+    ``anyway``: it gives this number whichever freedom is asked for; ``alone``: told where no other error gives it.
     """
 
     code: str
     hint: str
     predicts: Callable[[SceneCounts], Numbers]
     anyway: bool = False
+    alone: bool = False
 
 
 def _more(count: Callable[[SceneCounts], int]) -> Callable[[SceneCounts], Numbers]:
@@ -53,6 +54,16 @@ def _plane_forgotten(f: SceneCounts) -> Numbers:
         yield f.dof + f.surfaces.planes
     if f.d == 2 and f.particles:
         yield f.dof + f.particles
+
+
+def _all_equations(f: SceneCounts) -> Numbers:
+    if f.naive < f.dof:
+        yield f.naive
+
+
+def _no_constraint(f: SceneCounts) -> Numbers:
+    if f.dof < f.n:
+        yield f.n
 
 
 def _sum_of_squares(f: SceneCounts) -> Numbers:
@@ -141,6 +152,12 @@ ERRORS: tuple[Misconception, ...] = (
                   _conservation),
     Misconception("POINT_6", "A particle has d degrees of freedom: only a body also turns.",
                   _more(lambda f: f.particles * (f.body_freedom - f.d))),
+    Misconception("ALL_COUNTED", "Not all of these equations are independent: one that follows from the others takes "
+                  "nothing away.", _all_equations, alone=True),
+    Misconception("FIXED_FORGOT", "An equation that holds one coordinate at a number is a constraint, and counts.",
+                  _more(lambda f: f.surfaces.fixed), alone=True),
+    Misconception("NOT_SUBTRACTED", "This leaves every coordinate free: the constraints were not subtracted.",
+                  _no_constraint, True, alone=True),
 )  # fmt: skip
 
 
@@ -154,9 +171,10 @@ def explain(given: Fraction, ask: str, key: Key) -> tuple[tuple[str, ...], str]:
     wanted = len(key.coordinates) - given if ask == "k" else given
     if ask == "velocity_dof" or (ask == "dof" and key.convention == "velocity"):
         wanted += facts.nonholonomic
-    if wanted == right:
+    if wanted == right or (ask == "k" and given < 0):
         return (), ""
-    found = [m for m in ERRORS if (given if m.anyway and ask != "k" else wanted) in set(m.predicts(facts))]
+    every = [m for m in ERRORS if (given if m.anyway and ask != "k" else wanted) in set(m.predicts(facts))]
+    found = [m for m in every if not m.alone] or every
     return tuple(m.code for m in found), found[0].hint if found else ""
 
 

@@ -34,6 +34,11 @@ _LEADING = re.compile(
 )
 
 
+#: That a value is constant, said after it; nothing in words.
+_CONSTANT = re.compile(r"(?<!=)=(?!=)\s*(?:const|konst|cte|cst)\w*\.?\s*\Z", re.IGNORECASE)
+_ZERO = re.compile(r"\A\s*(?:zero|null|zéro|cero)\s*\.?\s*\Z", re.IGNORECASE)
+
+
 @dataclass(frozen=True)
 class PosedMotion:
     """``key``: of the scene, with the coordinates that the answer defines; ``multipliers``: its names for them.
@@ -65,7 +70,7 @@ def _without_lead(script: Script) -> Script:
     """A value without its name; each of several names, as in `L = T - V = ...`."""
     while (match := _LEADING.match(script.text)) is not None and match.end() < len(script.text):
         script = script.cut(match.end())
-    return script
+    return script.replaced(_CONSTANT, "").replaced(_ZERO, "0")
 
 
 def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
