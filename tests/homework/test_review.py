@@ -440,7 +440,7 @@ def test_reading_alone_and_certificates_go_with_it(course: Course) -> None:
     status, out, _ = course.grade("--check-only", "--reviewed", str(table), out="-")
     assert (status, len(out.splitlines()), table.read_bytes()) == (0, 4, before)
     assert course.grade("--certificates", str(course.folder / "why"))[0] == 0
-    assert [path.name for path in (course.folder / "why").iterdir()] == ["p.json"]
+    assert "p.json" in {path.name for path in (course.folder / "why").iterdir()}
 
 
 def test_an_interrupted_run_does_not_go_on_with_other_decisions() -> None:

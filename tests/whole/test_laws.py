@@ -19,6 +19,7 @@ from shared.known_scenes import SCENES, VARIED, dealt, few, report_of, scene_of,
 import dofkit
 from dofkit.base.verdicts import weakest
 from dofkit.report import ConstraintEntry, Report
+from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import Owners
 from dofkit.scene.scene import Scene
@@ -81,7 +82,7 @@ def multiplied(document: Document, factor: str, coordinate: str) -> Document:
 
     def scaled(constraint: Document) -> Document:
         text = constraint.get("text", "")
-        if not text or not EQUATION.fullmatch(text):
+        if not text or constraint.get("type", "equation") != "equation" or not EQUATION.fullmatch(text):
             return constraint
         left, _, right = text.partition("=")
         return {**constraint, "text": f"{factor.format(q=coordinate)} (({left}) - ({right or 0})) = 0"}
@@ -95,7 +96,8 @@ def coordinate_of(path: Path) -> str:
 
 
 def has_equation(path: Path) -> bool:
-    return any(EQUATION.fullmatch(getattr(c, "text", None) or "=x=") for c in scene_of(path).constraints)
+    texts = [c.text for c in scene_of(path).constraints if isinstance(c, Equation)]
+    return any(EQUATION.fullmatch(text) for text in texts)
 
 
 #: One factor a scene.

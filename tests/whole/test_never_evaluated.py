@@ -26,6 +26,8 @@ NAMED = frozenset({"Symbol", "Dummy", "Function", "symbols", "ReferenceFrame", "
 ALLOWED = {
     ("base/surface.py", "import_module"): "the package's own modules, by a fixed table of each room",
     ("scene/constraints/__init__.py", "import_module"): "the modules of the folder, one a constraint type",
+    ("models/mujoco_model.py", "spec.compile"): "MuJoCo's compiler of a model, which runs no text",
+    ("models/formats.py", "import_module"): "the reader of a format, by the table of formats",
     ("methods/table.py", "import_module"): "a method's own module, by the name of its row in the table",
     ("base/workers/child.py", "import_module"): "the module of a job's function, which the parent process names",
 }
