@@ -39,7 +39,7 @@ def problem_of(path: Path) -> Problem:
 
 
 KNOWN = [path for path in SCENES if path.stem not in UNREAD]
-every_scene = pytest.mark.parametrize("path", few("meanings", KNOWN, 4), ids=stem)
+every_scene = pytest.mark.parametrize("path", few("meanings", KNOWN, 8), ids=stem)
 
 
 def names_by_symbol(system: System, problem: Problem) -> dict[Expr, str]:

@@ -72,7 +72,7 @@ def test_errors_add_up() -> None:
     assert together(one, Claim("numeric", "singular values", gap=1e4)).bound == "1.0e+04"
 
 
-@pytest.mark.parametrize("path", few("verdicts", SCENES, 6), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", few("verdicts", SCENES, 12), ids=lambda path: path.stem)
 def test_every_field_of_a_report_says_how_sure_it_is(path: Path, caplog: pytest.LogCaptureFixture) -> None:
     """The verdict of the whole is the weakest; chances are powers of 2; what speaks of the witness has one."""
     with caplog.at_level(logging.ERROR, "dofkit.defects"):

@@ -687,6 +687,7 @@ def test_the_zip_installs_on_every_python_without_a_network(sheet: Path, tmp_pat
         assert written(root, "gradescope")["score"] == 6.0, version
 
 
+@pytest.mark.sweep
 def test_what_a_person_decided_comes_back(sheet: Path, tmp_path: Path) -> None:
     given = json.dumps({"answers": {"pendulum": {"f": "$$((", "rod": "x_A^2 + y_A^2 = 0.01"}, "disc": {"f": 4}}})
     (tmp_path / "in").mkdir()

@@ -282,6 +282,7 @@ def test_a_roster_says_whose_a_submission_is(
     ]  # fmt: skip
 
 
+@pytest.mark.sweep
 def test_results_within_the_folder_are_no_submissions(
     assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -428,6 +429,7 @@ def statuses(given: Sequence[Handed], workers: int) -> Iterator[tuple[str, list[
             yield line.student, [item["status"] for item in items], [item["feedback"] for item in items]
 
 
+@pytest.mark.sweep
 def test_an_answer_that_breaks_its_worker_needs_a_review_and_touches_no_other() -> None:
     fine = {"a": "1", "b": "2"}
     given = hostile(
@@ -460,6 +462,7 @@ def rows(number: int) -> str:
     return "student,p.f,p.label\n" + "\n".join(made) + "\n"
 
 
+@pytest.mark.sweep
 def test_results_are_the_same_with_any_number_of_workers_and_in_any_order(
     assignment: str, tmp_path: Path, capfdbinary: pytest.CaptureFixture[bytes]
 ) -> None:
@@ -510,6 +513,7 @@ def length(path: Path) -> int:
     return path.read_bytes().count(b"\n") if path.exists() else 0
 
 
+@pytest.mark.sweep
 def test_a_run_interrupted_twice_ends_as_one_that_was_not(assignment: str, tmp_path: Path) -> None:
     table, out, whole = tmp_path / "t.csv", tmp_path / "out.jsonl", tmp_path / "whole.jsonl"
     table.write_text(rows(1000))

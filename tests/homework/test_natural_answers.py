@@ -21,6 +21,7 @@ FILES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
 #: Many equations are compared there.
 HEAVY = {
     "attacks": pytest.mark.sweep,
+    "attacks_again": pytest.mark.sweep,
     "equations": pytest.mark.sweep,
     "motion": pytest.mark.sweep,
     "rewritings": pytest.mark.sweep,

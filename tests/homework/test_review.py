@@ -398,7 +398,15 @@ def shown_points(form: str, out: Path, stdout: str) -> str:
 
 
 @pytest.mark.parametrize(
-    "form", ["native", "gradescope", "prairielearn", "coursera", "canvas", "moodle", "lti", "html"]
+    "form",
+    [
+        "native",
+        "moodle",
+        *(
+            pytest.param(form, marks=pytest.mark.sweep)
+            for form in ("gradescope", "prairielearn", "coursera", "canvas", "lti", "html")
+        ),
+    ],
 )
 def test_points_decided_by_hand_are_in_every_format(form: str, course: Course) -> None:
     course.hand_in([("bo", {"f": "1", "rod": UNREAD, "q": "x_A"})])
@@ -421,6 +429,7 @@ def test_points_decided_by_hand_are_in_every_format(form: str, course: Course) -
     assert form == "html" or given[form] in stream[1].replace("\r\n", "\n")
 
 
+@pytest.mark.sweep
 def test_any_number_of_workers_decides_the_same(course: Course) -> None:
     course.grade()
     table = course.fill({UNREAD: "3"})

@@ -358,6 +358,7 @@ def test_numbers_of_texts_are_no_exponents_and_no_fractions() -> None:
 # the command
 
 
+@pytest.mark.sweep
 def test_a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     roster = tmp_path / "roster.csv"
     roster.write_text("Name,Email\nAda Lovelace,ada@x.org\nBob,bob@x.org\n=cmd|' /C calc'!A0,eve@x.org\n")
