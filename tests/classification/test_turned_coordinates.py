@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from shared.known_scenes import ROOT
 
 import dofkit
 
@@ -34,8 +33,16 @@ def test_a_door_on_a_slanted_hinge_has_one_coordinate() -> None:
 
 
 def test_bodies_that_turn_together_have_their_own_angles() -> None:
-    report = dofkit.classify(ROOT / "tests/scenes/textbook/car-differential.yaml")
-    assert report.generalized_coordinates == ["theta_ring", "theta_left"]
+    """The differential of a car: twice the turn of the ring is the sum of the turns of the half shafts."""
+    at = {"ring": 0, "left": -1, "right": 1}
+    hinges = [
+        {"name": f"of_{name}", "type": "revolute", "between": ["ground", name], "at": [x, 0, 0], "axis": [1, 0, 0]}
+        for name, x in at.items()
+    ]
+    text = "2 of_ring = of_left + of_right"
+    pinions = {"type": "coupling", "joints": ["of_ring", "of_left", "of_right"], "text": text}
+    report = dofkit.classify({"dimension": 3, "bodies": [*at], "constraints": [*hinges, pinions]})
+    assert (report.dof, report.generalized_coordinates) == (2, ["theta_ring", "theta_left"])
 
 
 def test_a_body_drawn_turned_has_the_angles_of_its_drawing() -> None:

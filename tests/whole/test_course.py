@@ -7,7 +7,6 @@ from pathlib import Path
 import course
 import pytest
 
-
 STUDENTS = 12
 
 
