@@ -67,8 +67,9 @@ def test_no_claim_of_a_test_scene_fails(path: Path) -> None:
 
 @pytest.mark.sweep
 def test_most_of_what_is_proved_of_the_test_scenes_verifies() -> None:
+    """Counted on every third of them; that none fails is asked of all."""
     counts = Counter[bool]()
-    for path in EXACT:
+    for path in EXACT[::3]:
         verified, uncovered = _shown(path)
         counts[True] += verified
         counts[False] += sum(1 for one in uncovered if not one.startswith("/verdicts/"))
