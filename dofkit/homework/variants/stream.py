@@ -12,8 +12,10 @@ _T = TypeVar("_T")
 class Stream:
     """Choices that depend on ``marks`` alone, such as a seed, a student and a problem, and on how many were made.
 
-    >>> [Stream("7", "ada").below(6) for _ in range(2)], Stream("7", "bob").choice("abc")
-    ([3, 3], 'b')
+    >>> Stream("7", "ada").shuffled(range(9)) == Stream("7", "ada").shuffled(range(9))
+    True
+    >>> Stream("7", "ada").shuffled(range(9)) == Stream("7", "bob").shuffled(range(9))
+    False
     """
 
     def __init__(self, *marks: object) -> None:
