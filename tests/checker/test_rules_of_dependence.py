@@ -272,6 +272,7 @@ def test_a_sum_is_zero_with_its_terms_where_none_is_negative(text: str, change: 
     assert accepted(scene, [never], relations=[step]) is shown
 
 
+@pytest.mark.sweep
 def test_a_certificate_of_an_edited_scene_is_refused():
     good = certificate(APART, [NEVER])
     assert verify(APART, good).verified == 1

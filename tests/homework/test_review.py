@@ -283,6 +283,7 @@ def test_without_a_name_it_was_the_review(course: Course) -> None:
     )  # fmt: skip
 
 
+@pytest.mark.sweep
 def test_decisions_stay_where_the_queue_is_written_again(course: Course) -> None:
     course.grade()
     course.fill({UNREAD: "3"}, remark="-> A, not B")

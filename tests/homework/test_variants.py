@@ -209,6 +209,7 @@ def test_a_key_that_is_not_proved_is_not_varied() -> None:
 # the same everywhere
 
 
+@pytest.mark.sweep
 def test_the_same_sheet_on_every_machine() -> None:
     """Whatever seed Python's own hashes have."""
     code = (

@@ -348,6 +348,7 @@ def test_who_gets_colours(
     assert colours_of(Stream()) == colours
 
 
+@pytest.mark.sweep
 def test_forced_colours_are_in_reports_lines_and_faults(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     (tmp_path / "bad.yaml").write_text("coordinates: [x]\nconstraints: [y = 1]\n", encoding="utf-8")
     monkeypatch.setenv("FORCE_COLOR", "1")

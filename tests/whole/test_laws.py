@@ -272,7 +272,7 @@ FIRST, LAST = dealt("again", VARIED, 2)
     [
         pytest.param(*case.values, place, marks=case.marks)
         for place, paths in ((0, FIRST), (-1, LAST))
-        for case in few("written again", paths, 4)
+        for case in few("written again", paths, 8)
     ],
     ids=lambda value: getattr(value, "stem", ""),
 )
