@@ -15,9 +15,9 @@ from dofkit.interface import cli
 
 
 def item(question: str, score: float | None, most: float = 1.0, **more: object) -> Item:
-    status = "unreadable" if score is None else "right" if score == most else "wrong"
-    given = {"codes": [], "read_as": "", "feedback": "", **more}
-    return Item(problem="p", question=question, score=score, max_score=most, status=status, **given)  # type: ignore[arg-type]
+    told: dict[str, object] = {"problem": "p", "question": question, "score": score, "max_score": most}
+    told["status"] = "unreadable" if score is None else "right" if score == most else "wrong"
+    return Item.model_validate({**told, "codes": [], "read_as": "", "feedback": "", **more})
 
 
 def result(*items: Item) -> Result:

@@ -27,6 +27,7 @@ from dofkit.homework.grading import Grader
 from dofkit.homework.key.key import Key
 from dofkit.homework.notebooks import QuestionError, item_of
 from dofkit.homework.own_sheets import NobodysSheetError, OwnSheet, own, own_sheet, structure_told
+from dofkit.homework.problem import Problem
 from dofkit.homework.review.identity import answer_id
 from dofkit.homework.starting import best_questions
 from dofkit.homework.variants.difficulty import difficulty_of
@@ -109,13 +110,19 @@ def test_every_sheet_is_proved_and_as_hard_as_the_assignment() -> None:
     assert len(marks) == 20
 
 
+def written(problem: Problem) -> dict[str, Any]:
+    """The scene that stands in the problem itself."""
+    assert isinstance(problem.scene, dict)
+    return problem.scene
+
+
 def dict_of(prepared: Prepared, name: str, changed: str) -> Counter[Any]:
     return next(s.difficulty.counted() for s in prepared.structures[name] if s.changed == changed)
 
 
 def test_an_equation_gets_other_numbers_and_its_key_follows() -> None:
     prepared = varied(SHEET[2], students=12)
-    texts = {sheet.variants[0].problem.scene["constraints"][0]["text"] for sheet in sheets(prepared)}  # type: ignore[index]
+    texts = {written(sheet.variants[0].problem)["constraints"][0]["text"] for sheet in sheets(prepared)}
     assert len(texts) > 6
     assert all(text.startswith("x^2 + ") for text in texts), "an exponent is no number to exchange"
 
@@ -193,7 +200,7 @@ def test_questions_follow_the_names() -> None:
         assert variant.problem.questions[0].about == (angle,)
         assert list(variant.problem.names) == [angle]
         assert angle in variant.problem.also["s"]
-        right = f"{variant.problem.scene['energies']['kinetic']}"  # type: ignore[index]
+        right = f"{written(variant.problem)['energies']['kinetic']}"
         given = right.replace("1/2 ", "").replace("dot^2", "dot")
         result = Grader(sheet.prepared).grade(of_value({"answers": {"p": {"q0": given}}}, "s"))
         assert result.items[0].status == "right"

@@ -11,8 +11,6 @@ from typer.testing import CliRunner
 import dofkit
 from dofkit.interface.cli import app
 
-pytest.importorskip("defusedxml")
-
 ROBOT = """<robot name='two arms'>
 <link name='base'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>
 <link name='arm'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>

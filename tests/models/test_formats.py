@@ -12,8 +12,6 @@ from dofkit.models.formats import FORMATS, format_of, is_model
 from dofkit.models.model_document import tolerance_of
 from dofkit.models.scene_text import scene_text
 
-pytest.importorskip("defusedxml")
-
 BEGINNINGS = {
     "<mujoco>": "MJCF",
     "<?xml version='1.0'?>\n<!-- <robot> is in this comment -->\n<mujoco model='a'/>": "MJCF",

@@ -14,8 +14,6 @@ from models.test_urdf import LOOPS, MIMIC, OPEN_LOOP, TREE, robot
 import dofkit
 from dofkit.base.errors import SceneError
 
-pytest.importorskip("defusedxml")
-
 STARTS = {
     "tree": TREE.encode(),
     "mimic": MIMIC.encode(),

@@ -12,9 +12,6 @@ from dofkit.base.errors import SceneError
 from dofkit.models.compiled_by_mujoco import compiled
 from dofkit.models.model_document import ModelFile
 
-pytest.importorskip("mujoco")
-pytest.importorskip("defusedxml")
-
 GEOM = "<geom type='sphere' size='0.1' mass='1'/>"
 
 

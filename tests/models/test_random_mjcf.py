@@ -11,9 +11,6 @@ import dofkit
 from dofkit.models.compiled_by_mujoco import compiled
 from dofkit.models.model_document import ModelFile
 
-pytest.importorskip("mujoco")
-pytest.importorskip("defusedxml")
-
 
 def random_model(seed: int) -> str:
     """A tree of bodies with all joints, some of them parallel, and equalities between what is anywhere in it."""

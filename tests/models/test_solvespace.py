@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import random
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,11 +16,14 @@ import dofkit
 from dofkit.base.errors import SceneError
 from dofkit.models.sketch_relations import KINDS
 
-pytest.importorskip("defusedxml")
-
 
 def load(text: str) -> dofkit.Scene:
     return dofkit.loads(text.encode("latin-1"), "sketch")
+
+
+def equal(*pairs: tuple[int, int]) -> Callable[[Any], list[Any]]:
+    """The relations q_a - q_b of pairs of coordinates."""
+    return lambda q: [q[a] - q[b] for a, b in pairs]
 
 
 def square() -> RandomSketch:
@@ -29,7 +34,7 @@ def square() -> RandomSketch:
         sketch.line(corners[k], corners[(k + 1) % 4])
     for k in range(4):
         (h, a), (i, b) = sketch.points[2 * k + 1], sketch.points[(2 * k + 2) % 8]
-        sketch.add(20, lambda q, a=a, b=b: [q[a] - q[b], q[a + 1] - q[b + 1]], ptA=h, ptB=i)  # type: ignore[misc]
+        sketch.add(20, equal((a, b), (a + 1, b + 1)), ptA=h, ptB=i)
     return sketch
 
 
@@ -46,7 +51,7 @@ def test_a_square_has_as_much_freedom_as_its_corners() -> None:
     assert dofkit.classify(load(sketch.text())).dof == 8
     for k, (base, a, b) in enumerate(sketch.lines):
         way = 1 if k % 2 == 0 else 0
-        sketch.add((81, 80)[way], lambda q, a=a, b=b, w=way: [q[a + w] - q[b + w]], entityA=base)  # type: ignore[misc]
+        sketch.add((81, 80)[way], equal((a + way, b + way)), entityA=base)
     assert dofkit.classify(load(sketch.text())).dof == 4
     sketch.add(121, lambda q: [0j], entityA=sketch.lines[0][0], entityB=sketch.lines[2][0])
     report = dofkit.classify(load(sketch.text()))

@@ -11,8 +11,6 @@ import pytest
 import dofkit
 from dofkit.base.errors import SceneError
 
-pytest.importorskip("defusedxml")
-
 MASS = (
     "<inertial><origin xyz='0 0 0.5'/><mass value='2'/>"
     "<inertia ixx='1' iyy='2' izz='3' ixy='0' ixz='0' iyz='0'/></inertial>"

@@ -20,8 +20,6 @@ from dofkit.base.errors import SceneError
 from dofkit.models.compiled_by_mujoco import compiled
 from dofkit.models.model_document import ModelFile
 
-pytest.importorskip("mujoco")
-pytest.importorskip("defusedxml")
 pytestmark = pytest.mark.sweep
 
 WHEELS = ("mujoco", "dm_control", "gymnasium_robotics")
@@ -62,7 +60,7 @@ def compared(name: str, path: Path, right: int) -> Compared:
 def folder(wheel: str) -> Path:
     found = find_spec(wheel)
     if found is None or found.origin is None:
-        pytest.skip(f"{wheel} is not installed")
+        pytest.skip(f"{wheel} is not installed: pip install 'dofkit[sweep]'")
     return Path(found.origin).parent
 
 

@@ -18,8 +18,10 @@ CHROMIUM = next(
 )
 pytestmark = [
     pytest.mark.sweep,
-    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium"),
-    pytest.mark.skipif(find_spec("playwright") is None, reason="needs playwright"),
+    pytest.mark.skipif(CHROMIUM is None, reason="Chromium is no Python package: apt-get install chromium"),
+    pytest.mark.skipif(
+        find_spec("playwright") is None, reason="playwright drives Chromium: pip install 'dofkit[browser]'"
+    ),
 ]
 
 

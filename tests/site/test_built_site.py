@@ -28,7 +28,9 @@ SHOWN = (
 pytestmark = [
     pytest.mark.sweep,
     pytest.mark.xdist_group("site"),
-    pytest.mark.skipif(find_spec("material") is None, reason="the site is built by mkdocs-material"),
+    pytest.mark.skipif(
+        find_spec("material") is None, reason="mkdocs-material builds the site: pip install 'dofkit[docs]'"
+    ),
 ]
 
 
