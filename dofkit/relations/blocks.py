@@ -9,6 +9,7 @@ import networkx as nx
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, Piece
 from dofkit.relations.reductions import Reductions
@@ -47,7 +48,9 @@ class Block:
 
 
 def coordinates_of(piece: Piece) -> frozenset[str]:
-    """Every coordinate a piece mentions, in coefficients, velocities and differentials too."""
+    """Every coordinate a piece mentions, in coefficients, velocities and differentials too; of a joint all of them."""
+    if isinstance(piece, JointEquation):
+        return piece.joint.mentioned
     named: frozenset[str] = frozenset()
     if isinstance(piece, Pfaffian):
         named = frozenset(piece.coefficients)
@@ -64,9 +67,11 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
     """
     graph: nx.Graph = nx.Graph()
     touched = [coordinates_of(row.piece) for row in rows]
-    for i, mentioned in enumerate(touched):
+    joints: dict[int, int] = {}
+    for i, (row, mentioned) in enumerate(zip(rows, touched, strict=True)):
         graph.add_node(i)
-        graph.add_edges_from((i, name) for name in mentioned)
+        joint = joints.setdefault(id(row.piece.joint), i) if isinstance(row.piece, JointEquation) else i
+        graph.add_edges_from([(i, joint)] if joint != i else [(i, name) for name in mentioned])
     place = {c: k for k, c in enumerate(coordinates)}
     blocks = []
     for component in nx.connected_components(graph):
@@ -77,7 +82,7 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
         ordered += [r for r in members if not isinstance(r.piece, Finite)]
         names = sorted((name for name in component if isinstance(name, str)), key=place.__getitem__)
         blocks.append((numbers[0], Block(tuple(names), tuple(ordered), conditions)))
-    used = frozenset().union(*touched) if touched else frozenset()
+    used = frozenset[str]().union(*{id(mentioned): mentioned for mentioned in touched}.values())
     return [b for _, b in sorted(blocks, key=lambda pair: pair[0])], [c for c in coordinates if c not in used]
 
 

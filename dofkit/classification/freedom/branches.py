@@ -17,10 +17,11 @@ from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import with_reductions_checked
-from dofkit.relations.answer import Answer
+from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split
 from dofkit.relations.integration_constants import names_in, with_rows
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
@@ -58,6 +59,18 @@ class Outcome:
         if self.impossible or any(a.consistent is False for a in self.answers):
             return False
         return None if self.unsettled or any(a.consistent is None for a in self.answers) else True
+
+    @property
+    def parts(self) -> list[AnsweredPart]:
+        """The blocks with their answers; of those whose parts were answered apart, the parts."""
+        pairs = (AnsweredPart(block, a) for block, a in zip(self.blocks, self.answers, strict=True))
+        return [part for p in pairs for part in ((p,) if p.answer.parts is None else p.answer.parts)]
+
+    @property
+    def bridged(self) -> Counter[int]:
+        """Of joints that close no loop the equations that are in no part, by constraint: independent of all others."""
+        within = {id(row) for part in self.parts for row in part.block.rows}
+        return Counter(row.constraint for block in self.blocks for row in block.rows if id(row) not in within)
 
     @property
     def written_rows(self) -> list[Row]:
@@ -195,7 +208,7 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     found = {}
     for i, r in enumerate(reduced):
         check()
-        if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
+        if not r.normals or r.inequalities or any(_says_nothing(normal) for normal in r.normals):
             continue
         key = frozenset(Counter(_up_to_a_number(normal) for normal in r.normals).items())
         if key in seen:
@@ -203,6 +216,12 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
         else:
             seen[key] = i
     return found
+
+
+def _says_nothing(normal: Normal) -> bool:
+    """Is there nothing to compare: it holds always or never, or is not written out, as no other joint is the same?"""
+    branches = normal.branches
+    return branches in ((), ((),)) or isinstance(branches[0][0], JointEquation)
 
 
 def _up_to_a_number(normal: Normal) -> Hashable:
@@ -246,7 +265,7 @@ class AnsweredBlocks:
     def _answer(self, block: Block, setting: Setting) -> Answer:
         same = tuple(id(p) for p in (*(row.piece for row in block.rows), *block.conditions))
         if same not in self._answers:
-            twins = _shape(block) in self._shapes
+            twins = _shape(block) in self._shapes and not any(isinstance(r.piece, JointEquation) for r in block.rows)
             self._answers[same] = block, self._twin(block, setting) if twins else in_time(block, setting)
         return self._answers[same][1]
 

@@ -16,6 +16,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.normal_form import Finite, Normal, Piece
 from dofkit.relations.normal.signs import arguments_of, by_signs
@@ -27,12 +28,17 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
     """The branches that hold at the reference configuration; all of them where none is given, or none holds there."""
     if setting.reference is None:
         return normal
-    if any(isinstance(p, Finite) and arguments_of(p.expr) for branch in normal.branches for p in branch):
+    if any(isinstance(p, Finite) and _is_kinked(p) for branch in normal.branches for p in branch):
         normal = _at_kinks(normal, {**setting.reference, ex.TIME: ex.ZERO}, setting.positive)
     if len(normal.branches) < 2:
         return normal
     kept = tuple(b for b in normal.branches if _holds(b, setting))
     return replace(normal, branches=kept) if kept else normal
+
+
+def _is_kinked(piece: Finite) -> bool:
+    """Are there absolute values? There are none in the equations of a joint."""
+    return not isinstance(piece, JointEquation) and bool(arguments_of(piece.expr))
 
 
 def passes(normal: Normal, setting: Setting) -> bool:

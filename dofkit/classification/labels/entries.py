@@ -24,6 +24,7 @@ from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.integration_constants import fixed_constants
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Piece, Still
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -34,6 +35,8 @@ LISTED = 2000
 #: What is said of dependence that is open, or not on what was written before.
 OPEN = "Whether it follows from the others was not decided."
 UNCOUNTED = "How many of its equations are independent of those before was not decided."
+#: Of the equations of a joint that is not driven.
+STILL = Traits((True, "proved"))
 REDUNDANT = "It can be left out: the others, those written after it among them, leave the same motions."
 
 
@@ -132,7 +135,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     """An entry with its redundant equations by name, where their number is what was found before."""
     if following is None or made.independent is None or len(following) != made.equations - made.independent:
         return made
-    written = [relation for relation in r.constraint.relations if relation.sense == "="]
+    written = [relation for relation in r.constraint.relations if relation.sense == "="] if following else []
     names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
@@ -144,8 +147,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
 
 def _unmeasured(outcome: Outcome) -> set[int]:
     """The constraints of blocks whose velocities are not known: not all of their equations were looked at."""
-    open_blocks = (b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.velocity_dof is None)
-    return {r.constraint for block in open_blocks for r in block.rows}
+    return {r.constraint for block, a in outcome.parts if a.velocity_dof is None for r in block.rows}
 
 
 def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], setting: Setting) -> Answer | None:
@@ -180,6 +182,8 @@ class _Remembered:
         self._known: dict[Hashable, Traits] = {}
 
     def traits(self, piece: Piece) -> Traits:
+        if isinstance(piece, JointEquation):
+            return STILL
         if not isinstance(piece, Pfaffian):
             return traits(piece, self._setting.positive, self._setting.engines)
         key = nameless(piece)
