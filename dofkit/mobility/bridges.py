@@ -12,6 +12,7 @@ known to stay the same when all its members are moved together.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Hashable, Mapping
 from typing import NamedTuple
 
@@ -44,8 +45,9 @@ def bridges(system: System) -> Bridges:
     graph: nx.Graph[Node] = nx.Graph()
     for i, constraint in enumerate(system.constraints):
         graph.add_edges_from((i, node) for node in joints.get(i) or _held(constraint, connected.get(i), owners))
-    graph.remove_edges_from(list(nx.bridges(graph)))
-    apart = frozenset(i for i in joints if not graph.adj[i])
+    found = Counter(node for edge in nx.bridges(graph) for node in edge)
+    apart = frozenset(i for i in joints if found[i] == len(graph.adj[i]))
+    graph.remove_nodes_from(apart)
     grounded = nx.node_connected_component(graph, GROUND) if GROUND in graph else set()
     return Bridges(apart, frozenset(range(len(system.constraints))) - apart - grounded)
 
