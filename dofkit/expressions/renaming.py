@@ -15,7 +15,7 @@ from dofkit.expressions.tree import Expr, children
 MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
 
 
-class Shape(NamedTuple):
+class ExpressionShape(NamedTuple):
     """An expression without its names.
 
     ``skeleton``: the expression with its names replaced by numbers, in the order in which they first occur; ``names``:
@@ -54,9 +54,9 @@ def is_name(symbol: Expr) -> bool:
     return kind in MOVING or (kind == "parameter" and name[0] == "_")
 
 
-def shape_of(e: Expr) -> Shape:
+def shape_of(e: Expr) -> ExpressionShape:
     """An expression without its names; worked out once."""
-    found: Shape | None = e.shape
+    found: ExpressionShape | None = e.shape
     if found is None:
         places: dict[str, str] = {}
         for symbol in _symbols_in_order(e):
@@ -65,7 +65,7 @@ def shape_of(e: Expr) -> Shape:
                 stem = name[:2] if name[0] == "_" else ""
                 places.setdefault(name, f"{stem}{len(places)}")
         kept = sorted({s.args[1] for s in e.symbols if not is_name(s)})
-        found = e.shape = Shape(renamed(e, places), tuple(places), tuple(kept))
+        found = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept))
     return found
 
 
