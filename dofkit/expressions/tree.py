@@ -44,14 +44,13 @@ FUNCTIONS: dict[str, int] = {
 class Expr:
     """One node of an expression; see the module's table for ``op`` and ``args``."""
 
-    __slots__ = ("_functions", "_hash", "_symbols", "args", "op")
-
-    op: str
-    args: tuple[Any, ...]
+    __slots__ = ("_functions", "_hash", "_symbols", "args", "op", "shape")
 
     def __init__(self, op: str, args: tuple[Any, ...]) -> None:
         self.op = op
         self.args = args
+        #: What `renaming` remembers of it.
+        self.shape: Any = None
         self._hash = hash((op, args))
         self._symbols: frozenset[Expr] | None = None
         self._functions: frozenset[str] | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from itertools import chain, count
 
 from dofkit.base.deadline import check
@@ -10,9 +10,11 @@ from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.differentials import accelerations_of
 from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.renaming import Renaming, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.accelerations import without_accelerations
 from dofkit.relations.normal.normal_form import Inequality, Normal, normalise, without_instants
+from dofkit.relations.piece_shapes import renamed_normal
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting, TurnedBody
@@ -88,7 +90,7 @@ def _links(system: System) -> dict[int, list[tuple[str, str]]]:
 def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
     """Every relation of every constraint as what it says; all that cannot be one are faults together."""
     found, faults = [], []
-    fresh = _fresh(system)
+    read = _Normals(system, positive)
     for i, constraint in enumerate(system.constraints):
         normals, inequalities = [], []
         for relation in constraint.relations:
@@ -97,7 +99,7 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
                 inequalities.append(Inequality(relation.expr, relation.sense == ">"))
                 continue
             try:
-                normals.append(_normal(relation.expr, positive, constraint.facts.written, fresh))
+                normals.append(read.normal(relation.expr, constraint.facts.written))
             except TextError as error:
                 faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
         found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
@@ -106,10 +108,28 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
     return found
 
 
-def _normal(e: Expr, positive: frozenset[Expr], written: bool, fresh: Iterator[str]) -> Normal:
-    if accelerations_of(e):
-        return without_accelerations(e, positive, fresh)
-    return without_instants(normalise(e, positive, written))
+class _Normals:
+    """What relations say; of those that are the same up to names, in the same order, one is looked at."""
+
+    def __init__(self, system: System, positive: frozenset[Expr]) -> None:
+        self._positive = positive
+        self._fresh = _fresh(system)
+        self._known: dict[Hashable, tuple[tuple[str, ...], Normal]] = {}
+
+    def normal(self, e: Expr, written: bool) -> Normal:
+        """What ``e = 0`` says. Raises TextError where it can be no relation."""
+        if not written:
+            return without_instants(normalise(e, self._positive, written))
+        if accelerations_of(e):
+            return without_accelerations(e, self._positive, self._fresh)
+        shape = shape_of(e)
+        key = (shape.skeleton, shape.order)
+        if key in self._known:
+            names, known = self._known[key]
+            return renamed_normal(known, Renaming(dict(zip(names, shape.names, strict=True))))
+        found = without_instants(normalise(e, self._positive, written))
+        self._known[key] = shape.names, found
+        return found
 
 
 def _fresh(system: System) -> Iterator[str]:
