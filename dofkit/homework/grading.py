@@ -34,7 +34,7 @@ from dofkit.homework.judgement import (
     unreadable,
 )
 from dofkit.homework.key.key import Key
-from dofkit.homework.own_sheets import NobodysSheetError, own_steps
+from dofkit.homework.own_sheets import NobodysSheetError, SheetDrawer
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.repairs import nearest_reading, parts_read
@@ -69,6 +69,7 @@ class Grader:
         self.condemned = {} if condemned is None else condemned
         self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
         self._known: dict[Spot, tuple[Judgement, Fraction | None]] = {}
+        self._drawer = SheetDrawer(prepared)
 
     def grade(self, submission: Submission) -> Result:
         """Every question with what the student answered, in the assignment's order; then what was not asked."""
@@ -84,7 +85,7 @@ class Grader:
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
         try:
-            sheet = yield from own_steps(self.prepared, submission.student)
+            sheet = yield from self._drawer.own_steps(submission.student)
         except NobodysSheetError as error:
             return self.refused(submission.student, str(error))
         if sheet is not self.prepared:

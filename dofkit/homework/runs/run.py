@@ -27,7 +27,7 @@ from dofkit.homework.runs.journal import Journal, fingerprint, ledger
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.homework.runs.review_files import ReviewPaths, RunReview
 from dofkit.homework.runs.rostered import named_by, rostered
-from dofkit.homework.sheet_owners import sheet_owners, with_names
+from dofkit.homework.sheet_owners import people_of, with_names
 
 NATIVE = "native"
 #: What results in our own format are called in a folder.
@@ -104,7 +104,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     roster = None if options.roster is None else load_roster(options.roster)
     review = RunReview.read(prepared, options.reviewed, options.review)
     prepared = review.applied(with_names(prepared, roster))
-    people = roster or sheet_owners(prepared)
+    people = people_of(prepared, roster)
     orders = Orders.of(prepared, options.check_only)
     others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
