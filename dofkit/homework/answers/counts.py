@@ -9,7 +9,7 @@ from fractions import Fraction
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import DOUBTS, LEADING, NEGATIONS, NUMBERS, REASONS, UNITS, plain, words
+from dofkit.homework.answers.prose import DOUBTS, LEADING, NEGATIONS, NUMBERS, REASONS, UNITS, plain, takes_back, words
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError
@@ -26,18 +26,20 @@ _SEGMENT = re.compile(
 _BRACKETS, _BOLD = re.compile(r"[{}\[\]]"), re.compile(r"\A\s*\*\*([^*]+)\*\*(?=\s*\Z)")
 #: What bounds a number without telling it; another number beside it in parentheses; a number before a further name.
 _BOUND = re.compile(
-    r"[<>≤≥≠±]|!=|\\(?:leq?|geq?|neq?|lt|gt)(?![a-z])"
+    r"[<>≤≥≠±∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)(?![a-z])"
     r"|\b(?:plus|moins|m[aá]s|menos|pi[uù]|meno|mais)\s+(?:de|di|do|que|d['’])(?![^\W\d_])",
     re.IGNORECASE,
 )
 _OTHERWISE = re.compile(r"\b(?:or|oder|ou|oppure|rather|actually|eigentlich)\b", re.IGNORECASE)
 _BEFORE_NAME = re.compile(r"\s*\d+(?:\s+[^\W\d_]+){1,2}\s*")
+#: In a part of more words `one` may be an article.
+_ARTICLE_WORDS = 2
 #: A denial of so many words without a number says something of what else there is.
 _REMARK_WORDS = 4
 _ALONE = re.compile(r"(?<![\w^*/+.-])(?:\d{1,4}|[^\W\d_]+)(?![\w^*/+.])")
 #: What other quantities are called.
 _OTHERS = words("n k f dof x y z t theta phi")
-_NAMED = re.compile(r"\s*([^\W\d_]+)\s*=")
+_NAMED = re.compile(r"\s*([^\W\d_]+)\s*(?:=|[<>≤≥≠∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)\b)")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
 _WORD = re.compile(r"d\.\s?o\.\s?f\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?", re.IGNORECASE)
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
@@ -85,9 +87,10 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
 
 
 def _beside(text: str) -> set[int]:
-    """The numbers that stand alone in a part that is not read; `one` may be an article."""
-    found = (NUMBERS.get(plain(w), int(w) if w.isdecimal() else 0) for w in _ALONE.findall(text))
-    return {n for n in found if n > 1}
+    """The numbers that stand alone in a part that is not read; `one` is an article in what is longer than two words."""
+    alone = [plain(w) for w in _ALONE.findall(text)]
+    least = 1 if len(alone) > _ARTICLE_WORDS else 0
+    return {int(w) if w.isdecimal() else NUMBERS[w] for w in alone if w.isdecimal() or NUMBERS.get(w, 0) > least}
 
 
 def _segments(script: Script) -> Iterator[Script]:
@@ -96,6 +99,8 @@ def _segments(script: Script) -> Iterator[Script]:
         before = script.text[: group.start()].rstrip()
         if before and before[-1] not in "+-*/=(^":
             inside = script.cut(*group.span(1))
+            if takes_back(inside.text):
+                raise DoubtError("a remark leaves it open.", inside.columns[0], _HINT)
             if _OTHERWISE.search(inside.text) and _FIGURE.search(inside.text):
                 raise DoubtError("it says more than one number.", inside.columns[0], _HINT)
             if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):

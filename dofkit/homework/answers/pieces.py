@@ -10,7 +10,7 @@ from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.characters import GREEK
 from dofkit.homework.answers.notation import ARROW, script_of, with_differentials
-from dofkit.homework.answers.prose import plain, words
+from dofkit.homework.answers.prose import plain, takes_back, words
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError
@@ -147,6 +147,7 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     """An equation without what stands around it; None where there is only a remark."""
     script = script.stripped()
     while (group := _GROUP.search(script.text)) is not None and _is_remark(group[1] or group[2] or "", names, 3):
+        _check(group[0], script.columns[group.start()])
         script = script.replaced(re.compile(re.escape(group[0])), " ").stripped()
     script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|\s*\.\s*\Z|!\s*\Z"), "").stripped()
     if _RELATION.search(script.text):
@@ -157,6 +158,7 @@ def _cleaned(script: Script, names: Names) -> Script | None:
             script = script.cut(match.end()).stripped()
     text = script.text
     if not text or (_ABOUT_CONSTANT.fullmatch(text) and not _of_coordinates(text, names)) or _is_remark(text, names):
+        _check(text, script.columns[0])
         return None
     if len(_CHAINED.findall(text)) > 1 and _BESIDE.search(text):
         raise DoubtError("a letter may be a factor or the word for `and`.", script.columns[0], "write `;`")
@@ -164,6 +166,12 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     if script.text != text and len(_CHAINED.findall(text)) > 1:
         raise DoubtError("a comma may be a decimal sign or stand between equations.", script.columns[0], None)
     return script
+
+
+def _check(remark: str, column: int) -> None:
+    """Raises DoubtError for a remark that takes back what it stands beside."""
+    if takes_back(remark):
+        raise DoubtError("a remark leaves it open.", column, None)
 
 
 def _known(word: str, names: Names) -> bool:

@@ -64,12 +64,23 @@ NEGATIONS = words("not no nicht kein keine pas nao não non never isn't")
 DOUBTS = words(
     "maybe perhaps possibly probably doubt doubtful doubts wrong false incorrect untrue unsure opposite contrary "
     "hardly if would could might seems seemingly looks scarcely barely "
-    " unlikely anything lacks rather unless except almost quasi partly partially far "
+    " unlikely anything lacks sometimes undecided rather unless except almost quasi partly partially far "
     "vielleicht eventuell moglicherweise vermutlich zweifel bezweifle falsch gegenteil kaum unwahr keineswegs "
+    "bzw jein manchmal mitunter unentschieden "
     "keinesfalls fast teilweise unsicher wenn falls sofern ware konnte scheint "
-    "peut-etre faux fausse incorrect contraire guere presque doute incorrecte "
-    "quizas quiza acaso incorrecto incorrecta opuesto contrario contraria dudo apenas casi tal-vez "
-    "forse falso falsa sbagliato errato opposto dubito quasi appena errada errado talvez duvido quase"
+    "peut-etre parfois faux fausse incorrect contraire guere presque doute incorrecte "
+    "veces quizas quiza acaso incorrecto incorrecta opuesto contrario contraria dudo apenas casi tal-vez "
+    "volte vezes forse falso falsa sbagliato errato opposto dubito quasi appena errada errado talvez duvido quase"
+)
+#: Words of a remark that take back what it follows, where there are few; and what does in any.
+_TAKING_BACK = words(
+    "maybe perhaps possibly probably doubtful wrong false incorrect unsure guess guessed jein vielleicht eventuell "
+    "vermutlich falsch unsicher geraten peut-etre faux fausse incorrecte quizas quiza incorrecto incorrecta forse "
+    "falso falsa sbagliato errato errada errado talvez"
+)
+_DOUBTFUL_WORDS = 3
+_UNSURE = re.compile(
+    r"\b(?:not|nicht|pas|no|non|nao)\s+(?:quite\s+|ganz\s+)?(?:sure?|certain|sicher|segur[oa]|sicur[oa]|cert[oa])\b"
 )
 #: What is answered to a word such as `holonomic:`.
 YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro")
@@ -97,6 +108,9 @@ NONE = _phrases(
     "nessuno|nessuna|niente|non esiste|non e integrabile|non integrabile|non ce ne sono|vuoto|anolonomo|"
     "nao|nenhum|nenhuma|nao ha|nao existe|nao e integravel|nao integravel|vazio"
 )
+#: What stands between the parts of an answer.
+_PARTS = r"[,;:(\n]| - | – | — "
+_ANDS = r"\s(?:and|und|et|y|e|but|aber|mais|pero|ma|mas)\s"
 #: Alone they are no answer at all.
 NOTHING_SAID = frozenset(
     ("", "-", "--", "---", "–", "—", "−", "/", "?", "??", "???", "...", "…", "n/a", "na", "x?", ".")
@@ -123,6 +137,17 @@ def plain(text: str) -> str:
     return " ".join(bare.rstrip(".!").split())
 
 
+def takes_back(remark: str) -> bool:
+    """Does a short remark leave open what stands before it: `?`, `not sure`, `maybe 2`?
+
+    >>> takes_back("not sure"), takes_back("it would be 2 without the rod")
+    (True, False)
+    """
+    told = re.findall(r"[^\W\d_]+(?:['’-][^\W\d_]+)*", plain(remark))
+    doubted = len(told) <= _DOUBTFUL_WORDS and not _TAKING_BACK.isdisjoint(told)
+    return "?" in remark or doubted or _UNSURE.search(plain(remark)) is not None
+
+
 def says_nothing(answer: object) -> bool:
     """Is there no answer: nothing, a dash, a question mark?"""
     return isinstance(answer, str) and answer.strip().lower() in NOTHING_SAID
@@ -131,4 +156,15 @@ def says_nothing(answer: object) -> bool:
 def says_none(text: str) -> bool:
     """Does a text say that there is none?"""
     told = plain(REASONS.split(text, maxsplit=1)[0])
-    return told in NONE or plain(re.split(r"[,;:(]| - | – | — ", told)[0]) in NONE
+    return told in NONE or plain(re.split(_PARTS, told, maxsplit=1)[0]) in NONE
+
+
+def beside_none(text: str) -> list[str]:
+    """The parts of a text that says in one of them that there is none; nothing where none says so, reasons left out.
+
+    >>> beside_none("y = C x, not integrable"), beside_none("y = C x"), beside_none("none")
+    (['y = C x'], [], [])
+    """
+    parts = [part.strip(" ()") for part in re.split(rf"{_PARTS}|{_ANDS}", REASONS.split(text, maxsplit=1)[0])]
+    denied = [part for part in parts if plain(part) in NONE and re.search(r"[^\W\d_]", part)]
+    return [part for part in parts if part and part not in denied] if denied else []

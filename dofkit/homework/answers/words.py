@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -13,11 +13,13 @@ from dofkit.base.errors import TextError
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import spelled
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, REASONS, plain, says_none
+from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, REASONS, YES, beside_none, plain, says_none
 from dofkit.homework.answers.script import Script
-from dofkit.homework.judgement import Given
+from dofkit.homework.judgement import DoubtError, Given
 from dofkit.scene.fields import as_written, exact
 
+#: Fewer words than so many beside names say nothing of them.
+_FEW_WORDS = 3
 #: No answer is read beyond this.
 MOST_CHARACTERS = 2000
 _SEPARATORS = re.compile(r"[,;\s]+(?:and|und|et|&)[,;\s]+|[,;\s]+|\s*&\s*")
@@ -81,11 +83,26 @@ def _words(script: Script) -> Iterator[Word]:
         yield Word(body[place:].rstrip("."), script.columns[start + place])
 
 
-def is_none(answer: object) -> bool:
-    """Is the answer that there is none?"""
+def is_none(answer: object, says: Callable[[str], bool] | None = None) -> bool:
+    """Is the answer that there is none? ``says``: does a part of it name one all the same?
+
+    Raises DoubtError where it says both.
+    """
     if isinstance(answer, Sequence) and not isinstance(answer, str):
-        return not answer or (len(answer) == 1 and is_none(answer[0]))
-    return isinstance(answer, str) and says_none(answer)
+        return not answer or (len(answer) == 1 and is_none(answer[0], says))
+    if not isinstance(answer, str) or len(answer) > MOST_CHARACTERS:
+        return False
+    if says is not None and any(says(part) or plain(part) in YES for part in beside_none(answer)):
+        raise DoubtError("it says that there is none, and names one.", 1, None)
+    return says_none(answer)
+
+
+def lists_only(part: str, known: Sequence[str]) -> bool:
+    """Does a part of an answer consist of known names, with words around them that say nothing?"""
+    table = ChoiceOfNames(known)
+    found = [word.text for word in split_words(part)]
+    others = [w for w in found if not table.meant(w)]
+    return len(others) < min(len(found), _FEW_WORDS) and all(plain(w) in FILLING for w in others)
 
 
 def alternatives(answer: Given) -> list[Given]:

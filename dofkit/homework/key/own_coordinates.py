@@ -11,7 +11,7 @@ from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.expressions.text import Comparison, parse_expression, to_text, valid_name
 from dofkit.homework.answers.relations import AnswerNames, readings_of
-from dofkit.homework.answers.words import is_none, names_of
+from dofkit.homework.answers.words import is_none, lists_only, names_of
 from dofkit.homework.judgement import DoubtError, Given
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import restrictions
@@ -35,7 +35,7 @@ def chosen_coordinates(answer: Given, key: Key) -> ChosenCoordinates:
 
     Raises TextError for others.
     """
-    if is_none(answer):
+    if is_none(answer, lambda part: lists_only(part, [*key.coordinates, *key.also])):
         return ChosenCoordinates([], key)
     try:
         return ChosenCoordinates(names_of(answer, key.coordinates, "coordinate", key.others), key)
