@@ -32,6 +32,8 @@ _BOUND = re.compile(
 )
 _OTHERWISE = re.compile(r"\b(?:or|oder|ou|oppure|rather|actually|eigentlich)\b", re.IGNORECASE)
 _BEFORE_NAME = re.compile(r"\s*\d+(?:\s+[^\W\d_]+){1,2}\s*")
+#: So many longer words say what the parts of a sum are.
+_FEWEST_EXPLAINED, _SHORT = 2, 3
 #: In a part of more words `one` may be an article.
 _ARTICLE_WORDS = 2
 #: A denial of so many words without a number says something of what else there is.
@@ -41,7 +43,9 @@ _ALONE = re.compile(r"(?<![\w^*/+.-])(?:\d{1,4}|[^\W\d_]+)(?![\w^*/+.])")
 _OTHERS = words("n k f dof x y z t theta phi")
 _NAMED = re.compile(r"\s*([^\W\d_]+)\s*(?:=|[<>≤≥≠∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)\b)")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
-_WORD = re.compile(r"d\.\s?o\.\s?f\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?", re.IGNORECASE)
+_WORD = re.compile(
+    r"(?:d\.\s?o\.\s?f|[dg]\.\s?d\.\s?l)\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?", re.IGNORECASE
+)
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
 _FIGURE = re.compile(r"[\d½⅓⅔¼¾]")
@@ -82,8 +86,25 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
     if not told:
         raise first or TextError("there is no number in this answer", 1, _HINT)
     if len(told) > 1 or (not named and not told >= unread):
-        raise DoubtError("it says more than one number.", 1, _HINT)
+        whole = _sum_of_parts(body.text)
+        if whole is None:
+            raise DoubtError("it says more than one number.", 1, _HINT)
+        return whole
     return told.pop()
+
+
+def _sum_of_parts(text: str) -> Fraction | None:
+    """The first or last of several numbers among words where it is the sum of the others: `3: 2 shifts and 1 turn`."""
+    words = [plain(m[0]) for m in _WORD.finditer(text)]
+    if _SIGNS.search(text) or not (DOUBTS | NEGATIONS).isdisjoint(words) or _OTHERWISE.search(text):
+        return None
+    found = [NUMBERS.get(plain(w), int(w) if w.isdecimal() else -1) for w in _ALONE.findall(text)]
+    numbers = [n for n in found if n >= 0]
+    explained = sum(len(w) > _SHORT for w in words if w not in NUMBERS) >= _FEWEST_EXPLAINED
+    if len(numbers) <= _FEWEST_EXPLAINED or not explained:
+        return None
+    wholes = {n for n in (numbers[0], numbers[-1]) if 2 * n == sum(numbers)}
+    return Fraction(wholes.pop()) if len(wholes) == 1 else None
 
 
 def _beside(text: str) -> set[int]:

@@ -34,9 +34,10 @@ _DECIMAL = re.compile(r"(?<=\d),(?=\d)")
 _WORDS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
 _GROUP = re.compile(r"[(\[]([^()\[\]=<>+*/^\d]+)[)\]]\s*\Z|[(\[]([^()\[\]=<>+*/^\d]+)[)\]](?=\s*[;,\n])")
 _INTRODUCED = re.compile(
-    r"\A\s*(?:[^\W\d_]+['’]?\s+){0,5}"
-    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have)"
-    r"(?:\s+that)?\s*:?\s+(?=\S)", re.IGNORECASE,
+    r"\A\s*(?:[^\W\d_]+(?:['’]\s*|\s+)){0,6}"
+    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have|follows|folgt|vaut"
+    r"|s['’]\s?écrit|se\s+escribe|si\s+scrive|escreve-se|donne|da|resulta|risulta|becomes|wird)"
+    r"(?:\s+(?:that|zu|als|comme|como|come))?\s*:?\s+(?=\S)", re.IGNORECASE,
 )  # fmt: skip
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
 _REMARKED = words(
@@ -50,6 +51,8 @@ _ABOUT_CONSTANT = re.compile(
 )  # fmt: skip
 #: A letter that is the Spanish or the Italian word for "and", between what may be two equations.
 _BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
+#: A sign of equality for numbers that are rounded.
+_ROUNDED = re.compile(r"(?:[≈≃≅]|\\(?:approx|simeq|cong)(?![A-Za-z]))(?=.*\d[.,]\d)")
 _CHAINED = re.compile(r"(?<![<>=!])=(?!=)")
 
 
@@ -162,7 +165,7 @@ def _cleaned(script: Script, names: Names) -> Script | None:
         return None
     if len(_CHAINED.findall(text)) > 1 and _BESIDE.search(text):
         raise DoubtError("a letter may be a factor or the word for `and`.", script.columns[0], "write `;`")
-    script = script.replaced(_DECIMAL, ".")
+    script = script.replaced(_ROUNDED, "=").replaced(_DECIMAL, ".")
     if script.text != text and len(_CHAINED.findall(text)) > 1:
         raise DoubtError("a comma may be a decimal sign or stand between equations.", script.columns[0], None)
     return script

@@ -14,7 +14,8 @@ def words(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-def _phrases(text: str) -> frozenset[str]:
+def phrases(text: str) -> frozenset[str]:
+    """The same of texts with bars between them."""
     return frozenset(text.split("|"))
 
 
@@ -41,7 +42,8 @@ UNITS = words(
     "coordinata independent unabhangig unabhangige independants independantes independante independiente "
     "independientes indipendenti indipendente independentes generalized generalised generalisierte "
     "verallgemeinerte velocity velocities geschwindigkeiten vitesses velocidades finite holonomic holonome total "
-    "insgesamt en tout"
+    "insgesamt en tout einziger einzige einzigen in im dans nel configuration konfigurationsraum space espace espacio "
+    "spazio espaco"
 )
 #: What leads to a number.
 LEADING = words(
@@ -85,32 +87,6 @@ _UNSURE = re.compile(
 #: What is answered to a word such as `holonomic:`.
 YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro")
 NO = words("no false not nein falsch nicht non faux falso falsa nao")
-#: The answers that there is none, in small letters and without accents; a dash alone is no answer.
-NONE = _phrases(
-    "none|no|nope|nothing|null|nil|empty|∅|{}|[]|()|there is none|there are none|does not exist|no integral|"
-    "not integrable|it does not integrate|does not integrate|doesn't integrate|it is not integrable|"
-    "cannot be integrated|can't be integrated|non integrable|non-integrable|nonintegrable|no integrable|no redundant|"
-    "no redundancy|not redundant|nothing is redundant|"
-    "nothing can be dropped|none can be dropped|no constraint can be dropped|"
-    "no integral exists|there is no such relation|none of them|none is redundant|none are redundant|"
-    "no redundant constraints|no constraint|no constraints|no redundant constraint|there is no integral|"
-    "no finite relation|none exists|no such relation|not possible|not holonomic|nonholonomic|non-holonomic|"
-    "it is non-holonomic|it is nonholonomic|non holonomic|"
-    "nein|keine|keiner|keines|keins|nichts|nicht integrierbar|ist nicht integrierbar|gibt es nicht|gibt keine|"
-    "es gibt keine|es gibt keines|es gibt keins|kein integral|leer|leere menge|keine redundanten|keine redundant|"
-    "keine redundante|keine redundanz|keine ist redundant|nichtholonom|nicht holonom|anholonom|existiert nicht|"
-    "lasst sich nicht integrieren|nicht moglich|integriert nicht|"
-    "non|aucun|aucune|rien|il n'y en a pas|il n'y en a aucune|pas integrable|n'est pas integrable|"
-    "ce n'est pas integrable|n'existe pas|pas d'integrale|aucune integrale|vide|aucune redondance|"
-    "aucune n'est redondante|elle n'est pas integrable|pas de redondance|non holonome|"
-    "ninguno|ninguna|nada|no hay|no existe|no es integrable|vacio|no hay ninguna|no hay ninguno|"
-    "ninguna es redundante|no se integra|no se puede integrar|no holonoma|"
-    "nessuno|nessuna|niente|non esiste|non e integrabile|non integrabile|non ce ne sono|vuoto|anolonomo|"
-    "nao|nenhum|nenhuma|nao ha|nao existe|nao e integravel|nao integravel|vazio"
-)
-#: What stands between the parts of an answer.
-_PARTS = r"[,;:(\n]| - | – | — "
-_ANDS = r"\s(?:and|und|et|y|e|but|aber|mais|pero|ma|mas)\s"
 #: Alone they are no answer at all.
 NOTHING_SAID = frozenset(
     ("", "-", "--", "---", "–", "—", "−", "/", "?", "??", "???", "...", "…", "n/a", "na", "x?", ".")
@@ -151,20 +127,3 @@ def takes_back(remark: str) -> bool:
 def says_nothing(answer: object) -> bool:
     """Is there no answer: nothing, a dash, a question mark?"""
     return isinstance(answer, str) and answer.strip().lower() in NOTHING_SAID
-
-
-def says_none(text: str) -> bool:
-    """Does a text say that there is none?"""
-    told = plain(REASONS.split(text, maxsplit=1)[0])
-    return told in NONE or plain(re.split(_PARTS, told, maxsplit=1)[0]) in NONE
-
-
-def beside_none(text: str) -> list[str]:
-    """The parts of a text that says in one of them that there is none; nothing where none says so, reasons left out.
-
-    >>> beside_none("y = C x, not integrable"), beside_none("y = C x"), beside_none("none")
-    (['y = C x'], [], [])
-    """
-    parts = [part.strip(" ()") for part in re.split(rf"{_PARTS}|{_ANDS}", REASONS.split(text, maxsplit=1)[0])]
-    denied = [part for part in parts if plain(part) in NONE and re.search(r"[^\W\d_]", part)]
-    return [part for part in parts if part and part not in denied] if denied else []

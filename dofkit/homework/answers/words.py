@@ -12,8 +12,9 @@ from pydantic_core import PydanticCustomError
 from dofkit.base.errors import TextError
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import spelled
+from dofkit.homework.answers.denials import affirms, beside_none, says_none
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, REASONS, YES, beside_none, plain, says_none
+from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, REASONS, plain
 from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import DoubtError, Given
 from dofkit.scene.fields import as_written, exact
@@ -92,7 +93,7 @@ def is_none(answer: object, says: Callable[[str], bool] | None = None) -> bool:
         return not answer or (len(answer) == 1 and is_none(answer[0], says))
     if not isinstance(answer, str) or len(answer) > MOST_CHARACTERS:
         return False
-    if says is not None and any(says(part) or plain(part) in YES for part in beside_none(answer)):
+    if says is not None and any(says(part) or affirms(part) for part in beside_none(answer)):
         raise DoubtError("it says that there is none, and names one.", 1, None)
     return says_none(answer)
 

@@ -126,7 +126,7 @@ class EquationComparison:
         """Equations of accelerations: a constraint that was differentiated twice is partly right."""
         held = held_accelerations(way, self.key, self.names)
         if held:
-            told = "This is the constraint, differentiated twice: it leaves two constants open, so it says less."
+            told = "This is the constraint, differentiated until it holds accelerations: it leaves more open."
             return partly(HALF, way.shown, told, Sameness.DIFFERENTIATED.value)
         if held is None:
             return needs_review(way.shown, "it holds accelerations.")

@@ -128,7 +128,7 @@ class AnsweredMotion:
         found = []
         unknown = [*self.columns, *self.own]
         for e in self.equations:
-            e = self.known.on_constraints(self.known.in_kept(_in_time(e)))
+            e = self.known.on_constraints(self.known.in_kept(in_time(e)))
             row = linear(e, unknown)
             if row is None:
                 return None
@@ -263,7 +263,7 @@ def _consistent(rows: list[list[int]], p: int) -> list[bool]:
     return told
 
 
-def _in_time(e: Expr) -> Expr:
+def in_time(e: Expr) -> Expr:
     """Differentials read as velocities."""
     rates = {s: ex.velocity(str(s.args[1])) for s in e.symbols if s.args[0] == "differential"}
     return substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})

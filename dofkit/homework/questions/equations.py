@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import Fault
 from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
+from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import is_none
 from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
 from dofkit.homework.key.compared_equations import EquationComparison
@@ -83,7 +84,7 @@ class IntegralQuestion(QuestionBase):
         return " or ".join(dict.fromkeys(way.shown for way in self._ways(answer, key)))
 
     def _ways(self, answer: Given, key: Key) -> list[AnswerReading]:
-        return readings_of(answer, AnswerNames(key.names, signs_apart=True))
+        return readings_of(answer, AnswerNames(key.names, signs_apart=True), _undifferentiated)
 
     def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]
@@ -104,6 +105,15 @@ class IntegralQuestion(QuestionBase):
             shown = ways[0].shown
             return wrong(shown, "Its differential is not the constraint.", "NOT_INTEGRABLE")
         return agreed([integral_judgement(way, key, self.constraint) for way in ways])
+
+
+#: `d(x y) = 0` says that x y is constant.
+_STILL = re.compile(r"\A\s*diff\((?P<whole>.*), t\)\s*=\s*0\s*\Z")
+
+
+def _undifferentiated(script: Script) -> Script:
+    found = _STILL.match(script.text)
+    return script if found is None else script.cut(*found.span("whole"))
 
 
 #: What a differential is written with: an equation that holds one is a reason, no integral.
