@@ -24,6 +24,7 @@ HEAVY = {
     "attacks": pytest.mark.sweep,
     "attacks_again": pytest.mark.sweep,
     "equations": pytest.mark.sweep,
+    "fifth_class": pytest.mark.sweep,
     "fourth_class": pytest.mark.sweep,
     "motion": pytest.mark.sweep,
     "rewritings": pytest.mark.sweep,

@@ -48,6 +48,12 @@ _WORD = re.compile(
 )
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
+#: What has or is a number, with words before it: `das Doppelpendel hat`.
+_STATED = re.compile(
+    r"\A[^\d=<>]*\b(?:has|have|had|hat|haben|ha|a|à|possède|possede|possiede|tiene|tem|is|are|ist|sind|est|sont|es|son|è|é|são"
+    r"|gives|leaves|ergibt|bleiben|bleibt|reste|restent|donne)\s+(?=\S)",
+    re.IGNORECASE,
+)
 _FIGURE = re.compile(r"[\d½⅓⅔¼¾]")
 _BETWEEN = re.compile(r"\s*\d+\s*[-–]\s*\d+\s*")
 _ENDING = re.compile(r"[\s.!]+$")
@@ -192,6 +198,9 @@ def _value(script: Script) -> Fraction | None:
         raise DoubtError("it says what the number is not.", script.columns[0], _HINT)
     if script.text.rstrip().endswith("?"):
         raise DoubtError("a question mark leaves it open.", script.columns[0], _HINT)
+    stated = _STATED.match(script.text)
+    if stated is not None and not any(NUMBERS.get(w, 0) > 1 for w in map(plain, _WORD.findall(stated[0]))):
+        script = script.cut(stated.end())
     figures = _FIGURE.search(script.text)
     start = len(script.text) if figures is None else figures.start()
     rest = script.replaced(_WORD, lambda m: _counted(m, m.start() < start)).replaced(_ENDING, "")

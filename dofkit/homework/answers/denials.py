@@ -54,7 +54,7 @@ _AROUND = words(
     "besitzt hat tiene ha posee ce c n d l il elle y a ne s si se puede puo pode hay ci vi ha tem of finite finie "
     "sobre constraint liaison relacion relazione relacao di de del della diese dieser die das der to for fur fuer pour "
     "para per esta questa questo bindung exact exakt moglich possible es una uno e lo la m t su sua ihr sein so "
-    "unfortunately leider hence also daher donc luego quindi"
+    "ser sein etre essere been unfortunately leider hence also daher donc luego quindi"
 )
 _EVERY = words("all every each alle jede jeder toutes tous chaque todas todos tutti tutte")
 _NEEDED = re.compile(

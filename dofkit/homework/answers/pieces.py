@@ -39,6 +39,14 @@ _INTRODUCED = re.compile(
     r"|s['’]\s?écrit|se\s+escribe|si\s+scrive|escreve-se|donne|da|resulta|risulta|becomes|wird)"
     r"(?:\s+(?:that|zu|als|comme|como|come))?\s*:?\s+(?=\S)", re.IGNORECASE,
 )  # fmt: skip
+#: What a family of curves is called, before its equation.
+_CURVES = re.compile(
+    r"\A\s*(?:(?:the|die|der|das|les|la|le|las|los|le|gli|i|as|os|family|familie|schar|famille|familia|of|von|de|di|alle)\s+)*"
+    r"(?:straight\s+)?(?:lines?|geraden?|droites?|rectas?|rett[ae]|retas?|circles?|kreise?|cercles?|c[ií]rculos?|cerchi|spheres?"
+    r"|kugeln?|sph[èe]res?|parabol[ae]s?|parabeln?|hyperbol[ae]s?|hyperbeln?|hip[ée]rbolas?|spirals?|spiralen?|ellipsen?|curves?"
+    r"|kurven?|courbes?|curvas?|curve)(?:schar)?\s+(?=\S)",
+    re.IGNORECASE,
+)
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
 _REMARKED = words(
     "constant constante const konstante konst costante cte arbitrary beliebig arbitraire real reell reel reale any "
@@ -155,6 +163,7 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|\s*\.\s*\Z|!\s*\Z"), "").stripped()
     if _RELATION.search(script.text):
         script = script.replaced(_NUMBER_AFTER, "").stripped()
+    script = script.replaced(_CURVES, "") if _RELATION.search(script.text) else script
     for lead in (_TITLED, _INTRODUCED):
         match = lead.match(script.text)
         if match is not None and _is_lead(match[0], names):

@@ -98,7 +98,8 @@ FILLING = words(
     "winkel angle angles position positions coordinate coordinates le la les un une est c'est aussi et sont el "
     "los las uno una son tambien y lo il gli i e anche sono os um uma tambem constraint constraints with to by "
     "von vom mit bindung bindungen koordinate koordinaten coordonnees coordenadas redundant redundante "
-    "redundantes generalized generalised verallgemeinerte one choice possible set wir wahlen choose can dropped"
+    "redundantes generalized generalised verallgemeinerte one choice possible set wir wahlen choose can dropped "
+    "alone sowie beide beiden both les deux ambos entrambi allebei"
 )
 
 

@@ -14,7 +14,7 @@ from dofkit.base.spelling import nearest
 from dofkit.expressions.text import spelled
 from dofkit.homework.answers.denials import affirms, beside_none, says_none
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, REASONS, plain
+from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, NUMBERS, REASONS, plain
 from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import DoubtError, Given
 from dofkit.scene.fields import as_written, exact
@@ -31,6 +31,7 @@ _LEAD = re.compile(r"\A[^:=\d]*:(?!=)")
 _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=")
 _COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
 _OR = re.compile(r",?\s+(?:or|oder|ou|oppure)\s+", re.IGNORECASE)
+_EITHER = re.compile(r"\A\s*(?:either|entweder|soit)\s+", re.IGNORECASE)
 _LOWERED = {0x2080 + n: str(n) for n in range(10)}
 _BRACES = re.compile(r"_\{(\w+)\}")
 
@@ -110,7 +111,7 @@ def alternatives(answer: Given) -> list[Given]:
     """The answers of `x or y`; the answer itself where it is one."""
     if not isinstance(answer, str):
         return [answer]
-    parts = _OR.split(answer.removeprefix("either "))
+    parts = _OR.split(_EITHER.sub("", answer))
     return [*parts] if all(part.strip() for part in parts) else [answer]
 
 
@@ -136,7 +137,14 @@ def names_of(answer: object, known: Sequence[str], what: str, others: Mapping[st
     table = ChoiceOfNames(known)
     if any(table.meant(word.text) for word in words):
         words = [w for w in words if table.meant(w.text) or plain(w.text.strip(".:'\"")) not in FILLING]
+        words = _without_count(words, table)
     return chosen(words, known, what)
+
+
+def _without_count(words: Sequence[Word], table: ChoiceOfNames) -> list[Word]:
+    """Words without the number of the names among them: `the two angles`."""
+    count = len({table.meant(w.text) for w in words} - {None})
+    return [w for w in words if table.meant(w.text) or NUMBERS.get(plain(w.text)) != count]
 
 
 class ChoiceOfNames:

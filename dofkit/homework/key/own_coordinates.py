@@ -20,7 +20,7 @@ from dofkit.scene.lowering import lower
 
 _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=(?=\s*\\?\w+\s*\$?(?:[,;.]|\Z))")
 _WITH = r"(?:with|where|mit|wobei|avec|où|con|donde|dove|such that|sodass|so that)\b"
-_BEGINS = re.compile(rf"[,;:]\s*{_WITH}|[,;:(]|\b{_WITH}")
+_BEGINS = (re.compile(rf"[,;:(]?\s*\b{_WITH}"), re.compile(r"[,;:(]"))
 
 
 class ChosenCoordinates(NamedTuple):
@@ -59,10 +59,10 @@ def _defined(answer: str, key: Key) -> ChosenCoordinates | None:
     answer = _TITLE.sub(lambda m: " " * len(m[0]), answer)
     if "=" not in answer:
         return _offered_names(answer, key)
-    cut = _BEGINS.search(answer)
+    cut = _BEGINS[0].search(answer) or _BEGINS[1].search(answer)
     if cut is None or "=" in answer[: cut.start()]:
         return None
-    rest = answer[cut.end() :].rstrip().removesuffix(")") if cut[0] == "(" else answer[cut.end() :]
+    rest = answer[cut.end() :].rstrip().removesuffix(")") if cut[0][0] == "(" else answer[cut.end() :]
     way = readings_of(rest, AnswerNames(key.names))[0]
     if way.moving or not way.own or any(bare for bare in way.bare):
         return None
