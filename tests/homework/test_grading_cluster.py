@@ -19,6 +19,7 @@ from dofkit.homework.runs.crew import cluster_crew, local_crew
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.interface import cli
 
+pytestmark = pytest.mark.sweep
 distributed: Any = pytest.importorskip("distributed", reason="a cluster needs the extra `cluster`")
 
 SCENE = {"coordinates": ["x", "y"], "constraints": [{"name": "circle", "type": "equation", "text": "x^2 + y^2 = 1"}]}
