@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from dofkit.expressions.tree import Expr, children
+from dofkit.expressions.tree import Expr, children, nodes
 
 #: The kinds of symbols that are called by a coordinate.
 MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
@@ -131,3 +131,55 @@ class Renaming:
             other = self.names.get(name)
             found = self._symbols[symbol] = symbol if other is None else Expr("sym", (kind, other))
         return found
+
+
+class _Step(NamedTuple):
+    """One node: its ``op``, what stands before its children, and where these are found; of one with a shape, that."""
+
+    op: str
+    before: tuple[Any, ...]
+    parts: tuple[int, ...]
+    shape: ExpressionShape | None
+
+
+class Template:
+    """An expression, to be written in other names many times over.
+
+    >>> from dofkit.expressions.tree import coordinate
+    >>> product = Template(coordinate("x") * coordinate("y"))
+    >>> product.names, product.of(("u", "v")) == coordinate("u") * coordinate("v")
+    (('x', 'y'), True)
+    """
+
+    def __init__(self, e: Expr) -> None:
+        self.names = shape_of(e).names
+        self._number = {name: k for k, name in enumerate(self.names)}
+        symbols = [s for s in _symbols_in_order(e) if is_name(s)]
+        self._symbols = [(s.args[0], self._number[s.args[1]]) for s in symbols]
+        self._others = e.symbols - frozenset(symbols)
+        own = frozenset(symbols)
+        self._kept = [node for node in nodes(e) if own.isdisjoint(node.symbols)]
+        places = {node: k for k, node in enumerate((*symbols, *self._kept))}
+        self._steps: list[_Step] = []
+        for node in nodes(e):
+            if node not in places:
+                places[node] = len(places)
+                parts = tuple([places[part] for part in children(node)])
+                before = node.args[:2] if node.op == "call" else node.args[:1] if node.op == "fn" else ()
+                self._steps.append(_Step(node.op, before, parts, node.shape))
+        self._root = places[e]
+
+    def of(self, names: Sequence[str]) -> Expr:
+        """The expression in other names, all different, in the order of its own; its shape is known."""
+        symbols = [Expr("sym", (kind, names[k])) for kind, k in self._symbols]
+        found = [*symbols, *self._kept]
+        for op, before, parts, shape in self._steps:
+            below = tuple([found[k] for k in parts])
+            made = Expr(op, (*before, below) if op == "call" else before + below)
+            if shape is not None:
+                own = tuple([names[self._number[n]] for n in shape.names])
+                made.shape = ExpressionShape(shape.skeleton, own, shape.kept)
+            found.append(made)
+        if self._steps:
+            found[-1].remember(self._others.union(symbols))
+        return found[self._root]

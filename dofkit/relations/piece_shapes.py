@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from dofkit.expressions.renaming import Renaming, order_of, shape_of
+from dofkit.expressions.renaming import Template, order_of, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
@@ -71,22 +71,41 @@ def shape_together(pieces: Iterable[Piece]) -> Hashable:
     return tuple(parts), order_of(tuple(places), tuple(kept))
 
 
-def renamed_normal(normal: Normal, renaming: Renaming) -> Normal:
-    """What a relation says, in other names."""
-    branches = tuple(tuple(_renamed(piece, renaming) for piece in branch) for branch in normal.branches)
-    return replace(normal, branches=branches)
+class NormalTemplate:
+    """What a relation with some names says, to be told of others of its shape."""
+
+    def __init__(self, normal: Normal, names: Sequence[str]) -> None:
+        self._normal = normal
+        self._branches = [[_PieceTemplate(piece, names) for piece in branch] for branch in normal.branches]
+
+    def of(self, names: Sequence[str]) -> Normal:
+        """The same in other names."""
+        branches = tuple([tuple([piece.of(names) for piece in branch]) for branch in self._branches])
+        return replace(self._normal, branches=branches)
 
 
-def _renamed(piece: Piece, renaming: Renaming) -> Piece:
-    shape, made = piece_shape(piece), _rewritten(piece, renaming)
-    vars(made)[_SHAPE] = shape._replace(names=tuple([renaming.names.get(n, n) for n in shape.names]))
-    return made
+class _PieceTemplate:
+    """A piece, its expressions as templates with the numbers of their names, and its shape."""
 
+    def __init__(self, piece: Piece, names: Sequence[str]) -> None:
+        number = {name: k for k, name in enumerate(names)}
+        self._piece, self._shape = piece, piece_shape(piece)
+        self._own = [number[n] for n in self._shape.names]
+        parts = list(_coefficients(piece)) if isinstance(piece, Pfaffian) else [(None, piece.expr)]
+        self._parts = []
+        for name, e in parts:
+            template = Template(e)
+            self._parts.append((number.get(name or "", -1), template, [number[n] for n in template.names]))
 
-def _rewritten(piece: Piece, renaming: Renaming) -> Piece:
-    if isinstance(piece, Pfaffian):
-        named = {renaming.names.get(name, name): renaming.of(e) for name, e in piece.coefficients.items()}
-        return Pfaffian(named, renaming.of(piece.dt))
-    if isinstance(piece, Finite):
-        return Finite(renaming.of(piece.expr))
-    return replace(piece, expr=renaming.of(piece.expr))
+    def of(self, names: Sequence[str]) -> Piece:
+        """The piece in other names."""
+        found = [(k, template.of([names[i] for i in own])) for k, template, own in self._parts]
+        made: Piece
+        if isinstance(self._piece, Pfaffian):
+            made = Pfaffian({names[k]: e for k, e in found[:-1]}, found[-1][1])
+        elif isinstance(self._piece, Finite):
+            made = Finite(found[0][1])
+        else:
+            made = replace(self._piece, expr=found[0][1])
+        vars(made)[_SHAPE] = PieceShape(self._shape.key, tuple([names[k] for k in self._own]), self._shape.kept)
+        return made

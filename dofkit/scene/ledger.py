@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from fractions import Fraction
 
 from dofkit.base.errors import Fault, TextError
 from dofkit.expressions.differentials import in_velocities, linear_in_accelerations
-from dofkit.expressions.renaming import Renaming, shape_of
+from dofkit.expressions.renaming import Template
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.text.patterns import pattern_of
 from dofkit.expressions.tree import Expr, num, parameter
@@ -72,7 +72,8 @@ class ParsedTexts:
     def __init__(self, names: Names) -> None:
         self.names = names
         self._parsed: dict[str, Expr | TextError] = {}
-        self._patterns: dict[Hashable, tuple[tuple[str, ...], Equations]] = {}
+        self._patterns: dict[Hashable, tuple[tuple[str, ...], list[tuple[Template, Sense]]]] = {}
+        self._made: dict[Hashable, tuple[list[int], Template]] = {}
 
     def equations(self, text: str) -> Equations:
         """The relations of a text that may mention anything, as expressions and their senses against 0.
@@ -83,15 +84,25 @@ class ParsedTexts:
         pattern = pattern_of(text, self.names.lookup)
         known = None if pattern is None else self._patterns.get(pattern.key)
         if pattern is not None and known is not None:
-            renaming = Renaming(dict(zip(known[0], pattern.names, strict=True)))
-            return [(renaming.of(e), sense) for e, sense in known[1]]
+            names = dict(zip(known[0], pattern.names, strict=True))
+            return [(template.of([names[n] for n in template.names]), sense) for template, sense in known[1]]
         found = _equations(text, self.names)
         for e, sense in found:
             linear_in_accelerations(e, sense)
             in_velocities(e)
-            shape_of(e)
         if pattern is not None:
-            self._patterns[pattern.key] = pattern.names, found
+            self._patterns[pattern.key] = pattern.names, [(Template(e), sense) for e, sense in found]
+        return found
+
+    def in_names(self, kind: Hashable, names: Sequence[str], make: Callable[[], Expr]) -> Expr:
+        """What ``make`` makes of some names, all different: the same for one ``kind`` but for these; made once."""
+        known = self._made.get(kind)
+        if known is not None:
+            places, template = known
+            return template.of([names[k] for k in places])
+        found = make()
+        template = Template(found)
+        self._made[kind] = [names.index(name) for name in template.names], template
         return found
 
     def expression(self, text: str) -> Expr | TextError:
@@ -172,6 +183,10 @@ class Texts(Ledger):
                 message = f"{_CALLED[kind].format(name)} cannot stand here"
                 self.fault(message, *where, hint=_instead(kind, allow))
                 return
+
+    def in_names(self, kind: Hashable, symbols: Sequence[Expr], make: Callable[[], Expr]) -> Expr:
+        """What ``make`` makes of some symbols; see `ParsedTexts`."""
+        return self._reader.in_names(kind, [str(s.args[1]) for s in symbols], make)
 
     def equations(self, text: str, *where: str | int) -> Equations:
         """The relations of a text that may mention anything, and what says nothing is a fault; see `ParsedTexts`."""

@@ -21,7 +21,7 @@ from dofkit.relations.answer import Answer
 from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split
 from dofkit.relations.integration_constants import names_in, with_rows
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Still
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -197,7 +197,8 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
         check()
         if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
             continue
-        key = frozenset(Counter(_up_to_a_number(normal) for normal in r.normals).items())
+        keys = [_up_to_a_number(normal) for normal in r.normals]
+        key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
         if key in seen:
             found[i] = seen[key]
         else:
@@ -215,7 +216,9 @@ def _scaled(piece: object) -> Hashable:
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
         return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
-    return repr(piece)
+    if isinstance(piece, Pfaffian):
+        return type(piece), tuple(piece.coefficients.items()), piece.dt
+    return piece
 
 
 def _answered(

@@ -8,17 +8,19 @@ from itertools import chain, count
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.expressions import tree as ex
-from dofkit.expressions.differentials import accelerations_of
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.renaming import Renaming, shape_of
+from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.accelerations import without_accelerations
-from dofkit.relations.normal.normal_form import Inequality, Normal, normalise, without_instants
-from dofkit.relations.piece_shapes import renamed_normal
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, normalise, without_instants
+from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting, TurnedBody
 from dofkit.system import System
+
+#: The kinds of symbols that no finite relation holds.
+RATES = frozenset({"velocity", "acceleration", "differential", "dt"})
 
 
 def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
@@ -114,21 +116,23 @@ class _Normals:
     def __init__(self, system: System, positive: frozenset[Expr]) -> None:
         self._positive = positive
         self._fresh = _fresh(system)
-        self._known: dict[Hashable, tuple[tuple[str, ...], Normal]] = {}
+        self._known: dict[Hashable, NormalTemplate] = {}
 
     def normal(self, e: Expr, written: bool) -> Normal:
         """What ``e = 0`` says. Raises TextError where it can be no relation."""
+        kinds = {s.args[0] for s in e.symbols}
+        if not written and kinds.isdisjoint(RATES):
+            return Normal(((Finite(e),),))
+        if "acceleration" in kinds:
+            return without_accelerations(e, self._positive, self._fresh)
         if not written:
             return without_instants(normalise(e, self._positive, written))
-        if accelerations_of(e):
-            return without_accelerations(e, self._positive, self._fresh)
         shape = shape_of(e)
         key = (shape.skeleton, shape.order)
         if key in self._known:
-            names, known = self._known[key]
-            return renamed_normal(known, Renaming(dict(zip(names, shape.names, strict=True))))
+            return self._known[key].of(shape.names)
         found = without_instants(normalise(e, self._positive, written))
-        self._known[key] = shape.names, found
+        self._known[key] = NormalTemplate(found, shape.names)
         return found
 
 

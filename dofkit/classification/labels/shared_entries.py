@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Sequence
 
 from dofkit.classification.labels.entry import LabelledRow
+from dofkit.expressions.tree import TIME
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
-from dofkit.relations.normal.normal_form import Nonlinear, Pfaffian, Piece
+from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian, Piece
 from dofkit.relations.piece_shapes import shape_together
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -57,7 +58,7 @@ class SharedEntries:
         )
 
     def _plain_kinds(self, pieces: Iterable[Piece]) -> Hashable:
-        return tuple([(type(p).__name__, self.traits(p)) for p in pieces])
+        return tuple([(type(p).__name__, None if _is_still(p) else self.traits(p)) for p in pieces])
 
     def known(self, kind: Hashable, r: Reduced) -> ConstraintEntry | None:
         """What was told of another constraint of that kind, told of this one."""
@@ -73,6 +74,11 @@ class SharedEntries:
         plain = made.form in ("finite", "inequality") or (made.form == "pfaffian" and made.holonomic is False)
         if kind is not None and decided and nameless and plain:
             self._entries[kind] = made
+
+
+def _is_still(piece: Piece) -> bool:
+    """Is it a finite relation without time? All that it carries by itself is known then."""
+    return isinstance(piece, Finite) and TIME not in piece.expr.symbols
 
 
 def _sureness(a: Answer) -> Hashable:
