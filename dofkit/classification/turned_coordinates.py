@@ -12,9 +12,9 @@ from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
-import networkx as nx
 from flint import arb, arb_mat, nmod_mat
 
+from dofkit.base.libraries import nx
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from dofkit.base.groups import sharing
+from dofkit.base.components import components
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
@@ -64,14 +64,14 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
     touched = [coordinates_of(row.piece) for row in rows]
     place = {c: k for k, c in enumerate(coordinates)}
     blocks = []
-    for numbers in sharing(touched):
+    for numbers in components(touched):
         conditions = tuple(dict.fromkeys(p for i in numbers if isinstance(p := rows[i].piece, DomainCondition)))
         members = [rows[i] for i in numbers if not isinstance(rows[i].piece, DomainCondition)]
         ordered = [r for r in members if isinstance(r.piece, Finite)]
         ordered += [r for r in members if not isinstance(r.piece, Finite)]
-        names = sorted(frozenset[str]().union(*(touched[i] for i in numbers)), key=place.__getitem__)
+        names = sorted(frozenset().union(*(touched[i] for i in numbers)), key=place.__getitem__)
         blocks.append(Block(tuple(names), tuple(ordered), conditions))
-    used = frozenset[str]().union(*touched)
+    used = frozenset().union(*touched) if touched else frozenset()
     return blocks, [c for c in coordinates if c not in used]
 
 

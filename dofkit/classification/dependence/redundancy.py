@@ -7,10 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-import networkx as nx
-
+from dofkit.base.components import components
 from dofkit.base.deadline import unless_late
-from dofkit.base.groups import sharing
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
 from dofkit.classification.dependence.by_leaving_out import by_leaving_out, owners_of
 from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, joined_parts, without_hidden
@@ -65,14 +63,15 @@ def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcom
 
 def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:
     """The constraints in use, those together that share coordinates."""
-    used, mentioned = list[int](), list[frozenset[str]]()
+    used: list[int] = []
+    names: list[frozenset[str]] = []
     for i, r in enumerate(reduced):
         every = [p for n in r.normals for b in n.branches for p in b]
         pieces = every if is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
         if pieces and i not in outcome.copies:
             used.append(i)
-            mentioned.append(frozenset[str]().union(*map(coordinates_of, pieces)))
-    return [[used[k] for k in group] for group in sharing(mentioned)]
+            names.append(frozenset().union(*map(coordinates_of, pieces)))
+    return [[used[k] for k in numbers] for numbers in components(names)]
 
 
 def _of_part(
@@ -215,13 +214,11 @@ def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
 
 def merged(found: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
     """Groups that share a constraint are one."""
-    graph: nx.Graph = nx.Graph()
     groups = [g for r in found for g in r.groups]
-    for _, members in groups:
-        nx.add_path(graph, members) if len(members) > 1 else graph.add_node(members[0])
     merged = []
-    for component in nx.connected_components(graph):
-        merged.append((sum(n for n, members in groups if members[0] in component), sorted(component)))
+    for numbers in components(members for _, members in groups):
+        together = {i for k in numbers for i in groups[k][1]}
+        merged.append((sum(groups[k][0] for k in numbers), sorted(together)))
     return sorted(merged, key=lambda g: g[1])
 
 

@@ -14,6 +14,7 @@ from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
@@ -61,7 +62,7 @@ def entries_of(
             made = shared.known(kind, r)
             if made is None:
                 beside = partial(_with_others, i, told[i], company, names)
-                alone = _by_itself(i, r, told[i], setting)
+                alone = _by_itself(i, r, told[i], company.parts)
                 evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
                 made = _with_dependence(entry(r, evidence, setting, consistent), i, r, known)
                 shared.keep(kind, made)
@@ -155,14 +156,14 @@ def _unmeasured(outcome: Outcome) -> set[int]:
     return {r.constraint for block in open_blocks for r in block.rows}
 
 
-def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], setting: Setting) -> Answer | None:
+def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], parts: AnsweredParts) -> Answer | None:
     """What a constraint that is not finite says without the others."""
     written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
     if any(isinstance(row.piece, Nonlinear) for row in written):
         still = [t.row for t in told if isinstance(t.row.piece, Still)]
-        return _curved(told) or _alone_in_time([*written, *still], setting)
+        return _curved(told) or _alone_in_time([*written, *still], parts)
     if any(isinstance(t.row.piece, Pfaffian) for t in told):
-        return _inherited(told) or _alone_in_time([t.row for t in told], setting)
+        return _inherited(told) or _alone_in_time([t.row for t in told], parts)
     return None
 
 
@@ -207,13 +208,14 @@ def _curved(told: Sequence[LabelledRow]) -> Answer | None:
     return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
 
 
-def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
+def _alone_in_time(own: Sequence[Row], parts: AnsweredParts) -> Answer:
     mentioned = {name for row in own for name in coordinates_of(row.piece)}
-    coordinates = [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < LISTED else []
+    roles = parts.setting.roles
+    coordinates = [c.name for c in roles if c.name in mentioned] if len(roles) < LISTED else []
     coordinates += sorted(mentioned - set(coordinates))
     try:
         check()
-        return alone(own, setting, coordinates)
+        return alone(own, parts.setting, coordinates, parts.of)
     except (OutOfTimeError, ArithmeticError):
         return Answer(None, verdict="undecided")
 
