@@ -18,6 +18,7 @@ from dofkit.classification.freedom.isomorphic_blocks import nameless
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
+from dofkit.classification.labels.one_sided import kept_in_system, with_sides
 from dofkit.classification.labels.reasons import Others
 from dofkit.integrability.modulo_others import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
@@ -62,7 +63,8 @@ def entries_of(
             alone = _by_itself(i, r, told[i], setting)
             copied = i in outcome.copies
             evidence = Evidence(told[i], alone, number, circuit, constants, traits_of, beside, copied)
-            entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, known))
+            made = with_sides(entry(r, evidence, setting, consistent), i, outcome, setting)
+            entries.append(_with_dependence(made, i, r, known))
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
@@ -116,7 +118,16 @@ def labels_in_system(
     told = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
-    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    labels = [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    return [_with_sides(label, i, outcome, setting) for i, label in enumerate(labels)]
+
+
+def _with_sides(
+    label: tuple[bool | None, Verdict], i: int, outcome: Outcome, setting: Setting
+) -> tuple[bool | None, Verdict]:
+    """A label as one of the whole constraint, the sides among it to which it keeps velocities."""
+    kept = kept_in_system(i, outcome, setting)
+    return label if kept.holds or not label[0] else (kept.holds, "undecided" if kept.holds is None else kept.verdict)
 
 
 def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:
