@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 
 from dofkit.base.components import components
 from dofkit.expressions import tree as ex
+from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, Piece
+from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, Piece, linear_form
 from dofkit.relations.reductions import Reductions
 
 
@@ -54,6 +55,28 @@ def coordinates_of(piece: Piece) -> frozenset[str]:
     else:
         symbols = piece.expr.symbols
     return frozenset(named | {str(s.args[1]) for s in symbols if s.args[0] in ("coordinate", "velocity")})
+
+
+def with_boundaries(rows: Sequence[Row]) -> list[Row]:
+    """The rows with u = 0 in place of the conditions u >= 0 and -u >= 0, as the later one's."""
+    kept: list[Row] = []
+    for row in rows:
+        pair = next((k for k in kept if _opposite(k.piece, row.piece)), None)
+        if pair is None:
+            kept.append(row)
+            continue
+        form = linear_form(row.piece.expr) if isinstance(row.piece, DomainCondition) else None
+        kept.remove(pair)
+        if form is not None and isinstance(row.piece, DomainCondition):
+            kept.append(Row(row.constraint, form if form.coefficients else Finite(row.piece.expr)))
+    return kept
+
+
+def _opposite(a: Piece, b: Piece) -> bool:
+    """Do two conditions leave only where both are 0, which is written down?"""
+    if not (isinstance(a, DomainCondition) and isinstance(b, DomainCondition) and a.sense == b.sense == ">="):
+        return False
+    return not linear_terms(a.expr + b.expr) and linear_form(a.expr) is not None
 
 
 def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block], list[str]]:

@@ -20,7 +20,7 @@ from dofkit.classification.freedom.through_reference import through_reference
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal
+from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 
@@ -91,7 +91,7 @@ def _of_relations(
 ) -> list[Redundancies]:
     """Of constraints that share coordinates: by implication where rank does not measure dependence, else by rank."""
     blocks = list({id(block): (block, a) for i in numbers for block, a in blocks_of.get(i, ())}.values())
-    if _each_takes_one([n for i in numbers for n in reduced[i].normals], blocks):
+    if _each_takes_one(reduced, numbers, blocks):
         return [_independent({i: reduced[i].equations for i in numbers})]
     if not _measured_by_rank(reduced, setting, numbers, blocks):
         return [_as_free(implied(reduced, setting, numbers), blocks)]
@@ -105,6 +105,8 @@ def _of_relations(
         unless_late(partial(analysed, group, needed), left_open(o for rows in group for o in rows.owners))
         for group in joined_parts([a for a in answered if isinstance(a, OwnedRows)])
     ]
+    if any(_conditional(reduced[i]) for r in by_rank for i in r.redundant):
+        return [*settled, _as_free(implied(reduced, setting, numbers), blocks)]
     straight = all(a.linear for _, a in blocks)
     where = "everywhere" if straight else unless_late(partial(holds_where, reduced, setting, numbers, by_rank), None)
     if where is False:
@@ -113,6 +115,11 @@ def _of_relations(
         known = partial(at_a_point, reduced=reduced, setting=setting, numbers=numbers)
         return _agreed([*settled, *map(known, by_rank)])
     return [replace(r, about=where) for r in _agreed([*settled, *by_rank])]
+
+
+def _conditional(r: Reduced) -> bool:
+    """Does a constraint hold within a part of the space only? Its rows alone do not tell whether it follows."""
+    return any(isinstance(p, DomainCondition) for n in r.normals for b in n.branches for p in b)
 
 
 def _as_free(found: Redundancies, blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
@@ -187,15 +194,19 @@ def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
     return {id(p): k for r in reduced for k, n in enumerate(r.normals) for p in n.pieces}
 
 
-def _each_takes_one(normals: Sequence[Normal], blocks: Sequence[tuple[Block, Answer]]) -> bool:
+def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:
     """Is the freedom less by as many as there are equations, one row each? Then none follows from the others.
 
-    What k equations leave has no part of which the freedom is less by more than k.
+    On the branches in use the rows of the others leave no part of which the freedom is less by more than they are.
     """
-    one = all(len(b) == 1 for n in normals for b in n.branches)
+    rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
+    one = rows == {i: reduced[i].equations for i in numbers}
     plain = all(a.velocity_dof is not None and not a.hidden and not a.degenerate for _, a in blocks)
-    taken = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
-    return one and plain and taken == len(normals) == sum(len(block.rows) for block, _ in blocks)
+    return (
+        one
+        and plain
+        and sum(rows.values()) == sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
+    )
 
 
 def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:

@@ -12,7 +12,8 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.accelerations import without_accelerations
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, normalise, without_instants
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Piece, normalise
+from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
@@ -21,6 +22,7 @@ from dofkit.system import System
 
 #: The kinds of symbols that no finite relation holds.
 RATES = frozenset({"velocity", "acceleration", "differential", "dt"})
+INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 
 
 def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
@@ -140,3 +142,19 @@ def _fresh(system: System) -> Iterator[str]:
     """Names for constants of integration: C, C1, C2, ... without those of the scene."""
     taken = {c.name for c in system.coordinates} | {*system.parameters, *system.generic, *system.functions}
     return (name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
+
+
+def without_instants(normal: Normal) -> Normal:
+    """A product's branch that only fixes the time (t = 0 of ``t (x - y) = 0``) is no branch of motion: left out."""
+    kept = tuple(b for b in normal.branches if not any(_instant(p) for p in b))
+    if not kept or len(kept) == len(normal.branches):
+        return normal
+    return Normal(kept, (*(n for n in normal.notes if n != PRODUCT_NOTE), INSTANT_NOTE))
+
+
+def _instant(piece: Piece) -> bool:
+    return (
+        isinstance(piece, Finite)
+        and bool(piece.expr.symbols)
+        and all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
+    )

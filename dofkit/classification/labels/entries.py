@@ -18,6 +18,7 @@ from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
+from dofkit.classification.labels.one_sided import kept_in_system, sides_of, with_sides
 from dofkit.classification.labels.reasons import Others
 from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
@@ -58,13 +59,15 @@ def entries_of(
         try:
             check()
             copied = i in outcome.copies
-            kind = None if known.says_more_of(i) else shared.kind(r, told[i], number, copied, i in known.following)
+            apart = known.says_more_of(i) or bool(sides_of(i, outcome))
+            kind = None if apart else shared.kind(r, told[i], number, copied, i in known.following)
             made = shared.known(kind, r)
             if made is None:
                 beside = partial(_with_others, i, told[i], company, names)
                 alone = _by_itself(i, r, told[i], company.parts)
                 evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
-                made = _with_dependence(entry(r, evidence, setting, consistent), i, r, known)
+                made = with_sides(entry(r, evidence, setting, consistent), i, outcome, setting)
+                made = _with_dependence(made, i, r, known)
                 shared.keep(kind, made)
             entries.append(made)
         except OutOfTimeError as error:
@@ -124,7 +127,16 @@ def labels_in_system(
     told = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
-    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    labels = [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    return [_with_sides(label, i, outcome, setting) for i, label in enumerate(labels)]
+
+
+def _with_sides(
+    label: tuple[bool | None, Verdict], i: int, outcome: Outcome, setting: Setting
+) -> tuple[bool | None, Verdict]:
+    """A label as one of the whole constraint, the sides among it to which it keeps velocities."""
+    kept = kept_in_system(i, outcome, setting)
+    return label if kept.holds or not label[0] else (kept.holds, "undecided" if kept.holds is None else kept.verdict)
 
 
 def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:
