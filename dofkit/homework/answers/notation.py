@@ -47,6 +47,7 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
     for pattern, by in (
         (r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}(?:\{[lcr|]*\})?", " "),
         (r"\\\\(?:\[[^\]]*\])?|\\newline\b|<br\s*/?>", "\n"),
+        (r"\\n(?=[A-Za-z])(?!u(?![a-z])|eq?(?![a-z])|abla|ot|onumber|exists|i(?![a-z]))", "\n"),
         (r"\\left\s*\\?\{|\\\{", "("),
         (r"\\right\s*\\?\}|\\\}", ")"),
         (r"\\left\s*\.|\\right\s*\.", ""),
