@@ -14,6 +14,7 @@ from dofkit.homework.result import Result
 from dofkit.homework.review.filled_table import FilledTable, read_table
 from dofkit.homework.review.queue import Queue
 from dofkit.homework.review.rows import ReviewRow
+from dofkit.homework.runs.reviewed_variants import tell_variants
 
 TABLE, PAGE = "review.csv", "review.html"
 
@@ -63,6 +64,7 @@ class RunReview:
         if self.paths is None:
             return
         queue = queue_of(results, prepared)
+        tell_variants(queue, prepared)
         rows = list(queue.rows(self.rows))
         if not rows and self.paths.shared and not self.paths.table.exists():
             return
