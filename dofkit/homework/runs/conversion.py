@@ -11,7 +11,9 @@ from dofkit.homework.answers.roster import load_roster
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.formats import FORMATS, FormatError
 from dofkit.homework.result import Result
+from dofkit.homework.runs.review_files import PAGE, TABLE, ReviewPaths, RunReview
 from dofkit.homework.runs.run import NATIVE, RESULTS, GradingOptions
+from dofkit.homework.sheet_owners import with_names
 
 
 def convert(assignment: str, results: Path, options: GradingOptions) -> int:
@@ -21,9 +23,8 @@ def convert(assignment: str, results: Path, options: GradingOptions) -> int:
     """
     form, path = options.format, results / RESULTS if results.is_dir() else results
     if options.out is None or form.name == NATIVE:
-        raise FormatError(
-            f"name a format of a platform and --out: {', '.join(name for name in FORMATS if name != NATIVE)}"
-        )
+        others = ", ".join(name for name in FORMATS if name != NATIVE)
+        raise FormatError(f"--format is one of {others}")
     read = [Path(given).resolve() for given in (assignment, path, options.roster or "")]
     if any(target.resolve() in read for target in options.written):
         raise FormatError(f"--out would overwrite what is read: {options.out}")
@@ -32,6 +33,9 @@ def convert(assignment: str, results: Path, options: GradingOptions) -> int:
     most = float(sum(prepared.most_points().values()))
     found = list(_results(path, most))
     form.written(iter(found), prepared, options.out, roster)
+    if (options.out / PAGE).exists():
+        beside = ReviewPaths(path.parent / TABLE, options.out / PAGE, True)
+        RunReview.read(prepared, None, beside).write_page(path, with_names(prepared, roster))
     return len(found)
 
 

@@ -77,6 +77,13 @@ class RunReview:
             again = f"fill in points, then grade again with --reviewed {self.paths.table}"
             print(f"{different} for a person in {self.paths.table}: {again}", file=sys.stderr)
 
+    def write_page(self, results: Path, prepared: Prepared) -> None:
+        """Write the page alone, of results whose table stands elsewhere. Raises OSError."""
+        if self.paths is not None:
+            queue = queue_of(results, prepared)
+            tell_variants(queue, prepared)
+            write_page(queue, queue.rows(self.rows), prepared, self.paths.page, str(self.paths.table))
+
 
 def queue_of(results: Path, prepared: Prepared) -> Queue:
     """The queue of results in our own format."""
