@@ -204,7 +204,7 @@ def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, studen
         watch = threading.Timer(seconds, keeper.close)
         watch.start()
         try:
-            lines = keeper.grade([one]).lines[0]
+            lines = keeper.grade([one]).told[0]
         except StoppedError:
             return undecided(prepared, student, TOO_LONG)
         finally:

@@ -12,6 +12,8 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+from dofkit.base.line_journal import ledger
+from dofkit.base.workers.batches import in_order
 from dofkit.base.workers.pool import cores
 from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
@@ -22,9 +24,9 @@ from dofkit.homework.result import Result
 from dofkit.homework.runs.appeals import Appeals
 from dofkit.homework.runs.batch import Orders, ResultLine
 from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
-from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
-from dofkit.homework.runs.journal import Journal, fingerprint, ledger
+from dofkit.homework.runs.journal import Journal, fingerprint
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.repeats import HandedIn, without_repeats
 from dofkit.homework.runs.review_files import ReviewPaths, RunReview
 from dofkit.homework.runs.rostered import named_by, rostered
 from dofkit.homework.sheet_owners import people_of, with_names
