@@ -255,9 +255,7 @@ def growth(make: Callable[[int], list[tuple[int, int]]]) -> Measured:
 
 def cold(*arguments: str) -> Measured:
     """A fresh Python, against one that imports SymPy."""
-    ours, theirs = bench.medians(
-        bench.python("-m", "dofkit", *arguments), bench.python("-c", "import sympy"), rounds=9
-    )
+    ours, theirs = bench.medians(bench.python("-m", "dofkit", *arguments), bench.python("-c", "import sympy"), rounds=9)
     return Measured(ours, theirs)
 
 

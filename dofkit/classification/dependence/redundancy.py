@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -38,10 +38,12 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
         return found
     found += copied(reduced, outcome)
     blocks: BlocksOf = defaultdict(list)
-    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+    for block, a in outcome.parts:
         for i in dict.fromkeys(r.constraint for r in block.rows):
             blocks[i].append((block, a))
-    for numbers in _parts(reduced, outcome):
+    apart = outcome.bridged
+    found += [_independent(apart)] if apart else []
+    for numbers in _parts(reduced, outcome, apart):
         found += unless_late(partial(_of_part, reduced, setting, blocks, numbers), [left_open(numbers)])
     return found
 
@@ -61,11 +63,13 @@ def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcom
     return told
 
 
-def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:
-    """The constraints in use, those together that share coordinates."""
+def _parts(reduced: Sequence[Reduced], outcome: Outcome, apart: Collection[int]) -> list[list[int]]:
+    """The constraints in use but those ``apart``, those together that share coordinates."""
     used: list[int] = []
     names: list[frozenset[str]] = []
     for i, r in enumerate(reduced):
+        if i in apart:
+            continue
         every = [p for n in r.normals for b in n.branches for p in b]
         pieces = every if is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
         if pieces and i not in outcome.copies:
@@ -184,9 +188,9 @@ def _of_block(
         yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
 
 
-def _independent(counted: dict[int, int]) -> Redundancies:
+def _independent(counted: Mapping[int, int]) -> Redundancies:
     """So many equations of each constraint, all independent."""
-    return Redundancies(counted, [], [], {}, equations=dict.fromkeys(counted, ()))
+    return Redundancies(dict(counted), [], [], {}, equations=dict.fromkeys(counted, ()))
 
 
 def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:

@@ -18,10 +18,11 @@ from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import with_reductions_checked
-from dofkit.relations.answer import Answer
+from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
 from dofkit.relations.integration_constants import names_in, with_rows
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Piece, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
@@ -67,6 +68,18 @@ class Outcome:
         for row in self.rows:
             found[row.constraint].append(row.piece)
         return {**found, **{copy: found[i] for copy, i in self.copies.items()}}
+
+    @property
+    def parts(self) -> list[AnsweredPart]:
+        """The blocks with their answers; of those whose parts were answered apart, the parts."""
+        pairs = (AnsweredPart(block, a) for block, a in zip(self.blocks, self.answers, strict=True))
+        return [part for p in pairs for part in ((p,) if p.answer.parts is None else p.answer.parts)]
+
+    @property
+    def bridged(self) -> Counter[int]:
+        """Of joints that close no loop the equations that are in no part, by constraint: independent of all others."""
+        within = {id(row) for part in self.parts for row in part.block.rows}
+        return Counter(row.constraint for block in self.blocks for row in block.rows if id(row) not in within)
 
     @property
     def written_rows(self) -> list[Row]:
@@ -217,7 +230,7 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     found = {}
     for i, r in enumerate(reduced):
         check()
-        if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
+        if not r.normals or r.inequalities or any(_says_nothing(normal) for normal in r.normals):
             continue
         keys = [_up_to_a_number(normal) for normal in r.normals]
         key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
@@ -226,6 +239,12 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
         else:
             seen[key] = i
     return found
+
+
+def _says_nothing(normal: Normal) -> bool:
+    """Is there nothing to compare: it holds always or never, or is not written out, as no other joint is the same?"""
+    branches = normal.branches
+    return branches in ((), ((),)) or isinstance(branches[0][0], JointEquation)
 
 
 def _up_to_a_number(normal: Normal) -> Hashable:
@@ -272,7 +291,7 @@ class AnsweredBlocks:
     def _answer(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
         same = tuple([id(row.piece) for row in block.rows] + [id(c) for c in block.conditions])
         if same not in self._answers:
-            twins = _shape(block) in self._shapes
+            twins = _shape(block) in self._shapes and not any(isinstance(r.piece, JointEquation) for r in block.rows)
             found = self._twin(block, setting, likenesses) if twins else in_time(block, setting)
             self._answers[same] = block, found
         return self._answers[same][1]

@@ -11,7 +11,11 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
+from dofkit.expressions.unwritten import Unwritten
 from dofkit.integrability.accelerations import without_accelerations
+from dofkit.mobility.bridges import bridges
+from dofkit.mobility.rows_at_drawing import RowsAtDrawing
+from dofkit.relations.joint_equations import unwritten
 from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Piece, normalise
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.piece_shapes import NormalTemplate
@@ -29,7 +33,8 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
     """Each relation as what it says, and what may be assumed of the symbols."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
-    reduced = reduce_all(system, positive)
+    apart = bridges(system) if "bridges" in reductions and system.tolerance is None else frozenset[int]()
+    reduced = reduce_all(system, positive, apart)
     setting = Setting(
         positive,
         tuple(ex.parameter(p) for p in system.generic),
@@ -47,6 +52,8 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         bodies=_turned(system) if system.tolerance else (),
         centre=_centre(system) if system.tolerance else (),
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
+        bridges=apart,
+        joint_rows=RowsAtDrawing(system, positive).of if apart else None,
     )
     return reduced, setting
 
@@ -91,11 +98,17 @@ def _links(system: System) -> dict[int, list[tuple[str, str]]]:
     return found
 
 
-def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
-    """Every relation of every constraint as what it says; all that cannot be one are faults together."""
+def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] = frozenset()) -> list[Reduced]:
+    """Every relation of every constraint as what it says; all that cannot be one are faults together.
+
+    Those of joints ``apart`` are not written out where they are not yet.
+    """
     found, faults = [], []
     read = _Normals(system, positive)
     for i, constraint in enumerate(system.constraints):
+        if i in apart and isinstance(constraint.relations, Unwritten):
+            found.append(Reduced(constraint, unwritten(constraint.relations), ()))
+            continue
         normals, inequalities = [], []
         for relation in constraint.relations:
             check()

@@ -152,7 +152,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     """An entry with its redundant equations by name, where their number is what was found before."""
     if following is None or made.independent is None or len(following) != made.equations - made.independent:
         return made
-    written = [relation for relation in r.constraint.relations if relation.sense == "="]
+    written = [relation for relation in r.constraint.relations if relation.sense == "="] if following else []
     names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
@@ -164,8 +164,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
 
 def _unmeasured(outcome: Outcome) -> set[int]:
     """The constraints of blocks whose velocities are not known: not all of their equations were looked at."""
-    open_blocks = (b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.velocity_dof is None)
-    return {r.constraint for block in open_blocks for r in block.rows}
+    return {r.constraint for block, a in outcome.parts if a.velocity_dof is None for r in block.rows}
 
 
 def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], parts: AnsweredParts) -> Answer | None:
