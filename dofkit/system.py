@@ -180,12 +180,6 @@ class Constraint:
         symbols = frozenset[Expr]().union(*(r.expr.symbols for r in self.relations))
         return frozenset(str(s.args[1]) for s in symbols if s.args[0] not in ("parameter", "time", "dt"))
 
-    @property
-    def longest(self) -> int:
-        """The bits of the longest number in its relations as they are written."""
-        given = self.relations
-        return given.longest if isinstance(given, Unwritten) else longest_number(r.expr for r in given)
-
 
 class Place(NamedTuple):
     """A point: of the body ``frame`` (``ground`` too), standing at ``reference``; or a particle, where that is None."""
@@ -311,7 +305,10 @@ class System:
     @property
     def longest(self) -> int:
         """The bits of the longest number in the relations as they are written."""
-        return max((c.longest for c in self.constraints), default=0)
+        given = [c.relations for c in self.constraints]
+        written = (r.expr for part in given if not isinstance(part, Unwritten) for r in part)
+        longest = longest_number({e if e.shape is None else e.shape.skeleton for e in written})
+        return max((longest, *(part.longest for part in given if isinstance(part, Unwritten))))
 
     def numbers_of(self, *names: str) -> tuple[int, ...]:
         """The numbers of the constraints of these names, in the order of the names."""

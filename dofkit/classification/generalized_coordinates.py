@@ -6,9 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from dofkit.base.deadline import expired
+from dofkit.base.libraries import np
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
 from dofkit.classification.turned_coordinates import (
     ANYWHERE,

@@ -12,9 +12,9 @@ from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
-import networkx as nx
 from flint import arb, arb_mat
 
+from dofkit.base.libraries import nx
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
@@ -65,6 +65,8 @@ def turned_together(
     blocks: Sequence[Block], answers: Sequence[Answer], untouched: Collection[str], rotations: Sequence[Rotation]
 ) -> Iterator[TurnedGroup]:
     """What holds the angles of each body together, with what nothing touches."""
+    if not rotations:
+        return
     graph: nx.Graph = nx.Graph()
     for i, block in enumerate(blocks):
         graph.add_edges_from((i, name) for name in block.coordinates)

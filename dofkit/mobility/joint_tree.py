@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-import networkx as nx
-
+from dofkit.base.libraries import nx
 from dofkit.system import GROUND, Connection, System
 
 

@@ -19,6 +19,8 @@ from dofkit.relations.setting import Setting
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
     """Coordinates that a finite relation gives explicitly (theta = w t), where they stand inside functions."""
+    if not finite:
+        return {}
     inside = {s for e in (*expressions(block), *finite) for s in _inside_functions(e)}
     found: dict[Expr, Expr] = {}
     for g in finite:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
@@ -214,11 +214,12 @@ def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Samp
     return good
 
 
-def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:
-    """A constraint's own rows with the others forgotten."""
+def alone(
+    rows: Sequence[Row], setting: Setting, coordinates: Sequence[str], answered: Callable[[Block], Answer]
+) -> Answer:
+    """A constraint's own rows with the others forgotten; ``answered`` answers a part at no drawing."""
     blocks, _ = split(coordinates, rows)
-    plain = replace(setting, pose={}, reference=None, grows=False, flag=False)
-    answers = [confirmed(b, answer(b, plain), setting, len(rows) == 1) for b in blocks]
+    answers = [confirmed(b, answered(b), setting, len(rows) == 1) for b in blocks]
     merged = Answer()
     for a in answers:
         merged.verdict = weakest(merged.verdict, a.verdict)
