@@ -76,7 +76,8 @@ class Answer:
     points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
     ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the number of
     velocities at the reference proved? ``exists``: and that the relations hold there at all times? ``trusted``: is
-    what is not 0 over GF(p) known not to be 0?
+    what is not 0 over GF(p) known not to be 0? ``kind``: the same for blocks that are each other's up to names, whose
+    coordinates then correspond place by place; None for one that was not compared.
     """
 
     consistent: bool | None = True
@@ -110,6 +111,7 @@ class Answer:
     witness: Mapping[Expr, str] | None = None
     linear: bool = False
     looked: FollowedClasses = field(default_factory=FollowedClasses)
+    kind: int | None = None
     size: Size = field(default_factory=Size)
 
     @property
