@@ -8,11 +8,15 @@ from dofkit.classification.labels.entry import LabelledRow
 from dofkit.expressions.tree import TIME
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian, Piece
 from dofkit.relations.piece_shapes import shape_together
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry
+
+#: Of the equations of a joint that is not driven.
+STILL = Traits((True, "proved"))
 
 
 class SharedEntries:
@@ -25,6 +29,8 @@ class SharedEntries:
 
     def traits(self, piece: Piece) -> Traits:
         """The labels that a piece carries by itself."""
+        if isinstance(piece, JointEquation):
+            return STILL
         if not isinstance(piece, Pfaffian):
             return traits(piece, self._setting.positive, self._setting.engines)
         key = shape_together((piece,))
