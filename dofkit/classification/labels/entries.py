@@ -32,6 +32,8 @@ from dofkit.report import ConstraintEntry, FieldVerdict
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.
 LISTED = 2000
+#: Pieces of more constraints than this are looked through for those that differ in names only.
+FEW = 8
 #: What is said of dependence that is open, or not on what was written before.
 OPEN = "Whether it follows from the others was not decided."
 UNCOUNTED = "How many of its equations are independent of those before was not decided."
@@ -52,7 +54,7 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    traits_of = _Remembered(setting).traits
+    traits_of = _Remembered(setting, company.parts, len(reduced)).traits
     entries, consistent = [], outcome.consistent
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
@@ -174,20 +176,24 @@ def _with_others(
 
 
 class _Remembered:
-    """Labels of pieces, found once for those that differ in names only."""
+    """Labels of pieces, found once for those that differ in names only where there are many."""
 
-    def __init__(self, setting: Setting) -> None:
-        self._setting = setting
+    def __init__(self, setting: Setting, parts: AnsweredParts, constraints: int) -> None:
+        self._setting, self._parts, self._many = setting, parts, constraints > FEW
         self._known: dict[Hashable, Traits] = {}
 
     def traits(self, piece: Piece) -> Traits:
-        if not isinstance(piece, Pfaffian):
-            return traits(piece, self._setting.positive, self._setting.engines)
+        if not self._many or not isinstance(piece, Pfaffian):
+            return self._found(piece)
         key = nameless(piece)
         found = self._known.get(key)
         if found is None:
-            found = self._known[key] = traits(piece, self._setting.positive, self._setting.engines)
+            found = self._known[key] = self._found(piece)
         return found
+
+    def _found(self, piece: Piece) -> Traits:
+        opened = self._parts.is_open(piece)
+        return traits(piece, self._setting.positive, self._setting.engines, opened)
 
 
 def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
