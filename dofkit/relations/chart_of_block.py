@@ -73,6 +73,7 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
         setting.size,
         setting.reductions,
         _kinds(block, setting, len(extra)),
+        setting.within,
     )
 
 

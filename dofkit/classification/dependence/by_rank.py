@@ -106,7 +106,7 @@ def analysed(group: list[OwnedRows], needed: Collection[int]) -> Redundancies:
     return analyse(group, needed)
 
 
-def sharing(parts: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
+def joined_parts(parts: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
     """Blocks that share a constraint are looked at together."""
     owned = [part for part in parts if part.owners]
     return [[owned[k] for k in numbers] for numbers in components(part.owners for part in owned)]

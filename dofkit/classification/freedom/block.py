@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.agreement import agreed, numeric
+from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.drawing.at_reference import at_reference
@@ -50,6 +51,9 @@ IRREGULAR = (
 
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block, and how large the model was."""
+    bridged = bridged_answer(block, setting, answer)
+    if bridged is not None:
+        return bridged
     found = _engines(block, setting)
     level = None if found.dof is None or setting.reference is not None else level_angle(block, setting)
     if level is not None:

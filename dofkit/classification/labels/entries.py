@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -14,26 +14,24 @@ from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.isomorphic_blocks import nameless
 from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
+from dofkit.classification.labels.one_sided import kept_in_system, sides_of, with_sides
 from dofkit.classification.labels.reasons import Others
+from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
-from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.integration_constants import fixed_constants
-from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Piece, Still
+from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Still
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.
 LISTED = 2000
-#: Pieces of more constraints than this are looked through for those that differ in names only.
-FEW = 8
 #: What is said of dependence that is open, or not on what was written before.
 OPEN = "Whether it follows from the others was not decided."
 UNCOUNTED = "How many of its equations are independent of those before was not decided."
@@ -54,18 +52,25 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    traits_of = _Remembered(setting, company.parts, len(reduced)).traits
-    entries, consistent = [], outcome.consistent
+    shared, entries = SharedEntries(setting, company.parts), list[ConstraintEntry]()
+    consistent = outcome.consistent
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
-            beside = partial(_with_others, i, told[i], company, names)
-            alone = _by_itself(i, r, told[i], company.parts)
             copied = i in outcome.copies
-            evidence = Evidence(told[i], alone, number, circuit, constants, traits_of, beside, copied)
-            entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, known))
+            apart = known.says_more_of(i) or bool(sides_of(i, outcome))
+            kind = None if apart else shared.kind(r, told[i], number, copied, i in known.following)
+            made = shared.known(kind, r)
+            if made is None:
+                beside = partial(_with_others, i, told[i], company, names)
+                alone = _by_itself(i, r, told[i], company.parts)
+                evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
+                made = with_sides(entry(r, evidence, setting, consistent), i, outcome, setting)
+                made = _with_dependence(made, i, r, known)
+                shared.keep(kind, made)
+            entries.append(made)
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
@@ -81,6 +86,10 @@ class _Dependence(NamedTuple):
     gone: Mapping[int, Verdict]
     open: Mapping[int, str]
     following: Mapping[int, set[int]]
+
+    def says_more_of(self, i: int) -> bool:
+        """Is anything known of a constraint beyond how many of its equations are independent: all of them?"""
+        return i in self.circuits or i in self.gone or i in self.open or bool(self.following.get(i))
 
 
 def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Dependence:
@@ -119,7 +128,16 @@ def labels_in_system(
     told = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
-    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    labels = [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    return [_with_sides(label, i, outcome, setting) for i, label in enumerate(labels)]
+
+
+def _with_sides(
+    label: tuple[bool | None, Verdict], i: int, outcome: Outcome, setting: Setting
+) -> tuple[bool | None, Verdict]:
+    """A label as one of the whole constraint, the sides among it to which it keeps velocities."""
+    kept = kept_in_system(i, outcome, setting)
+    return label if kept.holds or not label[0] else (kept.holds, "undecided" if kept.holds is None else kept.verdict)
 
 
 def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:
@@ -135,7 +153,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     """An entry with its redundant equations by name, where their number is what was found before."""
     if following is None or made.independent is None or len(following) != made.equations - made.independent:
         return made
-    written = [relation for relation in r.constraint.relations if relation.sense == "="]
+    written = [relation for relation in r.constraint.relations if relation.sense == "="] if following else []
     names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
@@ -147,8 +165,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
 
 def _unmeasured(outcome: Outcome) -> set[int]:
     """The constraints of blocks whose velocities are not known: not all of their equations were looked at."""
-    open_blocks = (b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.velocity_dof is None)
-    return {r.constraint for block in open_blocks for r in block.rows}
+    return {r.constraint for block, a in outcome.parts if a.velocity_dof is None for r in block.rows}
 
 
 def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], parts: AnsweredParts) -> Answer | None:
@@ -173,27 +190,6 @@ def _with_others(
     found = (company.of if in_system else company.modulo)(i, only.block, only.answer)
     companions = None if found.companions is None else tuple(f"'{names[k]}'" for k in found.companions)
     return Others(companions, found.integral, found.identically)
-
-
-class _Remembered:
-    """Labels of pieces, found once for those that differ in names only where there are many."""
-
-    def __init__(self, setting: Setting, parts: AnsweredParts, constraints: int) -> None:
-        self._setting, self._parts, self._many = setting, parts, constraints > FEW
-        self._known: dict[Hashable, Traits] = {}
-
-    def traits(self, piece: Piece) -> Traits:
-        if not self._many or not isinstance(piece, Pfaffian):
-            return self._found(piece)
-        key = nameless(piece)
-        found = self._known.get(key)
-        if found is None:
-            found = self._known[key] = self._found(piece)
-        return found
-
-    def _found(self, piece: Piece) -> Traits:
-        opened = self._parts.is_open(piece)
-        return traits(piece, self._setting.positive, self._setting.engines, opened)
 
 
 def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
