@@ -18,6 +18,7 @@ from dofkit.expressions.differentials import accelerations_of, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.normal_form import Finite, Normal, Piece, normalise, velocities_of
 from dofkit.relations.normal.signs import arguments_of, by_signs
@@ -29,7 +30,7 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
     """The branches that hold at the reference configuration; all of them where none is given, or none holds there."""
     if setting.reference is None:
         return normal
-    if any(isinstance(p, Finite) and arguments_of(p.expr) for branch in normal.branches for p in branch):
+    if any(isinstance(p, Finite) and _is_kinked(p) for branch in normal.branches for p in branch):
         normal = _at_kinks(normal, {**setting.reference, ex.TIME: ex.ZERO}, setting.positive)
     if len(normal.branches) < 2:
         return normal
@@ -53,6 +54,11 @@ def crossing_at(normal: Normal, written: Expr, setting: Setting) -> tuple[tuple[
     if not velocities_of(there):
         return ((),) if is_zero(there, setting.positive) else None
     return normalise(there, setting.positive, True).branches or None
+
+
+def _is_kinked(piece: Finite) -> bool:
+    """Are there absolute values? There are none in the equations of a joint."""
+    return not isinstance(piece, JointEquation) and bool(arguments_of(piece.expr))
 
 
 def _at_kinks(normal: Normal, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> Normal:

@@ -34,8 +34,7 @@ OPEN_SIDE = f"{ASIDE}; whether that follows from finite relations was not decide
 
 def sides_of(i: int, outcome: Outcome) -> list[DomainCondition]:
     """What a constraint asks of the sign of expressions in the velocities, on the branch in use."""
-    own = outcome.copies.get(i, i)
-    pieces = [r.piece for r in outcome.rows if r.constraint == own]
+    pieces = outcome.pieces.get(i, ())
     return [p for p in pieces if isinstance(p, DomainCondition) and p.sense != "!=" and velocities_of(p.expr)]
 
 
@@ -51,20 +50,23 @@ ALWAYS = SideKept(True)
 
 def kept_in_system(i: int, outcome: Outcome, setting: Setting) -> SideKept:
     """Do the sides that a constraint keeps to hold in every motion that all rows leave? Yes where it has none."""
+    sides = sides_of(i, outcome)
+    if not sides:
+        return ALWAYS
     blocks = list(zip(outcome.blocks, (a.hidden for a in outcome.answers), strict=True))
-    return _together(
-        _kept(b, hidden, c, setting) for c in sides_of(i, outcome) for b, hidden in blocks if c in b.conditions
-    )
+    return _together(_kept(b, hidden, c, setting) for c in sides for b, hidden in blocks if c in b.conditions)
 
 
 def kept_alone(i: int, outcome: Outcome, setting: Setting) -> SideKept:
     """The same with the other constraints forgotten."""
-    own = outcome.copies.get(i, i)
+    own, sides = outcome.copies.get(i, i), sides_of(i, outcome)
+    if not sides:
+        return ALWAYS
     blocks, _ = split(
         [*outcome.untouched, *(n for b in outcome.blocks for n in b.coordinates)],
         [r for r in outcome.rows if r.constraint == own],
     )
-    return _together(_kept(b, (), c, setting) for c in sides_of(i, outcome) for b in blocks if c in b.conditions)
+    return _together(_kept(b, (), c, setting) for c in sides for b in blocks if c in b.conditions)
 
 
 def _together(found: Iterable[SideKept]) -> SideKept:
