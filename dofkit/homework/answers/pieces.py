@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.characters import GREEK
+from dofkit.expressions.text.words import read_word
 from dofkit.homework.answers.notation import ARROW, script_of, with_differentials
-from dofkit.homework.answers.prose import plain, words
+from dofkit.homework.answers.prose import plain, takes_back, words
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError
@@ -34,10 +35,26 @@ _DECIMAL = re.compile(r"(?<=\d),(?=\d)")
 _WORDS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
 _GROUP = re.compile(r"[(\[]([^()\[\]=<>+*/^\d]+)[)\]]\s*\Z|[(\[]([^()\[\]=<>+*/^\d]+)[)\]](?=\s*[;,\n])")
 _INTRODUCED = re.compile(
-    r"\A\s*(?:[^\W\d_]+['’]?\s+){0,5}"
-    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have)"
-    r"(?:\s+that)?\s*:?\s+(?=\S)", re.IGNORECASE,
+    r"\A\s*(?:[^\W\d_]+(?:['’]\s*|\s+)){0,6}"
+    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have|follows|folgt|vaut"
+    r"|s['’]\s?écrit|se\s+escribe|si\s+scrive|escreve-se|donne|da|resulta|risulta|becomes|wird|integrates?|[oO]n\s+a|man\s+erh[äa]lt|wir\s+erhalten|we\s+(?:get|have|find|obtain)|on\s+(?:obtient|trouve)"
+    r"|tenemos|abbiamo|temos)"
+    r"(?:\s+(?:that|to|zu|als|comme|como|come))?\s*:?\s+(?=\S)", re.IGNORECASE,
 )  # fmt: skip
+#: That an equation holds at all times, behind it.
+_ALWAYS = re.compile(
+    r"(?<=\S)\s+(?:for\s+(?:all|every)|at\s+all|f[üu]r\s+alle?|zu\s+allen|pour\s+tout|para\s+todo|per\s+ogni|∀|\\forall)"
+    r"\s*(?:t|times?|zeiten|temps|tiempo|tempo)\s*\.?\s*\Z",
+    re.IGNORECASE,
+)
+#: What a family of curves is called, before its equation.
+_CURVES = re.compile(
+    r"\A\s*(?:(?:the|die|der|das|les|la|le|las|los|le|gli|i|as|os|family|familie|schar|famille|familia|of|von|de|di|alle)\s+)*"
+    r"(?:straight\s+)?(?:lines?|geraden?|droites?|rectas?|rett[ae]|retas?|circles?|kreise?|cercles?|c[ií]rculos?|cerchi|spheres?"
+    r"|kugeln?|sph[èe]res?|parabol[ae]s?|parabeln?|hyperbol[ae]s?|hyperbeln?|hip[ée]rbolas?|spirals?|spiralen?|ellipsen?|curves?"
+    r"|kurven?|courbes?|curvas?|curve)(?:schar)?\s+(?=[^\s:])",
+    re.IGNORECASE,
+)
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
 _REMARKED = words(
     "constant constante const konstante konst costante cte arbitrary beliebig arbitraire real reell reel reale any "
@@ -50,6 +67,8 @@ _ABOUT_CONSTANT = re.compile(
 )  # fmt: skip
 #: A letter that is the Spanish or the Italian word for "and", between what may be two equations.
 _BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
+#: A sign of equality for numbers that are rounded.
+_ROUNDED = re.compile(r"(?:[≈≃≅]|\\(?:approx|simeq|cong)(?![A-Za-z]))(?=.*\d[.,]\d)")
 _CHAINED = re.compile(r"(?<![<>=!])=(?!=)")
 
 
@@ -147,27 +166,44 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     """An equation without what stands around it; None where there is only a remark."""
     script = script.stripped()
     while (group := _GROUP.search(script.text)) is not None and _is_remark(group[1] or group[2] or "", names, 3):
+        _check(group[0], script.columns[group.start()])
         script = script.replaced(re.compile(re.escape(group[0])), " ").stripped()
     script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|\s*\.\s*\Z|!\s*\Z"), "").stripped()
     if _RELATION.search(script.text):
-        script = script.replaced(_NUMBER_AFTER, "").stripped()
+        script = script.replaced(_NUMBER_AFTER, "").replaced(_ALWAYS, "").stripped()
+    script = script.replaced(_CURVES, "") if _RELATION.search(script.text) else script
     for lead in (_TITLED, _INTRODUCED):
         match = lead.match(script.text)
         if match is not None and _is_lead(match[0], names):
             script = script.cut(match.end()).stripped()
     text = script.text
     if not text or (_ABOUT_CONSTANT.fullmatch(text) and not _of_coordinates(text, names)) or _is_remark(text, names):
+        _check(text, script.columns[0])
         return None
     if len(_CHAINED.findall(text)) > 1 and _BESIDE.search(text):
         raise DoubtError("a letter may be a factor or the word for `and`.", script.columns[0], "write `;`")
-    script = script.replaced(_DECIMAL, ".")
+    script = script.replaced(_ROUNDED, "=").replaced(_DECIMAL, ".")
     if script.text != text and len(_CHAINED.findall(text)) > 1:
         raise DoubtError("a comma may be a decimal sign or stand between equations.", script.columns[0], None)
     return script
 
 
+def _check(remark: str, column: int) -> None:
+    """Raises DoubtError for a remark that takes back what it stands beside."""
+    if takes_back(remark):
+        raise DoubtError("a remark leaves it open.", column, None)
+
+
 def _known(word: str, names: Names) -> bool:
     return names.lookup.meaning(word) is not None
+
+
+def _readable(word: str, names: Names) -> bool:
+    """Is a word a name, or a product of names, such as `mgl`?"""
+    try:
+        return bool(read_word(word, names.lookup, 1, False))
+    except TextError:
+        return False
 
 
 def _is_lead(text: str, names: Names) -> bool:
@@ -189,6 +225,8 @@ def _of_coordinates(text: str, names: Names) -> bool:
 def _is_remark(text: str, names: Names, least: int = 5) -> bool:
     """Words of which none is a name, more than one or one that is known to say nothing."""
     if re.search(r"[=<>≤≥+*/^\\\d±|·⋅×−√½⅓¼¾²³¹⁰-₉]", text):
+        return False
+    if all(_readable(w, names) for w in _WORDS.findall(text)):
         return False
     found = [plain(w) for w in _WORDS.findall(text)]
     unknown = [w for w in found if not _known(w, names)]
