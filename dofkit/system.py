@@ -295,7 +295,8 @@ class System:
     @property
     def longest(self) -> int:
         """The bits of the longest number in the relations as they are written."""
-        return longest_number(r.expr for c in self.constraints for r in c.relations)
+        every = (r.expr for c in self.constraints for r in c.relations)
+        return longest_number({e if e.shape is None else e.shape.skeleton for e in every})
 
     def numbers_of(self, *names: str) -> tuple[int, ...]:
         """The numbers of the constraints of these names, in the order of the names."""

@@ -61,6 +61,8 @@ def turned_together(
     blocks: Sequence[Block], answers: Sequence[Answer], untouched: Collection[str], rotations: Sequence[Rotation]
 ) -> Iterator[TurnedGroup]:
     """What holds the angles of each body together, with what nothing touches."""
+    if not rotations:
+        return
     graph: nx.Graph = nx.Graph()
     for i, block in enumerate(blocks):
         graph.add_edges_from((i, name) for name in block.coordinates)

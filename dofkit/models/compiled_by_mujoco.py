@@ -8,12 +8,15 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.workers import Job, Worker
+from dofkit.base.workers import Job
+from dofkit.base.workers.pool import shared
 from dofkit.models.markup import Element, read_markup
 from dofkit.models.model_document import ModelFile
 
-#: Seconds that the compiler may take; bytes of its memory.
-SECONDS, MEMORY = 60.0, 4 << 30
+#: Seconds that the compiler may take.
+SECONDS = 60.0
+#: What works in a process of its own, which is kept for the models that follow.
+COMPILER = "dofkit.models.mujoco_model"
 #: Files that a model may include, one in another.
 MOST_INCLUDED = 300
 
@@ -33,12 +36,8 @@ def compiled(file: ModelFile) -> CompiledModel:
     """The model compiled. Raises SceneError for what the compiler does not take."""
     root = read_markup(file.data, file.name)
     included = tuple(_included(root, file))
-    worker = Worker(MEMORY, ("dofkit.models.mujoco_model", "mujoco"))
-    try:
-        payload = {"path": None if file.path is None else str(file.path), "text": file.text}
-        outcome = worker.run(Job("dofkit.models.mujoco_model:described_model", payload, SECONDS))
-    finally:
-        worker.kill()
+    payload = {"path": None if file.path is None else str(file.path), "text": file.text}
+    outcome = shared(COMPILER).run(Job(f"{COMPILER}:described_model", payload, SECONDS))
     if not outcome.finished:
         raise SceneError((_fault(outcome.reason, outcome.error),), file.name)
     return CompiledModel(outcome.value, root, included)

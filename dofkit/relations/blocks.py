@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import networkx as nx
-
+from dofkit.base.groups import sharing
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
@@ -62,23 +61,18 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
 
     Two rows share a block if they share a coordinate anywhere, coefficients included; conditions are rows here.
     """
-    graph: nx.Graph = nx.Graph()
     touched = [coordinates_of(row.piece) for row in rows]
-    for i, mentioned in enumerate(touched):
-        graph.add_node(i)
-        graph.add_edges_from((i, name) for name in mentioned)
     place = {c: k for k, c in enumerate(coordinates)}
     blocks = []
-    for component in nx.connected_components(graph):
-        numbers = sorted(i for i in component if isinstance(i, int))
+    for numbers in sharing(touched):
         conditions = tuple(dict.fromkeys(p for i in numbers if isinstance(p := rows[i].piece, DomainCondition)))
         members = [rows[i] for i in numbers if not isinstance(rows[i].piece, DomainCondition)]
         ordered = [r for r in members if isinstance(r.piece, Finite)]
         ordered += [r for r in members if not isinstance(r.piece, Finite)]
-        names = sorted((name for name in component if isinstance(name, str)), key=place.__getitem__)
-        blocks.append((numbers[0], Block(tuple(names), tuple(ordered), conditions)))
-    used = frozenset().union(*touched) if touched else frozenset()
-    return [b for _, b in sorted(blocks, key=lambda pair: pair[0])], [c for c in coordinates if c not in used]
+        names = sorted(frozenset[str]().union(*(touched[i] for i in numbers)), key=place.__getitem__)
+        blocks.append(Block(tuple(names), tuple(ordered), conditions))
+    used = frozenset[str]().union(*touched)
+    return blocks, [c for c in coordinates if c not in used]
 
 
 def blocks_of(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:

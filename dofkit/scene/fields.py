@@ -291,7 +291,7 @@ class WrittenModel(BaseModel):
     @model_validator(mode="wrap")
     @classmethod
     def _retell(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        if isinstance(data, Mapping) and None in data.values():
+        if isinstance(data, (dict, Mapping)) and None in data.values():
             data = {key: value for key, value in data.items() if value is not None or key not in cls.model_fields}
         try:
             return handler(data)

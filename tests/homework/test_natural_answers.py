@@ -15,6 +15,7 @@ from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.grading import Grader
 from dofkit.homework.questions import KINDS
+from dofkit.homework.result import Item
 
 FOLDER = Path(__file__).parent / "natural"
 FILES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
@@ -23,6 +24,8 @@ HEAVY = {
     "attacks": pytest.mark.sweep,
     "attacks_again": pytest.mark.sweep,
     "equations": pytest.mark.sweep,
+    "fifth_class": pytest.mark.sweep,
+    "fourth_class": pytest.mark.sweep,
     "motion": pytest.mark.sweep,
     "rewritings": pytest.mark.sweep,
 }
@@ -46,14 +49,19 @@ def rows(name: str) -> Iterator[tuple[str, str, Any]]:
                 yield from ((place, verdict, answer) for answer in answers)
 
 
+def graded(name: str, place: str, answer: Any) -> Item:
+    """The item of one answer."""
+    problem, question = place.split(".")
+    result = grader(name).grade(of_value({"answers": {problem: {question: answer}}}, "s"))
+    return next(i for i in result.items if (i.problem, i.question) == (problem, question))
+
+
 @cache
 def outcomes(name: str) -> tuple[tuple[str, str, Any, str, str], ...]:
     """Of every row the place, the verdict, the answer, what was found, and the feedback."""
     found = []
     for place, verdict, answer in rows(name):
-        problem, question = place.split(".")
-        result = grader(name).grade(of_value({"answers": {problem: {question: answer}}}, "s"))
-        (item,) = [i for i in result.items if (i.problem, i.question) == (problem, question)]
+        item = graded(name, place, answer)
         found.append((place, verdict, answer, "open" if item.status in OPEN else item.status, item.feedback))
     return tuple(found)
 
@@ -67,6 +75,22 @@ def test_no_right_answer_is_called_wrong_and_no_wrong_one_right(name: str) -> No
     false = {("right", "wrong"), ("right", "partly"), ("wrong", "right"), ("wrong", "partly"), ("partly", "right"),
              ("partly", "wrong"), ("open", "right")}  # fmt: skip
     assert [row for row in outcomes(name) if (row[1], row[3]) in false] == []
+
+
+def test_what_contradicts_itself_waits_for_a_person() -> None:
+    for place, verdict, answer in rows("contradictions"):
+        item = graded("contradictions", place, answer)
+        waits = item.score is None and "will be looked at" in item.feedback
+        assert verdict != "open" or waits or item.status == "unreadable", (place, answer)
+
+
+def test_every_way_to_read_a_contradiction_is_told_with_what_it_earns() -> None:
+    item = graded("contradictions", "shaken.label", "holonomic and non-holonomic, rheonomic")
+    assert item.feedback.endswith("it contradicts itself: holonomic, non-holonomic.")
+    assert [(way.read_as, way.score) for way in item.readings] == [
+        ("holonomic, rheonomic", 1.0),
+        ("non-holonomic, rheonomic", 0.5),
+    ]
 
 
 @pytest.mark.sweep

@@ -274,6 +274,19 @@ def test_what_a_person_decides_holds_for_all_and_for_later_ones(course: Course) 
     assert rows[3]["remark"] == "The particle is A."
 
 
+def test_the_function_takes_a_review_too(course: Course) -> None:
+    course.grade()
+    table = course.fill({UNREAD: "3"}, decided_by="Ng")
+    given = {"student": "z", "answers": {"p": {"rod": UNREAD, "f": 1}}}
+    for path in (table, str(table)):
+        found = dofkit.grade(SHEET, given, reviewed=path)
+        assert [(item.score, item.decided_by) for item in found.items] == [(2.0, None), (3.0, "Ng"), (0.0, None)]
+    assert dofkit.grade(SHEET, given).needs_review == 1
+    table.write_text("id,marks\n")
+    with pytest.raises(ReviewError, match="there is no column 'points'"):
+        dofkit.grade(SHEET, given, reviewed=table)
+
+
 def test_without_a_name_it_was_the_review(course: Course) -> None:
     course.grade()
     course.grade("--reviewed", str(course.fill({UNREAD: "4"})))

@@ -18,6 +18,7 @@ from dofkit.classification.dependence.inequalities import same_side
 from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
 from dofkit.classification.dependence.periods import fails_on_part
 from dofkit.classification.dependence.regularity import Regularity
+from dofkit.classification.dependence.roots import bounds, loses_nothing, unsound
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.engines import BOTH, Engines
@@ -217,7 +218,12 @@ class Equivalence:
             return Sameness.UNDECIDED
         if (mine.dof, mine.velocity_dof) != (asked.dof, asked.velocity_dof):
             return Sameness.STRONGER
-        return Sameness.SAME if all(r.constraint.facts.half_turns for r in self._wanted) else Sameness.BRANCH
+        if all(r.constraint.facts.half_turns for r in self._wanted):
+            return Sameness.SAME
+        sides = bounds(self._all_wanted, self._rest)
+        lost = unsound(self._given, self._sound) if sides else []
+        whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
+        return Sameness.BRANCH if not sides else Sameness.SAME if whole and all(whole) else Sameness.UNDECIDED
 
     # differentials
 

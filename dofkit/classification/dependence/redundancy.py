@@ -10,9 +10,10 @@ from functools import partial
 import networkx as nx
 
 from dofkit.base.deadline import unless_late
+from dofkit.base.groups import sharing
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
 from dofkit.classification.dependence.by_leaving_out import by_leaving_out, owners_of
-from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, sharing, without_hidden
+from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, joined_parts, without_hidden
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, left_open
 from dofkit.classification.dependence.implications import implication_of
 from dofkit.classification.dependence.regions import is_region, of_regions
@@ -64,14 +65,14 @@ def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcom
 
 def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:
     """The constraints in use, those together that share coordinates."""
-    graph: nx.Graph = nx.Graph()
+    used, mentioned = list[int](), list[frozenset[str]]()
     for i, r in enumerate(reduced):
         every = [p for n in r.normals for b in n.branches for p in b]
         pieces = every if is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
         if pieces and i not in outcome.copies:
-            graph.add_node(i)
-            graph.add_edges_from((i, c) for p in pieces for c in coordinates_of(p))
-    return sorted(sorted(i for i in c if isinstance(i, int)) for c in nx.connected_components(graph))
+            used.append(i)
+            mentioned.append(frozenset[str]().union(*map(coordinates_of, pieces)))
+    return [[used[k] for k in group] for group in sharing(mentioned)]
 
 
 def _of_part(
@@ -91,10 +92,9 @@ def _of_relations(
 ) -> list[Redundancies]:
     """Of constraints that share coordinates: by implication where rank does not measure dependence, else by rank."""
     blocks = list({id(block): (block, a) for i in numbers for block, a in blocks_of.get(i, ())}.values())
+    if _each_takes_one([n for i in numbers for n in reduced[i].normals], blocks):
+        return [_independent({i: reduced[i].equations for i in numbers})]
     if not _measured_by_rank(reduced, setting, numbers, blocks):
-        normals = [n for i in numbers for n in reduced[i].normals]
-        if _each_takes_one(normals, blocks):
-            return [_independent({i: reduced[i].equations for i in numbers})]
         return [_as_free(implied(reduced, setting, numbers), blocks)]
     numbered = _numbered(reduced[i] for i in numbers)
     answered = [
@@ -104,7 +104,7 @@ def _of_relations(
     needed = set[int]().union(*(r.needed for r in settled))
     by_rank = [
         unless_late(partial(analysed, group, needed), left_open(o for rows in group for o in rows.owners))
-        for group in sharing([a for a in answered if isinstance(a, OwnedRows)])
+        for group in joined_parts([a for a in answered if isinstance(a, OwnedRows)])
     ]
     straight = all(a.linear for _, a in blocks)
     where = "everywhere" if straight else unless_late(partial(holds_where, reduced, setting, numbers, by_rank), None)

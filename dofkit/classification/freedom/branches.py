@@ -11,7 +11,7 @@ from itertools import product as cartesian
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.domain import restricted_to_domain
-from dofkit.classification.freedom.isomorphic_blocks import alike, retold
+from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
 from dofkit.classification.freedom.through_reference import passes, through_reference
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions import tree as ex
@@ -21,7 +21,7 @@ from dofkit.relations.answer import Answer
 from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split
 from dofkit.relations.integration_constants import names_in, with_rows
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Still
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -197,7 +197,8 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
         check()
         if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
             continue
-        key = frozenset(Counter(_up_to_a_number(normal) for normal in r.normals).items())
+        keys = [_up_to_a_number(normal) for normal in r.normals]
+        key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
         if key in seen:
             found[i] = seen[key]
         else:
@@ -215,7 +216,9 @@ def _scaled(piece: object) -> Hashable:
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
         return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
-    return repr(piece)
+    if isinstance(piece, Pfaffian):
+        return type(piece), tuple(piece.coefficients.items()), piece.dt
+    return piece
 
 
 def _answered(
@@ -234,29 +237,31 @@ class AnsweredBlocks:
     def __init__(self, system: System) -> None:
         self._roles = {c.name: (c.owner, c.role) for c in system.coordinates}
         self._answers: dict[tuple[int, ...], tuple[Block, Answer]] = {}
-        self._alike: dict[Hashable, tuple[tuple[str, ...], Answer]] = {}
+        self._alike: dict[Hashable, AnsweredBlock] = {}
         self._shapes: set[Hashable] = set()
 
     def answers(self, blocks: Sequence[Block], setting: Setting) -> list[Answer]:
         """The blocks' answers; those that may be twins are looked through for one that was answered."""
         shapes = Counter(map(_shape, blocks)) if len(blocks) > 1 and "twins" in setting.reductions else Counter()
         self._shapes |= {shape for shape, times in shapes.items() if times > 1}
-        return [self._answer(block, setting) for block in blocks]
+        likenesses = Likenesses(setting, self._roles)
+        return [self._answer(block, setting, likenesses) for block in blocks]
 
-    def _answer(self, block: Block, setting: Setting) -> Answer:
-        same = tuple(id(p) for p in (*(row.piece for row in block.rows), *block.conditions))
+    def _answer(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
+        same = tuple([id(row.piece) for row in block.rows] + [id(c) for c in block.conditions])
         if same not in self._answers:
             twins = _shape(block) in self._shapes
-            self._answers[same] = block, self._twin(block, setting) if twins else in_time(block, setting)
+            found = self._twin(block, setting, likenesses) if twins else in_time(block, setting)
+            self._answers[same] = block, found
         return self._answers[same][1]
 
-    def _twin(self, block: Block, setting: Setting) -> Answer:
-        key = alike(block, setting, self._roles)
-        if key in self._alike:
-            own, known = self._alike[key]
-            return retold(known, own, block.coordinates)
+    def _twin(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
+        key, names = likenesses.of(block)
+        known = self._alike.get(key)
+        if known is not None:
+            return known.told_of(block, names)
         found = in_time(block, setting)
-        self._alike[key] = (block.coordinates, found)
+        self._alike[key] = AnsweredBlock(block, names, found)
         return found
 
 

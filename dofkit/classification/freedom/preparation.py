@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from itertools import chain, count
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.expressions import tree as ex
-from dofkit.expressions.differentials import accelerations_of
 from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.accelerations import without_accelerations
-from dofkit.relations.normal.normal_form import Inequality, Normal, normalise, without_instants
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, normalise, without_instants
+from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting, TurnedBody
 from dofkit.system import System
+
+#: The kinds of symbols that no finite relation holds.
+RATES = frozenset({"velocity", "acceleration", "differential", "dt"})
 
 
 def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
@@ -88,7 +92,7 @@ def _links(system: System) -> dict[int, list[tuple[str, str]]]:
 def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
     """Every relation of every constraint as what it says; all that cannot be one are faults together."""
     found, faults = [], []
-    fresh = _fresh(system)
+    read = _Normals(system, positive)
     for i, constraint in enumerate(system.constraints):
         normals, inequalities = [], []
         for relation in constraint.relations:
@@ -97,7 +101,7 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
                 inequalities.append(Inequality(relation.expr, relation.sense == ">"))
                 continue
             try:
-                normals.append(_normal(relation.expr, positive, constraint.facts.written, fresh))
+                normals.append(read.normal(relation.expr, constraint.facts.written))
             except TextError as error:
                 faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
         found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
@@ -106,10 +110,30 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
     return found
 
 
-def _normal(e: Expr, positive: frozenset[Expr], written: bool, fresh: Iterator[str]) -> Normal:
-    if accelerations_of(e):
-        return without_accelerations(e, positive, fresh)
-    return without_instants(normalise(e, positive, written))
+class _Normals:
+    """What relations say; of those that are the same up to names, in the same order, one is looked at."""
+
+    def __init__(self, system: System, positive: frozenset[Expr]) -> None:
+        self._positive = positive
+        self._fresh = _fresh(system)
+        self._known: dict[Hashable, NormalTemplate] = {}
+
+    def normal(self, e: Expr, written: bool) -> Normal:
+        """What ``e = 0`` says. Raises TextError where it can be no relation."""
+        kinds = {s.args[0] for s in e.symbols}
+        if not written and kinds.isdisjoint(RATES):
+            return Normal(((Finite(e),),))
+        if "acceleration" in kinds:
+            return without_accelerations(e, self._positive, self._fresh)
+        if not written:
+            return without_instants(normalise(e, self._positive, written))
+        shape = shape_of(e)
+        key = (shape.skeleton, shape.order)
+        if key in self._known:
+            return self._known[key].of(shape.names)
+        found = without_instants(normalise(e, self._positive, written))
+        self._known[key] = NormalTemplate(found, shape.names)
+        return found
 
 
 def _fresh(system: System) -> Iterator[str]:

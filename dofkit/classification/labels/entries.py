@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -14,17 +14,16 @@ from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.isomorphic_blocks import nameless
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
 from dofkit.classification.labels.reasons import Others
+from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
-from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.integration_constants import fixed_constants
-from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Piece, Still
+from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Still
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
@@ -51,18 +50,22 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    traits_of = _Remembered(setting).traits
-    entries, consistent = [], outcome.consistent
+    shared, entries, consistent = SharedEntries(setting), list[ConstraintEntry](), outcome.consistent
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
-            beside = partial(_with_others, i, told[i], company, names)
-            alone = _by_itself(i, r, told[i], setting)
             copied = i in outcome.copies
-            evidence = Evidence(told[i], alone, number, circuit, constants, traits_of, beside, copied)
-            entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, known))
+            kind = None if known.says_more_of(i) else shared.kind(r, told[i], number, copied, i in known.following)
+            made = shared.known(kind, r)
+            if made is None:
+                beside = partial(_with_others, i, told[i], company, names)
+                alone = _by_itself(i, r, told[i], setting)
+                evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
+                made = _with_dependence(entry(r, evidence, setting, consistent), i, r, known)
+                shared.keep(kind, made)
+            entries.append(made)
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
@@ -78,6 +81,10 @@ class _Dependence(NamedTuple):
     gone: Mapping[int, Verdict]
     open: Mapping[int, str]
     following: Mapping[int, set[int]]
+
+    def says_more_of(self, i: int) -> bool:
+        """Is anything known of a constraint beyond how many of its equations are independent: all of them?"""
+        return i in self.circuits or i in self.gone or i in self.open or bool(self.following.get(i))
 
 
 def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Dependence:
@@ -170,23 +177,6 @@ def _with_others(
     found = (company.of if in_system else company.modulo)(i, only.block, only.answer)
     companions = None if found.companions is None else tuple(f"'{names[k]}'" for k in found.companions)
     return Others(companions, found.integral, found.identically)
-
-
-class _Remembered:
-    """Labels of pieces, found once for those that differ in names only."""
-
-    def __init__(self, setting: Setting) -> None:
-        self._setting = setting
-        self._known: dict[Hashable, Traits] = {}
-
-    def traits(self, piece: Piece) -> Traits:
-        if not isinstance(piece, Pfaffian):
-            return traits(piece, self._setting.positive, self._setting.engines)
-        key = nameless(piece)
-        found = self._known.get(key)
-        if found is None:
-            found = self._known[key] = traits(piece, self._setting.positive, self._setting.engines)
-        return found
 
 
 def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:

@@ -86,15 +86,14 @@ class RealSearch:
         self.upto = len(ring.code)
 
     def start(self, seed: int, given: Mapping[Expr, float]) -> dict[Expr, float]:
-        """Random dyadic values, so that what is not solved for is an exact number."""
+        """Random dyadic values, so that what is not solved for is an exact number.
+
+        Time and a parameter that has a name have the same value wherever they occur: so points of sets fit.
+        """
         rng = random.Random(f"dofkit start {seed}")
-        found = {}
-        for var in self.ring.vars:
-            if var.kind == "symbol":
-                low = 256 if var.key in self.positive or var.key.args[0] in ("time", "parameter") else -1024
-                value = rng.randrange(low, 1025) / 512 or 0.25
-                found[var.key] = given.get(var.key, value)
-        return found
+        symbols = [var.key for var in self.ring.vars if var.kind == "symbol"]
+        drawn = {s: _start_value(s, rng, seed, s in self.positive) for s in symbols}
+        return {s: given.get(s, value) for s, value in drawn.items()}
 
     @raising_no_value
     def search(
@@ -258,6 +257,16 @@ class RealSearch:
         at = values(self.ring, point, self.upto)
         j = jacobian(self.ring, at, point, nodes, indices, arb(0))
         return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
+
+
+def _start_value(symbol: Expr, rng: random.Random, seed: int, positive: bool) -> float:
+    kind, name = symbol.args
+    constant = kind in ("time", "parameter")
+    low = 256 if positive or constant else -1024
+    value = rng.randrange(low, 1025) / 512 or 0.25
+    if constant and name[0] != "_":
+        return random.Random(f"dofkit start {seed} {name}").randrange(low, 1025) / 512
+    return value
 
 
 @raising_no_value

@@ -9,7 +9,7 @@ from fractions import Fraction
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import DOUBTS, LEADING, NEGATIONS, NUMBERS, REASONS, UNITS, plain, words
+from dofkit.homework.answers.prose import DOUBTS, LEADING, NEGATIONS, NUMBERS, REASONS, UNITS, plain, takes_back, words
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError
@@ -26,22 +26,34 @@ _SEGMENT = re.compile(
 _BRACKETS, _BOLD = re.compile(r"[{}\[\]]"), re.compile(r"\A\s*\*\*([^*]+)\*\*(?=\s*\Z)")
 #: What bounds a number without telling it; another number beside it in parentheses; a number before a further name.
 _BOUND = re.compile(
-    r"[<>≤≥≠±]|!=|\\(?:leq?|geq?|neq?|lt|gt)(?![a-z])"
+    r"[<>≤≥≠±∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)(?![a-z])"
     r"|\b(?:plus|moins|m[aá]s|menos|pi[uù]|meno|mais)\s+(?:de|di|do|que|d['’])(?![^\W\d_])",
     re.IGNORECASE,
 )
 _OTHERWISE = re.compile(r"\b(?:or|oder|ou|oppure|rather|actually|eigentlich)\b", re.IGNORECASE)
 _BEFORE_NAME = re.compile(r"\s*\d+(?:\s+[^\W\d_]+){1,2}\s*")
+#: So many longer words say what the parts of a sum are.
+_FEWEST_EXPLAINED, _SHORT = 2, 3
+#: In a part of more words `one` may be an article.
+_ARTICLE_WORDS = 2
 #: A denial of so many words without a number says something of what else there is.
 _REMARK_WORDS = 4
 _ALONE = re.compile(r"(?<![\w^*/+.-])(?:\d{1,4}|[^\W\d_]+)(?![\w^*/+.])")
 #: What other quantities are called.
 _OTHERS = words("n k f dof x y z t theta phi")
-_NAMED = re.compile(r"\s*([^\W\d_]+)\s*=")
+_NAMED = re.compile(r"\s*([^\W\d_]+)\s*(?:=|[<>≤≥≠∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)\b)")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
-_WORD = re.compile(r"d\.\s?o\.\s?f\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?", re.IGNORECASE)
+_WORD = re.compile(
+    r"(?:d\.\s?o\.\s?f|[dg]\.\s?d\.\s?l)\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?", re.IGNORECASE
+)
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
+#: What has or is a number, with words before it: `das Doppelpendel hat`.
+_STATED = re.compile(
+    r"\A[^\d=<>]*\b(?:has|have|had|hat|haben|ha|a|à|possède|possede|possiede|tiene|tem|is|are|ist|sind|est|sont|es|son|è|é|são"
+    r"|gives|leaves|ergibt|bleiben|bleibt|reste|restent|donne)\s+(?=\S)",
+    re.IGNORECASE,
+)
 _FIGURE = re.compile(r"[\d½⅓⅔¼¾]")
 _BETWEEN = re.compile(r"\s*\d+\s*[-–]\s*\d+\s*")
 _ENDING = re.compile(r"[\s.!]+$")
@@ -80,14 +92,32 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
     if not told:
         raise first or TextError("there is no number in this answer", 1, _HINT)
     if len(told) > 1 or (not named and not told >= unread):
-        raise DoubtError("it says more than one number.", 1, _HINT)
+        whole = _sum_of_parts(body.text)
+        if whole is None:
+            raise DoubtError("it says more than one number.", 1, _HINT)
+        return whole
     return told.pop()
 
 
+def _sum_of_parts(text: str) -> Fraction | None:
+    """The first or last of several numbers among words where it is the sum of the others: `3: 2 shifts and 1 turn`."""
+    words = [plain(m[0]) for m in _WORD.finditer(text)]
+    if _SIGNS.search(text) or not (DOUBTS | NEGATIONS).isdisjoint(words) or _OTHERWISE.search(text):
+        return None
+    found = [NUMBERS.get(plain(w), int(w) if w.isdecimal() else -1) for w in _ALONE.findall(text)]
+    numbers = [n for n in found if n >= 0]
+    explained = sum(len(w) > _SHORT for w in words if w not in NUMBERS) >= _FEWEST_EXPLAINED
+    if len(numbers) <= _FEWEST_EXPLAINED or not explained:
+        return None
+    wholes = {n for n in (numbers[0], numbers[-1]) if 2 * n == sum(numbers)}
+    return Fraction(wholes.pop()) if len(wholes) == 1 else None
+
+
 def _beside(text: str) -> set[int]:
-    """The numbers that stand alone in a part that is not read; `one` may be an article."""
-    found = (NUMBERS.get(plain(w), int(w) if w.isdecimal() else 0) for w in _ALONE.findall(text))
-    return {n for n in found if n > 1}
+    """The numbers that stand alone in a part that is not read; `one` is an article in what is longer than two words."""
+    alone = [plain(w) for w in _ALONE.findall(text)]
+    least = 1 if len(alone) > _ARTICLE_WORDS else 0
+    return {int(w) if w.isdecimal() else NUMBERS[w] for w in alone if w.isdecimal() or NUMBERS.get(w, 0) > least}
 
 
 def _segments(script: Script) -> Iterator[Script]:
@@ -96,6 +126,8 @@ def _segments(script: Script) -> Iterator[Script]:
         before = script.text[: group.start()].rstrip()
         if before and before[-1] not in "+-*/=(^":
             inside = script.cut(*group.span(1))
+            if takes_back(inside.text):
+                raise DoubtError("a remark leaves it open.", inside.columns[0], _HINT)
             if _OTHERWISE.search(inside.text) and _FIGURE.search(inside.text):
                 raise DoubtError("it says more than one number.", inside.columns[0], _HINT)
             if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
@@ -166,6 +198,9 @@ def _value(script: Script) -> Fraction | None:
         raise DoubtError("it says what the number is not.", script.columns[0], _HINT)
     if script.text.rstrip().endswith("?"):
         raise DoubtError("a question mark leaves it open.", script.columns[0], _HINT)
+    stated = _STATED.match(script.text)
+    if stated is not None and not any(NUMBERS.get(w, 0) > 1 for w in map(plain, _WORD.findall(stated[0]))):
+        script = script.cut(stated.end())
     figures = _FIGURE.search(script.text)
     start = len(script.text) if figures is None else figures.start()
     rest = script.replaced(_WORD, lambda m: _counted(m, m.start() < start)).replaced(_ENDING, "")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -72,12 +73,28 @@ _OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear
 ALIKE = 0.86
 _HYPHEN = re.compile("[-\u2010-\u2015_]")
 _SLASH = re.compile(r"[/|+()\[\]]|(?<=[a-z])\.(?=[a-z])")
-#: `holonomic: yes, scleronomic: no`, and `holonomic not`; a negated group may mean each or not all.
-_TOLD = re.compile(
-    rf"([^\W\d_][\w\u2010-\u2015-]*)(\s*[:=]\s*|\s+[-\u2013\u2014]?\s*)({'|'.join(sorted({*YES, *NO, 'não', 'sí'}))})"
-    r"\b(?=\s*(?:[,;.)\n]|$|(?:and|und|et|y|e)\s|[^\W\d_][\w-]*\s*[:=]))",
+_SAID = "|".join(sorted({*YES, *NO, "não", "sí", "sì"}))
+_ENDS = r"\b(?=\s*(?:[,;.)\n]|$|(?:and|und|et|y|e)\s|[^\W\d_][\w-]*\s*[:=]))"
+#: `holonomic: yes, scleronomic: no`, and `holonomic not`; `holonomic: yes and no` and such say neither.
+_TOLD = re.compile(rf"([^\W\d_][\w\u2010-\u2015-]*)(\s*[:=]\s*|\s+[-\u2013\u2014]?\s*)({_SAID}){_ENDS}", re.IGNORECASE)
+_TOLD_TWICE = re.compile(
+    rf"\b({_SAID})(?:\s*[,/&|]\s*|\s+(?:and|und|et|y|e|or|oder|ou|o)\s+|\s+)({_SAID}){_ENDS}", re.IGNORECASE
+)
+#: A label that is corrected; a negation in parentheses, joined to a label or before it.
+_TAKEN_BACK = re.compile(
+    r"[,;]\s*(?:no|not|nope|nein|nicht|non|nao|não|wait|sorry)\s*[,;:!]"
+    r"|\((?:no|not|non|nicht|nao|não|pas|ne|an|in|un|nicht)-?\)\s*-?(?=[^\W\d_])",
     re.IGNORECASE,
 )
+#: `rheo-/scleronomic`: the end of a label is said once for two.
+_SHORTENED = re.compile(
+    r"\b((?:non-?|nicht-?|an)?holo|(?:e?scler|skler)o|rh?eo)-(?=\s*(?:[/&]|(?:and|und|et|y|e|or|oder|ou|o)\s))"
+    r"|\b(bi|uni)-(?=\s*(?:[/&]|(?:and|und|et|y|e|or|oder|ou|o)\s))",
+    re.IGNORECASE,
+)
+#: Words that leave a label open, but not a number.
+_HALF_SAID = words("? half halb semi mezzo demi medio meio")
+#: A negated group may mean each or not all.
 _GROUP_DENIED = re.compile(r"\b(?:not|nicht|non|no|pas|nao|não)\s*\([^()]*\w[\s,&]+\w[^()]*\)", re.IGNORECASE)
 _JOINED = re.compile(r"([^\W\d_][\w\u2010-\u2015-]*)\s*(?:[/&+]|\b(?:and|und|et|y|e|or|oder|ou)\b)\s*\Z", re.IGNORECASE)
 #: What a negation that stands apart from the labels may speak of, in the same clause or in brackets.
@@ -115,11 +132,13 @@ _ABOUT = {
     "scleronomic": re.compile(r"\btime|zeit|temps|tiempo|tempo\b"),
     "bilateral": re.compile(r"\bside|seitig|\bcote|\blado|\blato"),
 }
+#: Of every part that is mentioned whether it is said to hold; both where an answer contradicts itself.
+Labels = Mapping[str, frozenset[bool]]
 _HINT = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral"
 
 
-def read_labels(answer: Given) -> dict[str, frozenset[bool]]:
-    """For every part that is mentioned whether it is said to hold; both where the answer contradicts itself.
+def read_labels(answer: Given) -> Labels:
+    """The labels that an answer tells.
 
     A negation before a label, joined to it or not, turns it round; what else a sentence says is read over. Raises
     TextError where there is no label, or a word that may be one and cannot be read; DoubtError for questions.
@@ -129,7 +148,7 @@ def read_labels(answer: Given) -> dict[str, frozenset[bool]]:
     given = _split(answer)
     for place, word in enumerate(given):
         text = plain(word.text.strip(".:!()\"'"))
-        if text in DOUBTS or text.endswith("%"):
+        if text in DOUBTS or text in _HALF_SAID or text.endswith("%"):
             raise DoubtError("a word leaves it open.", word.column, _HINT)
         label = None if text in _OTHERS else _label(text.rstrip("?"))
         if label is not None:
@@ -166,10 +185,18 @@ def _split(answer: Given) -> list[Word]:
     if not isinstance(answer, str):
         return split_words(answer)
     script: Script = script_of(one_text(answer))
-    denied = _GROUP_DENIED.search(script.text)
+    script = script.replaced(_REPLY, "")
+    denied = _GROUP_DENIED.search(script.text) or _TAKEN_BACK.search(script.text)
     if denied is not None:
         raise DoubtError("what is negated is open.", script.columns[denied.start()], _HINT)
-    script = script.replaced(_REPLY, "").replaced(_TOLD, _answered).replaced(_ITALIAN_NOR, "neither")
+    for both in _TOLD_TWICE.finditer(script.text):
+        if (plain(both[1]) in NO) != (plain(both[2]) in NO):
+            raise DoubtError("it says yes and no.", script.columns[both.start()], _HINT)
+    script = (
+        script.replaced(_SHORTENED, lambda m: f"{m[1]}nom" if m[1] else f"{m[2]}lateral")
+        .replaced(_TOLD, _answered)
+        .replaced(_ITALIAN_NOR, "neither")
+    )
     for pattern, by in _PHRASES:
         script = script.replaced(pattern, by)
     script = script.replaced(_SLASH, " ")
@@ -221,6 +248,6 @@ def word_of(part: str, holds: bool) -> str:
     return TERMS[part].holds if holds else TERMS[part].fails
 
 
-def label_text(given: dict[str, frozenset[bool]]) -> str:
+def label_text(given: Labels) -> str:
     """Labels as they were understood."""
     return ", ".join(word_of(part, holds) for part in TERMS for holds in sorted(given.get(part, ()), reverse=True))

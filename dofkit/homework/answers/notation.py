@@ -60,7 +60,7 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\\(?:long)?(?:iff|implies|Rightarrow|Leftrightarrow|Longrightarrow|Longleftrightarrow|rightarrow|to)(?![A-Za-z])"
          r"|[⇒⇔⟹⟺→⟶↔]|<=>|==?>(?!=)|->", ARROW),
         (r"\\(?:wedge|land)(?![A-Za-z])|∧", ";"),
-        (r"\\(?:displaystyle|textstyle|nonumber|notag|hfill|limits|boxed|ensuremath|strut|mathstrut)(?![A-Za-z])", " "),
+        (r"\\(?:displaystyle|textstyle|nonumber|notag|hfill|limits|strut|mathstrut)(?![A-Za-z])", " "),
         (r"\\(?:label|tag)\s*\{[^}]*\}", " "),
         (r"\\(?:[dtc]?frac)\s*(\d)\s*(\d)", r"\\frac{\1}{\2}"),
         (r"\\(?:[dtc]?frac)\s*(\d|[A-Za-z])\s*(?=\{)", r"\\frac{\1}"),
@@ -81,6 +81,7 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\bd\s*/\s*(?:dt|\(dt\))\s*(?=[(\[{])", "Ddt"),
         (r"\\frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\}\s*(?:\\left)?\s*(?=[(\[{])", "Ddt"),
         (r"\{,\}", "."),
+        (r"(?<=[\w)\]])\.(?=[*/^])", ""),
         (r"\\(?:text|mathrm|textrm|mbox|textit|textbf|mathbf|boldsymbol|bm)\s*\{\s*([^{}]*)\}", r" \1 "),
         (r"\\pm(?![A-Za-z])", "±"),
         (r"\\mp(?![A-Za-z])", "∓"),
@@ -166,12 +167,25 @@ def _as_equation(script: Script) -> Script:
     return script
 
 
+_BOX = re.compile(r"\\(?:boxed|fbox|framebox|underline|ensuremath)\s*(?=\{)")
+
+
+def _unboxed(script: Script) -> Script:
+    """Without the frames of a result, `\\boxed{...}`."""
+    while (match := _BOX.search(script.text)) is not None:
+        end = _closed(script.text, match.end())
+        if end is None:
+            return script
+        script = script.spliced(end, end + 1, " ").spliced(match.start(), match.end() + 1, " ")
+    return script
+
+
 def script_of(text: str) -> Script:
     """A text in plain signs; what the grammar does not know stays as it is, and is refused there."""
     script = Script.of(text).replaced(_BROKEN, _mended).replaced(_WIDE, _narrow)
     if script.text.isascii() and not _ODD.search(script.text):
         return script
-    script = _as_equation(script)
+    script = _unboxed(_as_equation(script))
     if "\\begin" in script.text:
         script = script.replaced(_ALIGNED, " ")
     for pattern, by in _RULES:
@@ -182,5 +196,5 @@ def script_of(text: str) -> Script:
 #: A plain text without any of these needs no rule.
 _ODD = re.compile(
     r"Derivative|Eq\(|Equality|[\\$&`\"{>]|:=|\bdd?ot\(|\bd/|np\.|math\.|sympy\.|sp\.|numpy\.|<br"
-    r"|\b(?:sen|tg|Sin|Cos|Tan|Sqrt|Exp|SIN|COS|TAN|SQRT|EXP)\b"
+    r"|\.[*/^]|\b(?:sen|tg|Sin|Cos|Tan|Sqrt|Exp|SIN|COS|TAN|SQRT|EXP)\b"
 )

@@ -10,7 +10,7 @@ from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.characters import GREEK
 from dofkit.homework.answers.notation import ARROW, script_of, with_differentials
-from dofkit.homework.answers.prose import plain, words
+from dofkit.homework.answers.prose import plain, takes_back, words
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError
@@ -34,10 +34,19 @@ _DECIMAL = re.compile(r"(?<=\d),(?=\d)")
 _WORDS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
 _GROUP = re.compile(r"[(\[]([^()\[\]=<>+*/^\d]+)[)\]]\s*\Z|[(\[]([^()\[\]=<>+*/^\d]+)[)\]](?=\s*[;,\n])")
 _INTRODUCED = re.compile(
-    r"\A\s*(?:[^\W\d_]+['’]?\s+){0,5}"
-    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have)"
-    r"(?:\s+that)?\s*:?\s+(?=\S)", re.IGNORECASE,
+    r"\A\s*(?:[^\W\d_]+(?:['’]\s*|\s+)){0,6}"
+    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have|follows|folgt|vaut"
+    r"|s['’]\s?écrit|se\s+escribe|si\s+scrive|escreve-se|donne|da|resulta|risulta|becomes|wird)"
+    r"(?:\s+(?:that|zu|als|comme|como|come))?\s*:?\s+(?=\S)", re.IGNORECASE,
 )  # fmt: skip
+#: What a family of curves is called, before its equation.
+_CURVES = re.compile(
+    r"\A\s*(?:(?:the|die|der|das|les|la|le|las|los|le|gli|i|as|os|family|familie|schar|famille|familia|of|von|de|di|alle)\s+)*"
+    r"(?:straight\s+)?(?:lines?|geraden?|droites?|rectas?|rett[ae]|retas?|circles?|kreise?|cercles?|c[ií]rculos?|cerchi|spheres?"
+    r"|kugeln?|sph[èe]res?|parabol[ae]s?|parabeln?|hyperbol[ae]s?|hyperbeln?|hip[ée]rbolas?|spirals?|spiralen?|ellipsen?|curves?"
+    r"|kurven?|courbes?|curvas?|curve)(?:schar)?\s+(?=\S)",
+    re.IGNORECASE,
+)
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
 _REMARKED = words(
     "constant constante const konstante konst costante cte arbitrary beliebig arbitraire real reell reel reale any "
@@ -50,6 +59,8 @@ _ABOUT_CONSTANT = re.compile(
 )  # fmt: skip
 #: A letter that is the Spanish or the Italian word for "and", between what may be two equations.
 _BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
+#: A sign of equality for numbers that are rounded.
+_ROUNDED = re.compile(r"(?:[≈≃≅]|\\(?:approx|simeq|cong)(?![A-Za-z]))(?=.*\d[.,]\d)")
 _CHAINED = re.compile(r"(?<![<>=!])=(?!=)")
 
 
@@ -147,23 +158,32 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     """An equation without what stands around it; None where there is only a remark."""
     script = script.stripped()
     while (group := _GROUP.search(script.text)) is not None and _is_remark(group[1] or group[2] or "", names, 3):
+        _check(group[0], script.columns[group.start()])
         script = script.replaced(re.compile(re.escape(group[0])), " ").stripped()
     script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|\s*\.\s*\Z|!\s*\Z"), "").stripped()
     if _RELATION.search(script.text):
         script = script.replaced(_NUMBER_AFTER, "").stripped()
+    script = script.replaced(_CURVES, "") if _RELATION.search(script.text) else script
     for lead in (_TITLED, _INTRODUCED):
         match = lead.match(script.text)
         if match is not None and _is_lead(match[0], names):
             script = script.cut(match.end()).stripped()
     text = script.text
     if not text or (_ABOUT_CONSTANT.fullmatch(text) and not _of_coordinates(text, names)) or _is_remark(text, names):
+        _check(text, script.columns[0])
         return None
     if len(_CHAINED.findall(text)) > 1 and _BESIDE.search(text):
         raise DoubtError("a letter may be a factor or the word for `and`.", script.columns[0], "write `;`")
-    script = script.replaced(_DECIMAL, ".")
+    script = script.replaced(_ROUNDED, "=").replaced(_DECIMAL, ".")
     if script.text != text and len(_CHAINED.findall(text)) > 1:
         raise DoubtError("a comma may be a decimal sign or stand between equations.", script.columns[0], None)
     return script
+
+
+def _check(remark: str, column: int) -> None:
+    """Raises DoubtError for a remark that takes back what it stands beside."""
+    if takes_back(remark):
+        raise DoubtError("a remark leaves it open.", column, None)
 
 
 def _known(word: str, names: Names) -> bool:

@@ -14,7 +14,8 @@ def words(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-def _phrases(text: str) -> frozenset[str]:
+def phrases(text: str) -> frozenset[str]:
+    """The same of texts with bars between them."""
     return frozenset(text.split("|"))
 
 
@@ -41,7 +42,8 @@ UNITS = words(
     "coordinata independent unabhangig unabhangige independants independantes independante independiente "
     "independientes indipendenti indipendente independentes generalized generalised generalisierte "
     "verallgemeinerte velocity velocities geschwindigkeiten vitesses velocidades finite holonomic holonome total "
-    "insgesamt en tout"
+    "insgesamt en tout einziger einzige einzigen in im dans nel configuration konfigurationsraum space espace espacio "
+    "spazio espaco"
 )
 #: What leads to a number.
 LEADING = words(
@@ -64,39 +66,27 @@ NEGATIONS = words("not no nicht kein keine pas nao não non never isn't")
 DOUBTS = words(
     "maybe perhaps possibly probably doubt doubtful doubts wrong false incorrect untrue unsure opposite contrary "
     "hardly if would could might seems seemingly looks scarcely barely "
-    " unlikely anything lacks rather unless except almost quasi partly partially far "
+    " unlikely anything lacks sometimes undecided rather unless except almost quasi partly partially far "
     "vielleicht eventuell moglicherweise vermutlich zweifel bezweifle falsch gegenteil kaum unwahr keineswegs "
+    "bzw jein manchmal mitunter unentschieden "
     "keinesfalls fast teilweise unsicher wenn falls sofern ware konnte scheint "
-    "peut-etre faux fausse incorrect contraire guere presque doute incorrecte "
-    "quizas quiza acaso incorrecto incorrecta opuesto contrario contraria dudo apenas casi tal-vez "
-    "forse falso falsa sbagliato errato opposto dubito quasi appena errada errado talvez duvido quase"
+    "peut-etre parfois faux fausse incorrect contraire guere presque doute incorrecte "
+    "veces quizas quiza acaso incorrecto incorrecta opuesto contrario contraria dudo apenas casi tal-vez "
+    "volte vezes forse falso falsa sbagliato errato opposto dubito quasi appena errada errado talvez duvido quase"
+)
+#: Words of a remark that take back what it follows, where there are few; and what does in any.
+_TAKING_BACK = words(
+    "maybe perhaps possibly probably doubtful wrong false incorrect unsure guess guessed jein vielleicht eventuell "
+    "vermutlich falsch unsicher geraten peut-etre faux fausse incorrecte quizas quiza incorrecto incorrecta forse "
+    "falso falsa sbagliato errato errada errado talvez"
+)
+_DOUBTFUL_WORDS = 3
+_UNSURE = re.compile(
+    r"\b(?:not|nicht|pas|no|non|nao)\s+(?:quite\s+|ganz\s+)?(?:sure?|certain|sicher|segur[oa]|sicur[oa]|cert[oa])\b"
 )
 #: What is answered to a word such as `holonomic:`.
 YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro")
 NO = words("no false not nein falsch nicht non faux falso falsa nao")
-#: The answers that there is none, in small letters and without accents; a dash alone is no answer.
-NONE = _phrases(
-    "none|no|nope|nothing|null|nil|empty|∅|{}|[]|()|there is none|there are none|does not exist|no integral|"
-    "not integrable|it does not integrate|does not integrate|doesn't integrate|it is not integrable|"
-    "cannot be integrated|can't be integrated|non integrable|non-integrable|nonintegrable|no integrable|no redundant|"
-    "no redundancy|not redundant|nothing is redundant|"
-    "nothing can be dropped|none can be dropped|no constraint can be dropped|"
-    "no integral exists|there is no such relation|none of them|none is redundant|none are redundant|"
-    "no redundant constraints|no constraint|no constraints|no redundant constraint|there is no integral|"
-    "no finite relation|none exists|no such relation|not possible|not holonomic|nonholonomic|non-holonomic|"
-    "it is non-holonomic|it is nonholonomic|non holonomic|"
-    "nein|keine|keiner|keines|keins|nichts|nicht integrierbar|ist nicht integrierbar|gibt es nicht|gibt keine|"
-    "es gibt keine|es gibt keines|es gibt keins|kein integral|leer|leere menge|keine redundanten|keine redundant|"
-    "keine redundante|keine redundanz|keine ist redundant|nichtholonom|nicht holonom|anholonom|existiert nicht|"
-    "lasst sich nicht integrieren|nicht moglich|integriert nicht|"
-    "non|aucun|aucune|rien|il n'y en a pas|il n'y en a aucune|pas integrable|n'est pas integrable|"
-    "ce n'est pas integrable|n'existe pas|pas d'integrale|aucune integrale|vide|aucune redondance|"
-    "aucune n'est redondante|elle n'est pas integrable|pas de redondance|non holonome|"
-    "ninguno|ninguna|nada|no hay|no existe|no es integrable|vacio|no hay ninguna|no hay ninguno|"
-    "ninguna es redundante|no se integra|no se puede integrar|no holonoma|"
-    "nessuno|nessuna|niente|non esiste|non e integrabile|non integrabile|non ce ne sono|vuoto|anolonomo|"
-    "nao|nenhum|nenhuma|nao ha|nao existe|nao e integravel|nao integravel|vazio"
-)
 #: Alone they are no answer at all.
 NOTHING_SAID = frozenset(
     ("", "-", "--", "---", "–", "—", "−", "/", "?", "??", "???", "...", "…", "n/a", "na", "x?", ".")
@@ -108,7 +98,8 @@ FILLING = words(
     "winkel angle angles position positions coordinate coordinates le la les un une est c'est aussi et sont el "
     "los las uno una son tambien y lo il gli i e anche sono os um uma tambem constraint constraints with to by "
     "von vom mit bindung bindungen koordinate koordinaten coordonnees coordenadas redundant redundante "
-    "redundantes generalized generalised verallgemeinerte one choice possible set wir wahlen choose can dropped"
+    "redundantes generalized generalised verallgemeinerte one choice possible set wir wahlen choose can dropped "
+    "alone sowie beide beiden both les deux ambos entrambi allebei"
 )
 
 
@@ -123,12 +114,17 @@ def plain(text: str) -> str:
     return " ".join(bare.rstrip(".!").split())
 
 
+def takes_back(remark: str) -> bool:
+    """Does a short remark leave open what stands before it: `?`, `not sure`, `maybe 2`?
+
+    >>> takes_back("not sure"), takes_back("it would be 2 without the rod")
+    (True, False)
+    """
+    told = re.findall(r"[^\W\d_]+(?:['’-][^\W\d_]+)*", plain(remark))
+    doubted = len(told) <= _DOUBTFUL_WORDS and not _TAKING_BACK.isdisjoint(told)
+    return "?" in remark or doubted or _UNSURE.search(plain(remark)) is not None
+
+
 def says_nothing(answer: object) -> bool:
     """Is there no answer: nothing, a dash, a question mark?"""
     return isinstance(answer, str) and answer.strip().lower() in NOTHING_SAID
-
-
-def says_none(text: str) -> bool:
-    """Does a text say that there is none?"""
-    told = plain(REASONS.split(text, maxsplit=1)[0])
-    return told in NONE or plain(re.split(r"[,;:(]| - | – | — ", told)[0]) in NONE

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -12,12 +12,15 @@ from pydantic_core import PydanticCustomError
 from dofkit.base.errors import TextError
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import spelled
+from dofkit.homework.answers.denials import affirms, beside_none, says_none
 from dofkit.homework.answers.notation import script_of
-from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, REASONS, plain, says_none
+from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, NUMBERS, REASONS, plain
 from dofkit.homework.answers.script import Script
-from dofkit.homework.judgement import Given
+from dofkit.homework.judgement import DoubtError, Given
 from dofkit.scene.fields import as_written, exact
 
+#: Fewer words than so many beside names say nothing of them.
+_FEW_WORDS = 3
 #: No answer is read beyond this.
 MOST_CHARACTERS = 2000
 _SEPARATORS = re.compile(r"[,;\s]+(?:and|und|et|&)[,;\s]+|[,;\s]+|\s*&\s*")
@@ -28,6 +31,7 @@ _LEAD = re.compile(r"\A[^:=\d]*:(?!=)")
 _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=")
 _COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
 _OR = re.compile(r",?\s+(?:or|oder|ou|oppure)\s+", re.IGNORECASE)
+_EITHER = re.compile(r"\A\s*(?:either|entweder|soit)\s+", re.IGNORECASE)
 _LOWERED = {0x2080 + n: str(n) for n in range(10)}
 _BRACES = re.compile(r"_\{(\w+)\}")
 
@@ -81,18 +85,33 @@ def _words(script: Script) -> Iterator[Word]:
         yield Word(body[place:].rstrip("."), script.columns[start + place])
 
 
-def is_none(answer: object) -> bool:
-    """Is the answer that there is none?"""
+def is_none(answer: object, says: Callable[[str], bool] | None = None) -> bool:
+    """Is the answer that there is none? ``says``: does a part of it name one all the same?
+
+    Raises DoubtError where it says both.
+    """
     if isinstance(answer, Sequence) and not isinstance(answer, str):
-        return not answer or (len(answer) == 1 and is_none(answer[0]))
-    return isinstance(answer, str) and says_none(answer)
+        return not answer or (len(answer) == 1 and is_none(answer[0], says))
+    if not isinstance(answer, str) or len(answer) > MOST_CHARACTERS:
+        return False
+    if says is not None and any(says(part) or affirms(part) for part in beside_none(answer)):
+        raise DoubtError("it says that there is none, and names one.", 1, None)
+    return says_none(answer)
+
+
+def lists_only(part: str, known: Sequence[str]) -> bool:
+    """Does a part of an answer consist of known names, with words around them that say nothing?"""
+    table = ChoiceOfNames(known)
+    found = [word.text for word in split_words(part)]
+    others = [w for w in found if not table.meant(w)]
+    return len(others) < min(len(found), _FEW_WORDS) and all(plain(w) in FILLING for w in others)
 
 
 def alternatives(answer: Given) -> list[Given]:
     """The answers of `x or y`; the answer itself where it is one."""
     if not isinstance(answer, str):
         return [answer]
-    parts = _OR.split(answer.removeprefix("either "))
+    parts = _OR.split(_EITHER.sub("", answer))
     return [*parts] if all(part.strip() for part in parts) else [answer]
 
 
@@ -118,7 +137,14 @@ def names_of(answer: object, known: Sequence[str], what: str, others: Mapping[st
     table = ChoiceOfNames(known)
     if any(table.meant(word.text) for word in words):
         words = [w for w in words if table.meant(w.text) or plain(w.text.strip(".:'\"")) not in FILLING]
+        words = _without_count(words, table)
     return chosen(words, known, what)
+
+
+def _without_count(words: Sequence[Word], table: ChoiceOfNames) -> list[Word]:
+    """Words without the number of the names among them: `the two angles`."""
+    count = len({table.meant(w.text) for w in words} - {None})
+    return [w for w in words if table.meant(w.text) or NUMBERS.get(plain(w.text)) != count]
 
 
 class ChoiceOfNames:

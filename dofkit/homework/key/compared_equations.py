@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple, TypeVar
 
@@ -12,7 +13,7 @@ from dofkit.classification.dependence.equivalence import Compared, Sameness, com
 from dofkit.expressions.text import UnknownNameError
 from dofkit.homework.answers.relations import AnswerReading
 from dofkit.homework.answers.rounding import exact_ways
-from dofkit.homework.judgement import HALF, NOTHING, Given, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.judgement import HALF, NOTHING, Given, JudgedReading, Judgement, needs_review, partly, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
 from dofkit.homework.key.second_derivatives import held_accelerations
@@ -75,12 +76,26 @@ class EquationComparison:
                 if self._found(exact).status == "right":
                     told = "Its numbers are rounded: write them exactly, as roots and fractions."
                     return partly(HALF, way.shown, told, ROUNDED)
+        if found.codes == (Sameness.EMPTY.value,) and len(way.relations) > 1:
+            return self._contradictory(way) or found
         if way.derived and found.status != "right":
             last = self._found(way.claim)
             if last.status == "right":
                 return last
             return needs_review(way.shown, "whether the last of the equations alone is meant.")
         return found
+
+    def _contradictory(self, way: AnswerReading) -> Judgement | None:
+        """Of equations that exclude each other some are right: a person has to look. None where none is."""
+        ways = []
+        for relation, bare in zip(way.relations, way.bare, strict=True):
+            one = way._replace(relations=(relation,), bare=(bare,))
+            with suppress(TextError):
+                found = self._found(one)
+                ways.append(JudgedReading(found.read_as, found.share))
+        if all(share == NOTHING for _, share in ways):
+            return None
+        return replace(needs_review(way.shown, "it contradicts itself."), ways=tuple(ways))
 
     def _found(self, way: AnswerReading) -> Judgement:
         if not way.own:
@@ -111,7 +126,7 @@ class EquationComparison:
         """Equations of accelerations: a constraint that was differentiated twice is partly right."""
         held = held_accelerations(way, self.key, self.names)
         if held:
-            told = "This is the constraint, differentiated twice: it leaves two constants open, so it says less."
+            told = "This is the constraint, differentiated until it holds accelerations: it leaves more open."
             return partly(HALF, way.shown, told, Sameness.DIFFERENTIATED.value)
         if held is None:
             return needs_review(way.shown, "it holds accelerations.")

@@ -99,6 +99,16 @@ class MotionSameness(Enum):
     TRIVIAL = "NO_ACCELERATION"
 
 
+class Followed(NamedTuple):
+    """How each equation of an answer compares, how many accelerations those that follow fix, and whether some follow
+    while no accelerations satisfy all of them.
+    """
+
+    told: list[MotionSameness]
+    rank: int
+    contradictory: bool
+
+
 @dataclass(frozen=True)
 class AnsweredMotion:
     """Equations of an answer (each is 0) beside those that are right; ``own``: the answer's names for multipliers."""
@@ -118,7 +128,7 @@ class AnsweredMotion:
         found = []
         unknown = [*self.columns, *self.own]
         for e in self.equations:
-            e = self.known.on_constraints(self.known.in_kept(_in_time(e)))
+            e = self.known.on_constraints(self.known.in_kept(in_time(e)))
             row = linear(e, unknown)
             if row is None:
                 return None
@@ -138,8 +148,8 @@ class AnsweredMotion:
         whole = len(self.known.names) + len(self.known.multipliers)
         return self.rows is not None and len(self.right) == whole
 
-    def follow(self) -> tuple[list[MotionSameness], int] | None:
-        """How each equation compares, and how many accelerations those that follow fix; None where it is open.
+    def follow(self) -> Followed | None:
+        """How each equation compares with those that are right; None where it is open.
 
         Multipliers of the answer's own may have any value: an equation follows where there is one at which the
         scene's accelerations satisfy all that hold it.
@@ -162,7 +172,8 @@ class AnsweredMotion:
         n = len(self.columns)
         rank = max(t.rank if all(sound) else t.sound_rank(sound, n) for t in told)
         still = [not any(v for t in told for v in t.rows[i][:n]) for i in range(len(rows))]
-        return [_verdict(s, z) for s, z in zip(sound, still, strict=True)], rank
+        verdicts = [_verdict(s, z) for s, z in zip(sound, still, strict=True)]
+        return Followed(verdicts, rank, any(sound) and all(t.contradictory(n) for t in told))
 
     def _by_cramer(self) -> list[bool] | None:
         """Which equations the accelerations satisfy, identically: det(M) times the equation, by Cramer's rule."""
@@ -196,6 +207,11 @@ class PointFindings(NamedTuple):
     def sound_rank(self, sound: Sequence[bool], n: int) -> int:
         """The rank of the accelerations in the rows that follow everywhere, if they hold no multipliers."""
         return rank_of([row[:n] for row, s in zip(self.rows, sound, strict=True) if s and not any(row[n:-1])], self.p)
+
+    def contradictory(self, n: int) -> bool:
+        """Do rows that hold accelerations exclude each other?"""
+        moving = [row for row in self.rows if any(row[:n])]
+        return rank_of(moving, self.p) > rank_of([row[:-1] for row in moving], self.p)
 
 
 def _at_points(
@@ -247,7 +263,7 @@ def _consistent(rows: list[list[int]], p: int) -> list[bool]:
     return told
 
 
-def _in_time(e: Expr) -> Expr:
+def in_time(e: Expr) -> Expr:
     """Differentials read as velocities."""
     rates = {s: ex.velocity(str(s.args[1])) for s in e.symbols if s.args[0] == "differential"}
     return substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})

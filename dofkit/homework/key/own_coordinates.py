@@ -11,7 +11,7 @@ from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.expressions.text import Comparison, parse_expression, to_text, valid_name
 from dofkit.homework.answers.relations import AnswerNames, readings_of
-from dofkit.homework.answers.words import is_none, names_of
+from dofkit.homework.answers.words import is_none, lists_only, names_of
 from dofkit.homework.judgement import DoubtError, Given
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import restrictions
@@ -20,7 +20,7 @@ from dofkit.scene.lowering import lower
 
 _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=(?=\s*\\?\w+\s*\$?(?:[,;.]|\Z))")
 _WITH = r"(?:with|where|mit|wobei|avec|où|con|donde|dove|such that|sodass|so that)\b"
-_BEGINS = re.compile(rf"[,;:]\s*{_WITH}|[,;:(]|\b{_WITH}")
+_BEGINS = (re.compile(rf"[,;:(]?\s*\b{_WITH}"), re.compile(r"[,;:(]"))
 
 
 class ChosenCoordinates(NamedTuple):
@@ -35,7 +35,7 @@ def chosen_coordinates(answer: Given, key: Key) -> ChosenCoordinates:
 
     Raises TextError for others.
     """
-    if is_none(answer):
+    if is_none(answer, lambda part: lists_only(part, [*key.coordinates, *key.also])):
         return ChosenCoordinates([], key)
     try:
         return ChosenCoordinates(names_of(answer, key.coordinates, "coordinate", key.others), key)
@@ -59,10 +59,10 @@ def _defined(answer: str, key: Key) -> ChosenCoordinates | None:
     answer = _TITLE.sub(lambda m: " " * len(m[0]), answer)
     if "=" not in answer:
         return _offered_names(answer, key)
-    cut = _BEGINS.search(answer)
+    cut = _BEGINS[0].search(answer) or _BEGINS[1].search(answer)
     if cut is None or "=" in answer[: cut.start()]:
         return None
-    rest = answer[cut.end() :].rstrip().removesuffix(")") if cut[0] == "(" else answer[cut.end() :]
+    rest = answer[cut.end() :].rstrip().removesuffix(")") if cut[0][0] == "(" else answer[cut.end() :]
     way = readings_of(rest, AnswerNames(key.names))[0]
     if way.moving or not way.own or any(bare for bare in way.bare):
         return None

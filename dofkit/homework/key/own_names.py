@@ -21,6 +21,7 @@ from dofkit.scene.scene import Scene
 MOST_RENAMED = 2
 #: What constants of integration are called: these are no declared ones under another name.
 _OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|const\w*|konst\w*")
+_TWO = 2
 _SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
 
 
@@ -99,9 +100,12 @@ def _turn(e: Expr, scene: Scene) -> tuple[str, Expr] | None:
 
 
 def _without_angle(holding: Sequence[Expr], rest: list[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
-    """Two relations linear in the sine and cosine of an angle, solved for them: their squares add up to 1."""
+    """Relations linear in the sine and cosine of an angle, solved for them: their squares add up to 1.
+
+    a sin(A) = b cos(A) holds for some A whatever a and b are; a = r cos(A), b = r sin(A) where a^2 + b^2 = r^2.
+    """
     angles = {n.args[1] for e in holding for n in ex.nodes(e) if n.op == "fn" and symbol in n.symbols}
-    if len(angles) != 1 or len(holding) < 2:
+    if len(angles) != 1:
         return None
     (angle,) = angles
     slope = diff(angle, symbol)
@@ -111,6 +115,10 @@ def _without_angle(holding: Sequence[Expr], rest: list[Expr], symbol: Expr, scen
     sums = [replace_nodes(e, named) for e in holding]
     if any(symbol in e.symbols for e in sums):
         return None
+    if len(sums) < _TWO:
+        return rest if (row := _linear(sums[0])) is not None and row[2].is_zero else None
+    if len(sums) == _TWO and (circle := _circle(*sums)) is not None:
+        return [*rest, circle]
     for first, second in permutations(sums, 2):
         solved = _solved(first, second, scene)
         if solved is not None:
@@ -119,12 +127,29 @@ def _without_angle(holding: Sequence[Expr], rest: list[Expr], symbol: Expr, scen
     return None
 
 
+def _linear(e: Expr) -> tuple[Expr, Expr, Expr] | None:
+    """The coefficients of the sine and the cosine, and the rest; None where it is not linear in them."""
+    row = diff(e, _SINE), diff(e, _COSINE), substitute(e, {_SINE: ZERO, _COSINE: ZERO})
+    return None if any({_SINE, _COSINE} & c.symbols for c in row) else row
+
+
+def _circle(first: Expr, second: Expr) -> Expr | None:
+    """Of e = r sin(A) and f = r cos(A), with whatever signs, e^2 + f^2 - r^2; None where they are no such pair."""
+    one, other = _linear(first), _linear(second)
+    if one is None or other is None:
+        return None
+    (a, b, e), (c, d, f) = (one, other) if one[1].is_zero else (other, one)
+    if not b.is_zero or not c.is_zero or not (a * a - d * d).is_zero:
+        return None
+    return e * e + f * f - a * a
+
+
 def _solved(first: Expr, second: Expr, scene: Scene) -> dict[Expr, Expr] | None:
     """The sine and cosine from two relations that are linear in them, by Cramer's rule."""
-    rows = [[diff(e, _SINE), diff(e, _COSINE), substitute(e, {_SINE: ZERO, _COSINE: ZERO})] for e in (first, second)]
-    if any({_SINE, _COSINE} & c.symbols for row in rows for c in row):
+    one, other = _linear(first), _linear(second)
+    if one is None or other is None:
         return None
-    (a, b, e), (c, d, f) = rows
+    (a, b, e), (c, d, f) = one, other
     whole = a * d - b * c
     if not never_zero(whole, scene):
         return None

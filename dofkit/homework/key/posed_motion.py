@@ -14,7 +14,7 @@ from dofkit.base.errors import TextError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Comparison, spelled, to_text
-from dofkit.expressions.tree import Expr
+from dofkit.expressions.tree import ZERO, Expr
 from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
 from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import Given
@@ -74,6 +74,7 @@ def _without_lead(script: Script) -> Script:
 
 
 def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
+    way = _named_value(way) if value else way
     multipliers = [n for n in way.own if not value and n not in way.moving and _MULTIPLIER.fullmatch(spelled(n))]
     other = tuple(name for name in way.own if name not in multipliers)
     defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
@@ -96,6 +97,16 @@ def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
         for guess, _ in renamed(way._replace(own=other), key.scene, key.constants)
     )
     return PosedMotion(key, way.relations, way.shown, known, guesses, undeclared(way._replace(own=other), key))
+
+
+def _named_value(way: AnswerReading) -> AnswerReading:
+    """`l = m r^2 phidot`: a value under a name that nobody declared."""
+    first = way.relations[0]
+    name = str(first.left.args[1]) if first.left.op == "sym" and first.relation == "=" else ""
+    if len(way.relations) > 1 or name not in way.own or name in way.moving or first.left in first.right.symbols:
+        return way
+    own = tuple(n for n in way.own if n != name)
+    return way._replace(relations=(Comparison(first.right, "=", ZERO, first.column),), bare=(True,), own=own)
 
 
 def _names(c: Comparison) -> set[str]:

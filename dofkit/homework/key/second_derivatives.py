@@ -1,4 +1,4 @@
-"""Constraints that were differentiated twice: sums of accelerations that are d^2/dt^2 of a finite relation."""
+"""Constraints that were differentiated until they hold accelerations: a finite one twice, one of velocities once."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.relations import AnswerReading
+from dofkit.homework.key.compared_motion import in_time
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.right_motion import is_zero
 from dofkit.motion.lagrange.rates import by_time
@@ -13,18 +14,24 @@ from dofkit.scene.lowering import lower
 
 
 def held_accelerations(way: AnswerReading, key: Key, names: tuple[str, ...]) -> bool | None:
-    """Is every equation a constant multiple of the second derivative of one of the constraints, and none left out?"""
+    """Is every equation a constant multiple of such a derivative of one of the constraints, and none left out?"""
     system = lower(key.scene)
     wanted = [r.expr for i in system.numbers_of(*names) for r in system.constraints[i].relations if r.sense == "="]
-    finite = [g for g in wanted if all(s.args[0] in ("coordinate", "parameter", "time") for s in g.symbols)]
-    if not finite or len(finite) != len(wanted) or any(c.relation != "=" for c in way.relations):
+    if not wanted or any(c.relation != "=" for c in way.relations):
         return False
     given = [c.left - c.right for c in way.relations]
-    twice = [by_time(by_time(g)) for g in finite]
+    twice = [by_time(_in_velocities(g)) for g in wanted]
     told = [[_multiple(e, g) for g in twice] for e in given]
     if any(True not in row and None in row for row in told):
         return None
     return all(True in row for row in told) and all(any(row[j] for row in told) for j in range(len(twice)))
+
+
+def _in_velocities(e: Expr) -> Expr:
+    """A relation between velocities: a finite one differentiated by time, a form divided by dt."""
+    if all(s.args[0] in ("coordinate", "parameter", "time") for s in e.symbols):
+        return by_time(e)
+    return in_time(e)
 
 
 def _multiple(e: Expr, g: Expr) -> bool | None:

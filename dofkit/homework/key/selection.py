@@ -9,6 +9,9 @@ from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.branches import solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.freedom.through_reference import all_of
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.tree import ZERO
 from dofkit.methods.classify import classify
 from dofkit.relations.normal.normal_form import Finite, Normal
 from dofkit.report import Report
@@ -17,12 +20,14 @@ from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import vocabulary_of
 from dofkit.scene.scene import Scene
+from dofkit.system import System
 
 
 def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
     """Does nothing move when these coordinates are held: is what is finite in the scene, with dq = 0 for them, rigid?
 
-    None where that was not decided. Non-holonomic constraints are left out: they do not fix the configuration.
+    Time stands still, so what it prescribes does not move. None where that was not decided. Non-holonomic constraints
+    are left out: they do not fix the configuration.
     """
     basis = report.integrable_part.basis if report.integrable_part is not None else []
     if basis is None:
@@ -32,12 +37,22 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
     whole = _with(scene, [*named, *held])
     if basis:
         whole = with_equations(whole, read_equations(basis, vocabulary_of(scene).names, constants=True), "integral")
-    system = lower(whole)
+    system = _at_one_time(lower(whole))
     reduced, setting = prepared(system)
     own = {e.name for e in report.constraints}
     finite = [replace(r, normals=_finite(r.normals)) if r.constraint.name in own else r for r in reduced]
     found = solve(system, finite, setting)
     return None if found.dof is None else found.dof == 0
+
+
+def _at_one_time(system: System) -> System:
+    """The system with its time as a constant."""
+    still = {ex.TIME: ex.parameter("this time"), ex.DT: ZERO}
+    constraints = tuple(
+        replace(c, relations=tuple(replace(r, expr=substitute(r.expr, still)) for r in c.relations))
+        for c in system.constraints
+    )
+    return replace(system, constraints=constraints)
 
 
 def _finite(normals: Sequence[Normal]) -> tuple[Normal, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
@@ -9,6 +10,7 @@ from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import Fault
 from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
+from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import is_none
 from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
 from dofkit.homework.key.compared_equations import EquationComparison
@@ -77,12 +79,12 @@ class IntegralQuestion(QuestionBase):
             yield Fault(f"'{self.constraint}' is not differential", ("constraint",), hint=hint)
 
     def read(self, answer: Given, key: Key) -> str:
-        if is_none(answer):
+        if is_none(answer, _says_relation):
             return "none"
         return " or ".join(dict.fromkeys(way.shown for way in self._ways(answer, key)))
 
     def _ways(self, answer: Given, key: Key) -> list[AnswerReading]:
-        return readings_of(answer, AnswerNames(key.names, signs_apart=True))
+        return readings_of(answer, AnswerNames(key.names, signs_apart=True), _undifferentiated)
 
     def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]
@@ -93,7 +95,7 @@ class IntegralQuestion(QuestionBase):
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         entry = key.constraints[self.constraint]
-        if is_none(answer):
+        if is_none(answer, _says_relation):
             if entry.holonomic is None:
                 return needs_review("none", "dofkit does not know whether the constraint integrates.")
             told = "Test once more whether the form is closed, by itself or times a factor."
@@ -103,6 +105,24 @@ class IntegralQuestion(QuestionBase):
             shown = ways[0].shown
             return wrong(shown, "Its differential is not the constraint.", "NOT_INTEGRABLE")
         return agreed([integral_judgement(way, key, self.constraint) for way in ways])
+
+
+#: `d(x y) = 0` says that x y is constant.
+_STILL = re.compile(r"\A\s*diff\((?P<whole>.*), t\)\s*=\s*0\s*\Z")
+
+
+def _undifferentiated(script: Script) -> Script:
+    found = _STILL.match(script.text)
+    return script if found is None else script.cut(*found.span("whole"))
+
+
+#: What a differential is written with: an equation that holds one is a reason, no integral.
+_DIFFERENTIAL = re.compile(r"(?<![^\W\d_])[d∂](?=[^\W\d_]|\s?\\)|dot|∧|\\(?:wedge|partial|dot)")
+
+
+def _says_relation(part: str) -> bool:
+    """Is a part of an answer a finite relation?"""
+    return "=" in part and _DIFFERENTIAL.search(part) is None
 
 
 def _unknown(names: tuple[str, ...], key: Key) -> Iterator[Fault]:

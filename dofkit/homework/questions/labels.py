@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
+from itertools import product
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from dofkit.base.errors import Fault
-from dofkit.homework.answers.label_words import TERMS, label_text, mentions, read_labels, word_of
-from dofkit.homework.judgement import Given, Judgement, Sentence, needs_review, partly
+from dofkit.homework.answers.label_words import TERMS, Labels, label_text, mentions, read_labels, word_of
+from dofkit.homework.judgement import Given, JudgedReading, Judgement, Sentence, needs_review, partly
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
@@ -67,27 +69,38 @@ class LabelQuestion(QuestionBase):
         truth, shown = truths(entry), label_text(given)
         if any(truth[p] is None for p in self.parts):
             return needs_review(shown, "dofkit does not know the label for certain.")
-        good = [p for p in self.parts if given.get(p) == frozenset({truth[p]})]
-        missing = [p for p in self.parts if p not in given]
-        hinted = [p for p in missing if mentions(p, answer)]
+        hinted = [p for p in self.parts if p not in given and mentions(p, answer)]
         if hinted:
             return needs_review(shown, "it says something of a part without its label.")
         twice = [p for p in self.parts if len(given.get(p, ())) > 1]
-        codes: list[str] = []
-        told: list[Sentence] = []
-        for p in self.parts:
-            if p not in good and p not in missing and p not in twice:
-                code, why = explain_label(p, entry, key)
-                codes.append(code)
-                told.append(why)
+        if twice:
+            return self._contradictory(given, twice, key)
+        return self._judged(given, key)
+
+    def _contradictory(self, given: Labels, twice: list[Part], key: Key) -> Judgement:
+        """Parts that are said to hold and not to: a person has to look; what each way to read it would earn."""
+        labels = ", ".join(word_of(p, holds) for p in twice for holds in (True, False))
+        found = needs_review(label_text(given), say("it contradicts itself: {labels}.", labels=labels))
+        ways = []
+        for chosen in product((True, False), repeat=len(twice)):
+            one = self._judged({**given, **{p: frozenset({c}) for p, c in zip(twice, chosen, strict=True)}}, key)
+            ways.append(JudgedReading(one.read_as, one.share))
+        return replace(found, ways=tuple(ways))
+
+    def _judged(self, given: Labels, key: Key) -> Judgement:
+        """What labels are worth of which each part has one or none."""
+        entry = key.constraints[self.constraint]
+        truth = truths(entry)
+        good = [p for p in self.parts if given.get(p) == frozenset({truth[p]})]
+        missing = [p for p in self.parts if p not in given]
+        explained = [explain_label(p, entry, key) for p in self.parts if p not in good and p not in missing]
+        told: list[Sentence] = [why for _, why in explained]
         told += [
             say("You did not say whether it is {holds} or {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails)
             for p in missing
         ]
-        told += [
-            say("It cannot be both {holds} and {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails) for p in twice
-        ]
-        return partly(Fraction(len(good), len(self.parts)), shown, "", *codes).saying(*told)
+        share = Fraction(len(good), len(self.parts))
+        return partly(share, label_text(given), "", *(code for code, _ in explained)).saying(*told)
 
 
 def truths(entry: ConstraintEntry) -> dict[str, bool | None]:

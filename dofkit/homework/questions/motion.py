@@ -12,7 +12,7 @@ from dofkit.base.errors import DofkitError, Fault
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.judgement import HALF, Given, Judgement, Sentence, agreed, needs_review, partly, right, wrong
-from dofkit.homework.key.compared_motion import AnsweredMotion, same_lagrangian
+from dofkit.homework.key.compared_motion import AnsweredMotion, Followed, same_lagrangian
 from dofkit.homework.key.compared_motion import MotionSameness as Found
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.posed_motion import PosedMotion, posed_motions
@@ -210,8 +210,10 @@ class MotionQuestion(_MotionQuestion):
             found = AnsweredMotion(known, equations, own).follow()
         if found is None:
             return needs_review(shown, "whether these are the equations of motion was not decided.")
+        if found.contradictory:
+            return needs_review(shown, "it contradicts itself.")
         if self.coordinate is not None and self.coordinate in known.names:
-            return self._one(answered, found[0], known, shown)
+            return self._one(answered, found.told, known, shown)
         return _all(found, known, shown)
 
     def _one(self, answered: AnsweredMotion, told: Sequence[Found], known: RightMotion, shown: str) -> Judgement:
@@ -241,9 +243,9 @@ class MotionQuestion(_MotionQuestion):
         return say("For example: {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
 
 
-def _all(found: tuple[list[Found], int], known: RightMotion, shown: str) -> Judgement:
+def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
     """All equations: as many points as accelerations are fixed by those that follow."""
-    told, rank = found
+    told, rank = found.told, found.rank
     wanted = len(known.names) - len(known.rows)
     good = Found.NOT not in told
     if good and rank >= wanted:

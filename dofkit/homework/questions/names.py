@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from dofkit.homework.answers.words import alternatives, is_none, names_of
+from dofkit.homework.answers.words import alternatives, is_none, lists_only, names_of
 from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import chosen_coordinates
@@ -63,7 +63,9 @@ class Redundant(QuestionBase):
         return " or ".join(", ".join(self._names(one, key)) or "none" for one in alternatives(answer))
 
     def _names(self, answer: Given, key: Key) -> list[str]:
-        return [] if is_none(answer) else names_of(answer, list(key.constraints), "constraint", key.others)
+        known = list(key.constraints)
+        none = is_none(answer, lambda part: lists_only(part, known))
+        return [] if none else names_of(answer, known, "constraint", key.others)
 
     def solution(self, key: Key) -> Sentence:
         redundant = key.report.redundant

@@ -56,8 +56,7 @@ class RunReview:
 
     def applied(self, prepared: Prepared) -> Prepared:
         """The assignment with what was decided."""
-        made = {identity: row.decision for identity, row in self.rows.items() if row.decision is not None}
-        return replace(prepared, decisions=made)
+        return replace(prepared, decisions=FilledTable(self.rows).decisions)
 
     def write(self, results: Path, prepared: Prepared) -> None:
         """Write the queue of these results, in our own format; say on standard error where it is. Raises OSError."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,6 +12,8 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+from dofkit.base.line_journal import ledger
+from dofkit.base.workers.batches import in_order
 from dofkit.base.workers.pool import cores
 from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
@@ -22,11 +24,12 @@ from dofkit.homework.result import Result
 from dofkit.homework.runs.appeals import JudgedAnswer, judged_answers, write_certificates
 from dofkit.homework.runs.batch import Orders, ResultLine
 from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
-from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
-from dofkit.homework.runs.journal import Journal, fingerprint, ledger
+from dofkit.homework.runs.journal import Journal, fingerprint
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.repeats import HandedIn, without_repeats
 from dofkit.homework.runs.review_files import ReviewPaths, RunReview
-from dofkit.homework.runs.rostered import rostered
+from dofkit.homework.runs.rostered import named_by, rostered
+from dofkit.homework.sheet_owners import people_of, with_names
 
 NATIVE = "native"
 #: What results in our own format are called in a folder.
@@ -97,17 +100,20 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     """
     form = options.format
     for path in options.written:
-        if path.resolve() in [Path(given).resolve() for given in (assignment, *sources)]:
+        if path.resolve() in [Path(given).resolve() for given in (assignment, *sources, options.roster or "")]:
             raise FormatError(f"--out would overwrite {path}, which is read")
     prepared = load_assignment(assignment)
     roster = None if options.roster is None else load_roster(options.roster)
     review = RunReview.read(prepared, options.reviewed, options.review)
-    prepared = review.applied(prepared)
+    prepared = review.applied(with_names(prepared, roster))
+    people = people_of(prepared, roster)
     orders = Orders.of(prepared, options.check_only)
     others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
+    if people is not None:
+        stream = (named_by(people, one) for one in stream)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
-        one = _Run(form, prepared, orders, crew, seen, roster, options.certificates is not None)
+        one = _Run(form, prepared, orders, crew, seen, roster, people, sources, options.certificates is not None)
         if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
@@ -136,7 +142,8 @@ def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
 class _Run:
     """One run; ``failed`` counts the submissions that could not be graded, ``doubted`` those that may be another's.
 
-    ``answers`` are kept for appeals.
+    ``people``: by whom submissions are told apart, the roster or those who have sheets of their own; ``sources``: what
+    was handed in. ``answers`` are kept for appeals.
     """
 
     form: Format
@@ -145,6 +152,8 @@ class _Run:
     crew: GradingCrew
     seen: HandedIn
     roster: Roster | None = None
+    people: Roster | None = None
+    sources: Sequence[str] = ()
     appeals: bool = False
     failed: int = 0
     doubted: int = 0
@@ -154,7 +163,9 @@ class _Run:
         """Print results as they come."""
         lines = self._kept(line.text for _, found in self._with_lines(stream, sys.stdout.isatty()) for line in found)
         if self.form.name != NATIVE:
-            self.form.written(map(Result.model_validate_json, lines), self.prepared, sys.stdout, self.roster)
+            self.form.written(
+                map(Result.model_validate_json, lines), self.prepared, sys.stdout, self.roster, self.sources
+            )
             return
         utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
         for text in lines:
@@ -172,7 +183,7 @@ class _Run:
                 journal.write(one, lines)
         self._keep(_results(path) if self.appeals and not self.orders.check_only else ())
         if self.form.name != NATIVE:
-            self.form.written(_results(path), self.prepared, out, self.roster)
+            self.form.written(_results(path), self.prepared, out, self.roster, self.sources)
         review.write(path, self.prepared)
         if self.form.name != NATIVE:
             path.unlink()
@@ -192,7 +203,7 @@ class _Run:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            graded = rostered(self.roster, in_order(self.crew, stream))
+            graded = rostered(self.people, in_order(self.crew, stream))
             for one, lines in without_repeats(self.orders, graded, self.seen):
                 self.failed += sum(line.failed for line in lines)
                 self.doubted += sum(line.doubted for line in lines)
