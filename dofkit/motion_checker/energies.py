@@ -14,6 +14,14 @@ from dofkit.checker.problem import CheckedProblem
 from dofkit.checker.trees import HALF, MINUS, ONE, TWO, ZERO, Tree, add, call, difference, power, refuse, symbol, times
 from dofkit.checker.values import along, homogeneous_degree, substituted
 
+#: What pulls, and the fields that it has.
+ENTRIES = {
+    "spring": "between stiffness rest_length",
+    "damper": "between damping",
+    "gravity": "acceleration direction",
+    "force": "point body value direction",
+}
+
 
 class CheckedEnergies:
     """The Lagrangian of a scene, its ``dissipation``, and ``pushes``: forces and where they act, part by part.
@@ -27,14 +35,16 @@ class CheckedEnergies:
         self.rates |= {f"{q}dot": symbol(f"{q}ddot") for q in problem.coordinates}
         given: Entry = self.scene.get("energies", {})
         known_fields(given, "kinetic potential dissipation forces")
+        pushed: Entry = given.get("forces", {})
+        refuse(not pushed.keys() <= {*problem.coordinates}, "a force pushes along what is no coordinate")
+        for entry in self.scene.get("forces", []):
+            known_fields(entry, f"type name notes {ENTRIES[entry['type']]}")
         told = {key: self.text(value) for key, value in given.items() if key != "forces"}
         stored = told.get("potential") or add(*self.of("spring"), *self.of("gravity"))
         self.lagrangian = difference(told.get("kinetic") or add(*self.kinetic()), stored)
         self.dissipation = told.get("dissipation") or add(*self.of("damper"))
-        texts = {symbol(q): self.text(text) for q, text in given.get("forces", {}).items()}
-        self.pushes = [(force, place) for place, force in texts.items()] or [
-            pair for pairs in self.of("force") for pair in pairs
-        ]
+        self.pushes = [(self.text(text), symbol(q)) for q, text in pushed.items()]
+        self.pushes = self.pushes or [pair for pairs in self.of("force") for pair in pairs]
 
     def of(self, kind: str) -> list[Any]:
         """What all entries of a kind give."""

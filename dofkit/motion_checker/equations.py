@@ -15,12 +15,13 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
 
     Let M be where they are, and the told constraints hold. By `_leaves` M is all that the relations allow near a point,
     and what does no work on it are multiples of the told constraints (of those nonlinear in velocities: of their slopes
-    by these). So d/dt dL/dqdot - dL/dq + dD/dqdot less all pushes are such multiples, L and D put in (d'Alembert).
+    by these). So d/dt dL/dqdot - dL/dq + dD/dqdot less all pushes are such multiples, L and D put in [Lagrange1788].
     """
     told, problem = claim["value"], evidence.problem
     energies, kept, names = CheckedEnergies(problem), told["coordinates"], told["multipliers"]
     extra = [*names, *claim.get("constants", {}), *(f"{q}ddot" for q in kept)]
-    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *problem.world.names.functions}
+    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *problem.world.names.words, "E"}
+    refuse(claim.get("cayley"), "a body turns by its angles here")
     refuse(len({*extra} - taken) < len(extra), "a multiplier, a constant or an acceleration has the name of another")
     refuse(sorted([*kept, *told["eliminated"]]) != sorted(problem.coordinates), "each coordinate is kept or eliminated")
 
