@@ -81,6 +81,8 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
     ``called``: what the number asked for is called; where others stand beside it, only this one counts. Raises
     TextError, with its column; DoubtError where it says several.
     """
+    if isinstance(answer, (list, tuple)) and len(answer) == 1:
+        return number(answer[0], called)
     script = script_of(one_text(answer)).replaced(_BOLD, r"\1").replaced(_COMMA, ".")
     if not re.search(r"[\\^_]", script.text):
         script = script.replaced(_BRACKETS, " ")
