@@ -21,9 +21,13 @@ def components(names_of: Iterable[Iterable[Hashable]]) -> list[list[int]]:
 
     for i, names in enumerate(names_of):
         leader.append(i)
+        own = i
         for name in names:
-            a, b = sorted((led(owner.setdefault(name, i)), led(i)))
-            leader[b] = a
+            other = owner.setdefault(name, own)
+            if other != own:
+                other = led(other)
+                own, other = (own, other) if own < other else (other, own)
+                leader[other] = own
     groups: dict[int, list[int]] = {}
     for i in range(len(leader)):
         groups.setdefault(led(i), []).append(i)

@@ -10,17 +10,20 @@ from contextlib import contextmanager
 MANY, SOME, FEW = 200_000, 20, 20
 #: Fewer new objects than this are not worth asking whether somebody froze others: that counts these one by one.
 WORTH_IT = 50_000
+#: Objects that stay of every constraint: so many at least are made before any are looked through.
+OF_EACH = 100
 
 
 @contextmanager
-def unhurried() -> Iterator[None]:
+def unhurried(constraints: int = 0) -> Iterator[None]:
     """Garbage is looked for seldom: expressions are trees, and to look through millions of them takes half the time.
 
-    What was made before, and what stays of what is made within, is looked through as seldom as all that is old.
+    What was made before, and what stays of what is made within, is looked through as seldom as all that is old. Of many
+    ``constraints`` more is made that stays.
     """
     before = gc.get_threshold()
     _grown_old()
-    gc.set_threshold(max(before[0], MANY), max(before[1], SOME), max(before[2], FEW))
+    gc.set_threshold(max(before[0], MANY, OF_EACH * constraints), max(before[1], SOME), max(before[2], FEW))
     try:
         yield
     finally:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from functools import partial
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cache, partial
 
 from dofkit.base.errors import SceneError
 from dofkit.base.wording import verb
@@ -47,13 +47,14 @@ def system_of(scene: Scene, found: Survey) -> System:
     if found.special:
         warnings.append(SPECIAL)
     elif not found.generic:
-        reference = reference_of(drawing, found.drawn, pose, partial(_touched, found.constraints))
-        level = [] if reference is None else _level(drawing, _touched(found.constraints))
+        touched = cache(partial(_touched, found.constraints))
+        reference = reference_of(drawing, found.drawn, pose, touched)
+        level = [] if reference is None else _level(drawing, touched)
         if level:
             reference, singular = None, reference
             warnings.append(LEVEL.format(", ".join(level)))
         elif reference is None:
-            warnings += _partly(found, undrawn(drawing, found.drawn, pose, _touched(found.constraints)))
+            warnings += _partly(found, undrawn(drawing, found.drawn, pose, touched()) if found.drawn else ())
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,
@@ -93,11 +94,11 @@ def _partly(found: Survey, missing: Sequence[str]) -> Iterator[str]:
         yield f"There is no reference configuration: {shown} {verb(len(missing))} not drawn."
 
 
-def _level(drawing: Drawing, touched: frozenset[str]) -> list[str]:
+def _level(drawing: Drawing, touched: Callable[[], frozenset[str]]) -> list[str]:
     """The bodies with Euler angles in texts that are drawn where these are singular: sin(theta) = 0."""
     found = []
     for frame in drawing.frames.values():
-        if frame.chart == "euler" and not touched.isdisjoint(frame.angles):
+        if frame.chart == "euler" and not touched().isdisjoint(frame.angles):
             tilt = approximate(frame.initial[1])
             if tilt is None or abs(math.sin(tilt)) < SINGULAR:
                 found.append(frame.name)

@@ -50,16 +50,15 @@ class SharedEntries:
         every = [p for n in r.normals for p in n.pieces]
         if [id(p) for p in every] != [id(t.row.piece) for t in told]:
             every += [t.row.piece for t in told]
-        if r.constants or any(isinstance(p, Nonlinear) for p in every):
-            return None
-        if any(t.reduced or (t.label and t.label.modulo) for t in told):
+        kinds = {type(p) for p in every}
+        if r.constants or Nonlinear in kinds or any(t.reduced or (t.label and t.label.modulo) for t in told):
             return None
         return (
             r.constraint.type,
             tuple([len(n.branches) for n in r.normals]),
             tuple([len(b) for n in r.normals for b in n.branches]),
             len(every),
-            shape_together(every) if any(isinstance(p, Pfaffian) for p in every) else self._plain_kinds(every),
+            shape_together(every) if any(issubclass(kind, Pfaffian) for kind in kinds) else self._plain_kinds(every),
             self._plain_kinds(r.inequalities),
             tuple([(t.label, _sureness(t.answer)) for t in told]),
             beside,
