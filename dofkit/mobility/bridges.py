@@ -16,8 +16,7 @@ from collections import Counter
 from collections.abc import Hashable, Mapping
 from typing import NamedTuple
 
-import networkx as nx
-
+from dofkit.base.libraries import nx
 from dofkit.system import GROUND, Connection, Constraint, System
 
 #: A node of the graph: a body, a particle, the ground, a coordinate that is nobody's, or a constraint by its number.
