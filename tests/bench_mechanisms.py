@@ -133,7 +133,7 @@ def bounded(what: str, work: Callable[[], dofkit.Report], dof: int | None, bound
 def trees(rounds: int) -> None:
     """Open trees, which leave no equations, and loops on them, each on its own joints; and models of robots."""
     dofkit.classify(tree_with_loops(3, 1, 0)[0])
-    for bodies, loops, bound in ((62, 0, 0.3), (1000, 0, 1.0), (10_000, 0, 10.0), (43, 10, 2.0), (100, 40, 6.0)):
+    for bodies, loops, bound in ((62, 0, 0.3), (1000, 0, 1.0), (10_000, 0, 10.0), (43, 10, 2.0), (100, 40, 10.0)):
         scene, dof = tree_with_loops(bodies, loops, 7)
         what = f"a tree of {bodies} bodies" + (f" with {loops} four-bars" if loops else "")
         bounded(what, partial(_report, scene), dof, bound, 1 if bodies > 1000 else rounds)
