@@ -302,6 +302,7 @@ class AnsweredBlocks:
         if known is not None:
             return known.told_of(block, names)
         found = in_time(block, setting)
+        found.kind = len(self._alike)
         self._alike[key] = AnsweredBlock(block, names, found)
         return found
 

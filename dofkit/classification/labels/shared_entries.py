@@ -86,7 +86,7 @@ class SharedEntries:
 
 def _is_still(piece: Piece) -> bool:
     """Is it a finite relation without time? All that it carries by itself is known then."""
-    return isinstance(piece, Finite) and TIME not in piece.expr.symbols
+    return isinstance(piece, JointEquation) or (isinstance(piece, Finite) and TIME not in piece.expr.symbols)
 
 
 def _sureness(a: Answer) -> Hashable:
