@@ -97,9 +97,10 @@ def test_the_other_side_contradicts(names: str, constraints: list[str]) -> None:
         pytest.param("x y th", ["xdot sin(th) = ydot cos(th)", HEADING], ["c1"], marks=pytest.mark.sweep),
         ("x y th", [HEADING, "xdot sin(th) = ydot cos(th)"], ["c2"]),
         ("x y", ["xdot = ydot", "ydot = 1", "abs(xdot) = ydot"], ["c3"]),
+        ("x y z", ["sin(z) = 0", "z = 0", "xdot = cos(z) ydot"], ["c1"]),
     ],
 )
-def test_half_a_line_says_more_than_the_line(names: str, constraints: list[str], redundant: list[str]) -> None:
+def test_what_says_less_can_go(names: str, constraints: list[str], redundant: list[str]) -> None:
     assert report_of(names, constraints).redundant == redundant
 
 

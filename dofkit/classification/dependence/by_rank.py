@@ -61,6 +61,7 @@ def holds_where(
 
     x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
     Only few algebraic relations are looked at on all parts; else it is told of the point at which the rank was taken.
+    Finite ones beside forms are held against each other: of sin(z) = 0 and z = 0 the first can go.
     """
     dropped = {i for r in by_rank for i in r.redundant}
     if setting.reference is not None:
@@ -68,11 +69,14 @@ def holds_where(
     if not dropped or len(numbers) > MAX_CHOICES:
         return "component"
     plain = all(reduced[i].constraint.facts.written for i in numbers)
-    pieces = [p for i in numbers for n in reduced[i].normals for p in n.pieces]
+    finite = [i for i in numbers if all(isinstance(p, Finite) for n in reduced[i].normals for p in n.pieces)]
+    pieces = [p for i in finite for n in reduced[i].normals for p in n.pieces]
     if not plain or not all(isinstance(p, Finite) and algebraic(p.expr, *BRANCHES) for p in pieces):
         return "component"
-    kept = [i for i in numbers if i not in dropped]
-    told = all_of(constraint_follows(reduced, i, kept, setting) for i in dropped)
+    kept = [i for i in finite if i not in dropped]
+    told = all_of(constraint_follows(reduced, i, kept, setting) for i in dropped if i in finite)
+    if len(finite) < len(numbers):
+        return False if told is False else "component"
     if not told:
         return told
     fails = [_fails_on_a_part(reduced, i, kept, setting) for i in dropped]

@@ -18,7 +18,7 @@ from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
-from dofkit.classification.labels.one_sided import kept_in_system, sides_of, with_sides
+from dofkit.classification.labels.one_sided import kept_in_system, with_a_side, with_sides
 from dofkit.classification.labels.reasons import Others
 from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
@@ -53,21 +53,22 @@ def entries_of(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
     shared, entries = SharedEntries(setting, company.parts), list[ConstraintEntry]()
-    consistent = outcome.consistent
+    consistent, sided = outcome.consistent, with_a_side(outcome)
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
             copied = i in outcome.copies
-            apart = known.says_more_of(i) or bool(sides_of(i, outcome))
+            apart = known.says_more_of(i) or i in sided
             kind = None if apart else shared.kind(r, told[i], number, copied, i in known.following)
             made = shared.known(kind, r)
             if made is None:
                 beside = partial(_with_others, i, told[i], company, names)
                 alone = _by_itself(i, r, told[i], company.parts)
                 evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
-                made = with_sides(entry(r, evidence, setting, consistent), i, outcome, setting)
+                made = entry(r, evidence, setting, consistent)
+                made = with_sides(made, i, outcome, setting) if i in sided else made
                 made = _with_dependence(made, i, r, known)
                 shared.keep(kind, made)
             entries.append(made)
@@ -129,7 +130,8 @@ def labels_in_system(
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
     labels = [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
-    return [_with_sides(label, i, outcome, setting) for i, label in enumerate(labels)]
+    sided = with_a_side(outcome)
+    return [_with_sides(label, i, outcome, setting) if i in sided else label for i, label in enumerate(labels)]
 
 
 def _with_sides(

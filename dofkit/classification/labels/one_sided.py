@@ -19,7 +19,7 @@ from dofkit.exact.points.frames import certified_rank
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS
-from dofkit.relations.blocks import Block, split
+from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.setting import Setting
@@ -32,10 +32,23 @@ NOT_WHOLE = f"{ASIDE} and follows from no finite relation: as a whole it is not 
 OPEN_SIDE = f"{ASIDE}; whether that follows from finite relations was not decided."
 
 
+def with_a_side(outcome: Outcome) -> frozenset[int]:
+    """The constraints that ask for a sign of an expression in the velocities, on the branch in use."""
+    own = {r.constraint for r in outcome.rows if _is_side(r)}
+    return frozenset(own | {copy for copy, i in outcome.copies.items() if i in own})
+
+
 def sides_of(i: int, outcome: Outcome) -> list[DomainCondition]:
     """What a constraint asks of the sign of expressions in the velocities, on the branch in use."""
-    pieces = outcome.pieces.get(i, ())
-    return [p for p in pieces if isinstance(p, DomainCondition) and p.sense != "!=" and velocities_of(p.expr)]
+    own = outcome.copies.get(i, i)
+    return [
+        r.piece for r in outcome.rows if r.constraint == own and _is_side(r) and isinstance(r.piece, DomainCondition)
+    ]
+
+
+def _is_side(row: Row) -> bool:
+    p = row.piece
+    return isinstance(p, DomainCondition) and p.sense != "!=" and bool(velocities_of(p.expr))
 
 
 class SideKept(NamedTuple):
