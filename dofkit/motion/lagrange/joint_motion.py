@@ -180,11 +180,11 @@ class _TreeReader:
         if len(moving) <= len(self.scene.bodies):
             return None
         kinetic, potential = [], []
-        for (world, m, _), body in zip(masses(self.scene, worlds), self.scene.bodies, strict=True):
-            frame = world.frames[body.name]
-            centre = moving[body.name].at(frame.start)
+        for (world, m, _), part in zip(masses(self.scene, worlds), self.scene.bodies, strict=True):
+            frame = world.frames[part.name]
+            centre = moving[part.name].at(frame.start)
             kinetic.append(HALF * m * square(centre.velocity))
-            kinetic.append(spin_energy(world, body.inertia, body.name, apply(_axes_back(frame), centre.spin)))
+            kinetic.append(spin_energy(world, part.inertia, part.name, apply(_axes_back(frame), centre.spin)))
             potential.append(-m * centre.fall)
         told = COUNTED.format(", ".join(f"{own} is {name}" for name, own in self.names.items()))
         return None if worlds.faults else Energy(ex.add(*kinetic), ex.add(*potential), ZERO, {}, (told,))
