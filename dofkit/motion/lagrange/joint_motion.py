@@ -44,7 +44,7 @@ COUNTED = "Angles and displacements of joints count from the drawing: {}."
 _AXES = tuple(unit(i, 3) for i in range(3))
 
 
-class Step(NamedTuple):
+class JointStep(NamedTuple):
     """A part of a joint's motion: a turn about ``along`` through ``at``, or a shift along it, by ``amount``."""
 
     along: Vec
@@ -52,12 +52,12 @@ class Step(NamedTuple):
     amount: Expr
     rate: Expr
 
-    def back(self) -> Step:
+    def back(self) -> JointStep:
         """The motion of the first body against the second."""
         return self._replace(amount=-self.amount, rate=-self.rate)
 
 
-class Moving(NamedTuple):
+class MovingBody(NamedTuple):
     """How a body moves: ``velocity`` of its point drawn at ``point``, its ``spin``, and gravity's ``pull``, all in its
     axes; ``fall``: gravity times where that point stands."""
 
@@ -67,14 +67,14 @@ class Moving(NamedTuple):
     pull: Vec
     fall: Expr
 
-    def at(self, point: Vec) -> Moving:
+    def at(self, point: Vec) -> MovingBody:
         """The same told of another point."""
         arm = minus(point, self.point)
-        return Moving(
+        return MovingBody(
             point, plus(self.velocity, cross(self.spin, arm)), self.spin, self.pull, self.fall + dot(self.pull, arm)
         )
 
-    def after(self, step: Step) -> Moving:
+    def after(self, step: JointStep) -> MovingBody:
         """The body that a step carries."""
         along = step.along
         if step.at is None:
@@ -86,7 +86,7 @@ class Moving(NamedTuple):
         return here._replace(velocity=_turned_back(step, here.velocity), spin=spin, pull=_turned_back(step, here.pull))
 
 
-def _turned_back(step: Step, v: Vec) -> Vec:
+def _turned_back(step: JointStep, v: Vec) -> Vec:
     """A direction of the first body in the axes of the second: (u.v) u + cos q (v - (u.v) u) - sin q u x v."""
     own = scaled(dot(step.along, v), step.along)
     across, turned = minus(v, own), cross(step.along, v)
@@ -143,7 +143,7 @@ class _TreeReader:
         self.names[told] = found
         return found
 
-    def steps_of(self, joint: Connection) -> list[Step] | None:
+    def steps_of(self, joint: Connection) -> list[JointStep] | None:
         """What the second body of a joint does against the first; None of a screw, or of general position."""
         name = self.system.constraints[joint.constraint].name
         place = joint.places[0] if joint.places else None
@@ -157,15 +157,15 @@ class _TreeReader:
             at = place if turns else None
             if turns and at is None:
                 return None
-            steps.append(Step(scaled(ex.ONE / length(along), along), at, ex.coordinate(q), ex.velocity(q)))
+            steps.append(JointStep(scaled(ex.ONE / length(along), along), at, ex.coordinate(q), ex.velocity(q)))
         return steps
 
-    def energy(self, joints: Mapping[tuple[str, ...], list[Step]]) -> Energy | None:
+    def energy(self, joints: Mapping[tuple[str, ...], list[JointStep]]) -> Energy | None:
         """T and V in the coordinates of joints; None where not every body hangs on the ground."""
         worlds = EntryWorlds(self.drawing)
         pull = gravity_of(self.scene, worlds)
         zero = (ZERO,) * 3
-        moving = {GROUND: Moving(zero, zero, zero, pull, ZERO)}
+        moving = {GROUND: MovingBody(zero, zero, zero, pull, ZERO)}
         left = deque([GROUND])
         while left:
             body = left.popleft()
@@ -180,11 +180,11 @@ class _TreeReader:
         if len(moving) <= len(self.scene.bodies):
             return None
         kinetic, potential = [], []
-        for (world, m, _), body in zip(masses(self.scene, worlds), self.scene.bodies, strict=True):
-            frame = world.frames[body.name]
-            centre = moving[body.name].at(frame.start)
+        for (world, m, _), part in zip(masses(self.scene, worlds), self.scene.bodies, strict=True):
+            frame = world.frames[part.name]
+            centre = moving[part.name].at(frame.start)
             kinetic.append(HALF * m * square(centre.velocity))
-            kinetic.append(spin_energy(world, body.inertia, body.name, apply(_axes_back(frame), centre.spin)))
+            kinetic.append(spin_energy(world, part.inertia, part.name, apply(_axes_back(frame), centre.spin)))
             potential.append(-m * centre.fall)
         told = COUNTED.format(", ".join(f"{own} is {name}" for name, own in self.names.items()))
         return None if worlds.faults else Energy(ex.add(*kinetic), ex.add(*potential), ZERO, {}, (told,))
