@@ -1,7 +1,8 @@
 """What certificates show, and what they cost: the whole table of figures. Run it; it is no test.
 
 python tests/bench_certificates.py [--quick] [--seed 1] [--processes 2] [--list FILE]
-[--only coverage,motions,mutations,edits,times,sizes]: with every mutated certificate that was accepted, so that a person can see whether its claim is true.
+[--only coverage,motions,mutations,edits,times,sizes]
+--list: with every mutated certificate that was accepted, so that a person can see whether its claim is true.
 """
 
 from __future__ import annotations
