@@ -58,6 +58,11 @@ def structure_told(mark: str) -> str:
     return mark.rpartition(_MARKED)[0]
 
 
+def mark_told(mark: str) -> str:
+    """What tells a variant from others of its structure."""
+    return mark.rpartition(_MARKED)[2]
+
+
 @dataclass(frozen=True)
 class OwnSheet:
     """One student's sheet."""
@@ -76,7 +81,7 @@ def own(prepared: Prepared, student: str) -> Prepared:
 
     Raises NobodysSheetError for who is not among its students, and where the sheet comes out another way than it did.
     """
-    return _last(SheetDrawer(prepared).own_steps(student))
+    return SheetDrawer(prepared).own(student)
 
 
 def own_of(prepared: Prepared, names: Iterable[str]) -> Prepared:
@@ -115,6 +120,10 @@ class SheetDrawer:
     def sheet(self, seed: str, whose: StudentSheet) -> OwnSheet:
         """The sheet that a seed gives a student, with what is told of each problem."""
         return _last(self._steps(seed, whose))
+
+    def own(self, student: str) -> Prepared:
+        """The sheet of a student. Raises NobodysSheetError."""
+        return _last(self.own_steps(student))
 
     def own_steps(self, student: str) -> Generator[str, None, Prepared]:
         """The sheet of a student, telling of every problem that takes work that it comes next.

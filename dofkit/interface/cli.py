@@ -244,6 +244,23 @@ def export_otter(
             typer.echo(path)
 
 
+@export_app.command("grades")
+def export_grades(
+    assignment: options.Assignment,
+    results: Annotated[Path, typer.Argument(metavar="RESULTS", help="results.jsonl of `dofkit grade`, or its folder.")],
+    form: Annotated[str, typer.Option("--format", metavar="NAME", help="What a gradebook or platform reads.")],
+    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="Where to write.")],
+    roster: options.RosterPath = None,
+) -> None:
+    """Write results that are there for another platform: nothing is graded again."""
+    from dofkit.homework.runs.conversion import convert
+    from dofkit.homework.runs.run import GradingOptions
+
+    with failures_of(assignment):
+        count = convert(assignment, results, GradingOptions(form, out, roster=roster))
+    typer.echo(f"{out}: {count} results")
+
+
 @app.command()
 def explain(
     words: Annotated[

@@ -20,6 +20,12 @@ COMPILER = "dofkit.models.mujoco_model"
 #: Files that a model may include, one in another.
 MOST_INCLUDED = 300
 
+#: Attributes that place or weigh something.
+_MEASURES = (
+    *("pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "axis", "fromto", "anchor", "relpose", "ref"),
+    *("mass", "diaginertia", "fullinertia", "density", "polycoef", "size", "gravity"),
+)
+_NO_NUMBER = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 _LINE = re.compile(r"line (\d+)")
 _NOISE = re.compile(r"^(?:XML )?Error: (?:Error: )?|,? ?line \d+\s*$|\bElement name '', id -?\d+")
 
@@ -36,6 +42,9 @@ def compiled(file: ModelFile) -> CompiledModel:
     """The model compiled. Raises SceneError for what the compiler does not take."""
     root = read_markup(file.data, file.name)
     included = tuple(_included(root, file))
+    faults = [*_not_finite(root), *(fault for part in included for fault in _not_finite(part))]
+    if faults:
+        raise SceneError(tuple(faults), file.name)
     payload = {"path": None if file.path is None else str(file.path), "text": file.text}
     outcome = shared(COMPILER).run(Job(f"{COMPILER}:described_model", payload, SECONDS))
     if not outcome.finished:
@@ -43,9 +52,21 @@ def compiled(file: ModelFile) -> CompiledModel:
     return CompiledModel(outcome.value, root, included)
 
 
+def _not_finite(root: Element) -> Iterator[Fault]:
+    """Numbers that are none, of which the compiler makes places that are none."""
+    for part in root.every():
+        for key in _MEASURES:
+            odd = [word for word in part.get(key).split() if _NO_NUMBER.fullmatch(word)]
+            if odd:
+                hint = "write a finite number"
+                yield Fault(f"`{key}` of <{part.tag}> holds '{odd[0]}'", line=part.line, column=1, hint=hint)
+
+
 def _fault(reason: str, error: str) -> Fault:
     """What the compiler says, in its line."""
-    said = reason.removeprefix(f"{error}: ") if error else reason
+    if not error:
+        return Fault(f"MuJoCo's compiler was stopped: {reason}", hint="make the model smaller, or split it")
+    said = reason.removeprefix(f"{error}: ")
     lines = _LINE.findall(said)
     while (shorter := _NOISE.sub("", said).strip()) != said:
         said = shorter

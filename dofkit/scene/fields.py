@@ -286,7 +286,7 @@ def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
 class WrittenModel(BaseModel):
     """The base of what a person writes: frozen, no unknown keys, an empty value the same as none."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     @model_validator(mode="wrap")
     @classmethod

@@ -22,6 +22,7 @@ import dofkit
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.formats.wording import stop_of
 from dofkit.homework.key.codes import CODES
+from dofkit.homework.own_sheets import SheetDrawer
 from dofkit.homework.result import Item
 from dofkit.homework.review.filled_table import ReviewError, read_table
 from dofkit.homework.review.identity import answer_id, mark_of, question_mark
@@ -522,3 +523,60 @@ def test_every_code_has_a_text() -> None:
     assert len(codes) > 20
     assert codes - set(CODES) == set()
     assert all(told.strip() for told in CODES.values())
+
+
+# results that are there
+
+
+def exported(course: Course, *more: str) -> tuple[int, str, str]:
+    return called(course.capsys, "export", "grades", str(course.sheet), *more)
+
+
+def test_results_are_written_for_another_platform_without_grading_again(course: Course) -> None:
+    course.grade()
+    course.grade("--reviewed", str(course.fill({UNREAD: "3"}, remark="So be it.")))
+    course.grade("--format", "moodle", "--reviewed", str(course.out / "review.csv"), out=str(course.folder / "a.csv"))
+    for source in (course.out, course.out / "results.jsonl"):
+        told = exported(course, str(source), "--format", "moodle", "--out", str(course.folder / "b.csv"))
+        assert told == (0, f"{course.folder / 'b.csv'}: 4 results\n", "")
+        for name in ("{}.csv", "{}.apart.csv"):
+            first, second = ((course.folder / name.format(which)).read_bytes() for which in "ab")
+            assert first == second
+    pages = course.folder / "pages"
+    assert exported(course, str(course.out), "--format", "html", "--out", str(pages))[0] == 0
+    page = (pages / "review.html").read_text()
+    assert str(course.out / "review.csv") in page
+    assert "So be it." in page
+
+
+def test_results_of_another_assignment_are_not_taken(course: Course) -> None:
+    course.grade()
+    out = str(course.folder / "x.csv")
+    course.sheet.write_text(course.sheet.read_text().replace('"points": 4', '"points": 5'))
+    for more, why in (
+        ((str(course.out), "--format", "canvas", "--out", out), "a result of another assignment, of 7 points, not 8"),
+        ((str(course.sheet), "--format", "canvas", "--out", out), "line 1: this is no result of dofkit"),
+        ((str(course.out), "--format", "native", "--out", out), "--format is one of gradescope"),
+        ((str(course.out), "--format", "canvas", "--out", str(course.sheet)), "would overwrite"),
+    ):
+        status, _, err = exported(course, *more)
+        assert (status, why in err) == (2, True), err
+    assert not Path(out).exists()
+
+
+def test_the_review_says_what_a_students_own_problem_says(course: Course) -> None:
+    """The rod's length for each, and what is right of it."""
+    students = [{"student": name} for name in ("ana", "bo")]
+    varied = {**SHEET, "variants": {"seed": "7", "students": students}}
+    course.sheet.write_text(json.dumps(varied))
+    prepared = load_assignment(varied)
+    own = {one["student"]: SheetDrawer(prepared).own(one["student"]).keys["p"].coordinates for one in students}
+    assert own["ana"] != own["bo"]
+    course.hand_in([("ana", {"f": "1 or 2"}), ("bo", {"f": "1 or 2"})])
+    course.grade()
+    told = {row["given_by"]: row["variant"] for row in course.table()}
+    for name, (x, _) in own.items():
+        particle = x.removeprefix("x_")
+        assert re.fullmatch(rf"as given #[0-9a-f]{{8}}: rod: link \(0, 0\)-{particle}, length \w+\. The answer is 1\.",
+                            told[name])  # fmt: skip
+        assert told[name] in (course.out / "review.html").read_text()

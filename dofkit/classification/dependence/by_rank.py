@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import Literal
 
+from dofkit.base.components import components
 from dofkit.base.deadline import check
-from dofkit.base.groups import sharing
 from dofkit.base.verdicts import About
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, constraint_follows
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse
@@ -109,7 +109,7 @@ def analysed(group: list[OwnedRows], needed: Collection[int]) -> Redundancies:
 def joined_parts(parts: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
     """Blocks that share a constraint are looked at together."""
     owned = [part for part in parts if part.owners]
-    return [[owned[k] for k in group] for group in sharing([part.owners for part in owned])]
+    return [[owned[k] for k in numbers] for numbers in components(part.owners for part in owned)]
 
 
 def without_hidden(block: Block, a: Answer) -> list[SparseRow]:

@@ -11,8 +11,13 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
+from dofkit.expressions.unwritten import Unwritten
 from dofkit.integrability.accelerations import without_accelerations
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, normalise, without_instants
+from dofkit.mobility.bridges import Bridges, bridges
+from dofkit.mobility.rows_at_drawing import RowsAtDrawing
+from dofkit.relations.joint_equations import unwritten
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Piece, normalise
+from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
@@ -21,13 +26,15 @@ from dofkit.system import System
 
 #: The kinds of symbols that no finite relation holds.
 RATES = frozenset({"velocity", "acceleration", "differential", "dt"})
+INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 
 
 def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
     """Each relation as what it says, and what may be assumed of the symbols."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
-    reduced = reduce_all(system, positive)
+    apart = bridges(system) if "bridges" in reductions and system.tolerance is None else Bridges()
+    reduced = reduce_all(system, positive, apart.joints)
     setting = Setting(
         positive,
         tuple(ex.parameter(p) for p in system.generic),
@@ -45,6 +52,9 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         bodies=_turned(system) if system.tolerance else (),
         centre=_centre(system) if system.tolerance else (),
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
+        bridges=apart.joints,
+        afloat=apart.afloat,
+        joint_rows=RowsAtDrawing(system, positive).of if apart.joints else None,
     )
     return reduced, setting
 
@@ -89,11 +99,17 @@ def _links(system: System) -> dict[int, list[tuple[str, str]]]:
     return found
 
 
-def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
-    """Every relation of every constraint as what it says; all that cannot be one are faults together."""
+def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] = frozenset()) -> list[Reduced]:
+    """Every relation of every constraint as what it says; all that cannot be one are faults together.
+
+    Those of joints ``apart`` are not written out where they are not yet.
+    """
     found, faults = [], []
     read = _Normals(system, positive)
     for i, constraint in enumerate(system.constraints):
+        if i in apart and isinstance(constraint.relations, Unwritten):
+            found.append(Reduced(constraint, unwritten(constraint.relations), ()))
+            continue
         normals, inequalities = [], []
         for relation in constraint.relations:
             check()
@@ -140,3 +156,19 @@ def _fresh(system: System) -> Iterator[str]:
     """Names for constants of integration: C, C1, C2, ... without those of the scene."""
     taken = {c.name for c in system.coordinates} | {*system.parameters, *system.generic, *system.functions}
     return (name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
+
+
+def without_instants(normal: Normal) -> Normal:
+    """A product's branch that only fixes the time (t = 0 of ``t (x - y) = 0``) is no branch of motion: left out."""
+    kept = tuple(b for b in normal.branches if not any(_instant(p) for p in b))
+    if not kept or len(kept) == len(normal.branches):
+        return normal
+    return Normal(kept, (*(n for n in normal.notes if n != PRODUCT_NOTE), INSTANT_NOTE))
+
+
+def _instant(piece: Piece) -> bool:
+    return (
+        isinstance(piece, Finite)
+        and bool(piece.expr.symbols)
+        and all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
+    )

@@ -14,9 +14,11 @@ from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
+from dofkit.classification.labels.one_sided import kept_in_system, sides_of, with_sides
 from dofkit.classification.labels.reasons import Others
 from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
@@ -50,20 +52,23 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    shared, entries, consistent = SharedEntries(setting), list[ConstraintEntry](), outcome.consistent
+    shared, entries = SharedEntries(setting, company.parts), list[ConstraintEntry]()
+    consistent = outcome.consistent
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
             copied = i in outcome.copies
-            kind = None if known.says_more_of(i) else shared.kind(r, told[i], number, copied, i in known.following)
+            apart = known.says_more_of(i) or bool(sides_of(i, outcome))
+            kind = None if apart else shared.kind(r, told[i], number, copied, i in known.following)
             made = shared.known(kind, r)
             if made is None:
                 beside = partial(_with_others, i, told[i], company, names)
-                alone = _by_itself(i, r, told[i], setting)
+                alone = _by_itself(i, r, told[i], company.parts)
                 evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
-                made = _with_dependence(entry(r, evidence, setting, consistent), i, r, known)
+                made = with_sides(entry(r, evidence, setting, consistent), i, outcome, setting)
+                made = _with_dependence(made, i, r, known)
                 shared.keep(kind, made)
             entries.append(made)
         except OutOfTimeError as error:
@@ -123,7 +128,16 @@ def labels_in_system(
     told = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
-    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    labels = [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    return [_with_sides(label, i, outcome, setting) for i, label in enumerate(labels)]
+
+
+def _with_sides(
+    label: tuple[bool | None, Verdict], i: int, outcome: Outcome, setting: Setting
+) -> tuple[bool | None, Verdict]:
+    """A label as one of the whole constraint, the sides among it to which it keeps velocities."""
+    kept = kept_in_system(i, outcome, setting)
+    return label if kept.holds or not label[0] else (kept.holds, "undecided" if kept.holds is None else kept.verdict)
 
 
 def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:
@@ -139,7 +153,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     """An entry with its redundant equations by name, where their number is what was found before."""
     if following is None or made.independent is None or len(following) != made.equations - made.independent:
         return made
-    written = [relation for relation in r.constraint.relations if relation.sense == "="]
+    written = [relation for relation in r.constraint.relations if relation.sense == "="] if following else []
     names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
@@ -151,18 +165,17 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
 
 def _unmeasured(outcome: Outcome) -> set[int]:
     """The constraints of blocks whose velocities are not known: not all of their equations were looked at."""
-    open_blocks = (b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.velocity_dof is None)
-    return {r.constraint for block in open_blocks for r in block.rows}
+    return {r.constraint for block, a in outcome.parts if a.velocity_dof is None for r in block.rows}
 
 
-def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], setting: Setting) -> Answer | None:
+def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], parts: AnsweredParts) -> Answer | None:
     """What a constraint that is not finite says without the others."""
     written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
     if any(isinstance(row.piece, Nonlinear) for row in written):
         still = [t.row for t in told if isinstance(t.row.piece, Still)]
-        return _curved(told) or _alone_in_time([*written, *still], setting)
+        return _curved(told) or _alone_in_time([*written, *still], parts)
     if any(isinstance(t.row.piece, Pfaffian) for t in told):
-        return _inherited(told) or _alone_in_time([t.row for t in told], setting)
+        return _inherited(told) or _alone_in_time([t.row for t in told], parts)
     return None
 
 
@@ -207,13 +220,14 @@ def _curved(told: Sequence[LabelledRow]) -> Answer | None:
     return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
 
 
-def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
+def _alone_in_time(own: Sequence[Row], parts: AnsweredParts) -> Answer:
     mentioned = {name for row in own for name in coordinates_of(row.piece)}
-    coordinates = [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < LISTED else []
+    roles = parts.setting.roles
+    coordinates = [c.name for c in roles if c.name in mentioned] if len(roles) < LISTED else []
     coordinates += sorted(mentioned - set(coordinates))
     try:
         check()
-        return alone(own, setting, coordinates)
+        return alone(own, parts.setting, coordinates, parts.of)
     except (OutOfTimeError, ArithmeticError):
         return Answer(None, verdict="undecided")
 

@@ -4,33 +4,41 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
 
+from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.labels.entry import LabelledRow
 from dofkit.expressions.tree import TIME
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian, Piece
 from dofkit.relations.piece_shapes import shape_together
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry
 
+#: Of the equations of a joint that is not driven.
+STILL = Traits((True, "proved"))
+
 
 class SharedEntries:
     """What was found of constraints, to be told again of others of the same kind."""
 
-    def __init__(self, setting: Setting) -> None:
-        self._setting = setting
+    def __init__(self, setting: Setting, parts: AnsweredParts) -> None:
+        self._setting, self._parts = setting, parts
         self._traits: dict[Hashable, Traits] = {}
         self._entries: dict[Hashable, ConstraintEntry] = {}
 
     def traits(self, piece: Piece) -> Traits:
         """The labels that a piece carries by itself."""
+        if isinstance(piece, JointEquation):
+            return STILL
         if not isinstance(piece, Pfaffian):
             return traits(piece, self._setting.positive, self._setting.engines)
         key = shape_together((piece,))
         found = self._traits.get(key)
         if found is None:
-            found = self._traits[key] = traits(piece, self._setting.positive, self._setting.engines)
+            opened = self._parts.is_open(piece)
+            found = self._traits[key] = traits(piece, self._setting.positive, self._setting.engines, opened)
         return found
 
     def kind(self, r: Reduced, told: Sequence[LabelledRow], *beside: Hashable) -> Hashable:
@@ -78,7 +86,7 @@ class SharedEntries:
 
 def _is_still(piece: Piece) -> bool:
     """Is it a finite relation without time? All that it carries by itself is known then."""
-    return isinstance(piece, Finite) and TIME not in piece.expr.symbols
+    return isinstance(piece, JointEquation) or (isinstance(piece, Finite) and TIME not in piece.expr.symbols)
 
 
 def _sureness(a: Answer) -> Hashable:

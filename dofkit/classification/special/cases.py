@@ -175,7 +175,8 @@ def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | Non
     curvature = a.growth[1] - a.growth[0] if a.growth and len(a.growth) > 1 else 0
     try:
         table = table_of(block, a.hidden, told.setting, nonzero)
-        return SearchedBlock(block, a, table, candidates(table, rank, curvature))
+        curved = any(label.holonomic is False for label in a.labels.values())
+        return SearchedBlock(block, a, table, candidates(table, rank, curvature, curved))
     except _UNFINISHED:
         return None
 

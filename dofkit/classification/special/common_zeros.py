@@ -59,6 +59,11 @@ class Reals:
             *(s for v, s in zip(ring.vars, shown, strict=True) if v.kind != "symbol"), frozenset[Expr]()
         )
 
+    @property
+    def parameters(self) -> bool:
+        """Is there a generator that does not move, so that a coefficient may vanish for some values?"""
+        return len(self.moving) < len(self.canon.ring.vars)
+
     def never_zero(self, poly: Poly) -> bool:
         """True where the polynomial is proved to vanish nowhere."""
         if poly.is_constant():
@@ -158,7 +163,7 @@ class Reals:
         if even is not None and (len(even) > 1 or len(factor) == 1):
             options = [[i for i in zeros if i not in self.never] for zeros in even]
             return [[self.canon.gens[i] for i in sorted(set(choice))] for choice in cartesian(*options)]
-        if len(factor) > 2 and factor.total_degree() == 2:
+        if len(factor) > 2 and factor.total_degree() == 2 and not self._is_graph(factor):
             e = self.canon.to_expr(factor)
             branches, _ = zero_set(e, self.positive, e.symbols)
             if branches != ((e,),):
@@ -168,6 +173,10 @@ class Reals:
                     raise TooLargeError
                 return [[self.canon.quotient(node)[0] for node in branch] for branch in nodes]
         return [[factor]]
+
+    def _is_graph(self, factor: Poly) -> bool:
+        """Is an irreducible factor linear in a real generator? Then its zeros are a graph over the others."""
+        return any(k == 1 and len(self.canon.gens) - 1 - i in self.free for i, k in enumerate(factor.degrees()))
 
     def solved(self, poly: Poly) -> tuple[int, Poly] | None:
         """A condition as the value of a generator that can be put into the others; None where it cannot be solved."""

@@ -11,10 +11,10 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part
 from dofkit.exact.matrices.singular_values import independent_part
@@ -108,8 +108,8 @@ class RealSearch:
         tries = 0
         for attempt in range(starts):
             symbols = self.start(seed * STARTS + attempt, given or {})
-            found = self.descend(symbols, seed, steps)
-            refined = None if found is None else self.refine(symbols, found, seed)
+            found = self.descend(symbols, seed, steps) if self.nodes else None
+            refined = self.refine(symbols, found, seed) if found is not None or not self.nodes else None
             if refined is not None and refined.certified and refined.consistent:
                 return refined
             tries += refined is not None
@@ -170,8 +170,8 @@ class RealSearch:
         j = np.array(jacobian(self.ring, at, point, self.nodes, self.columns, 0.0), dtype=float)
         return f, j.reshape(len(self.nodes), len(self.columns))
 
-    def refine(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
-        """To high precision on independent rows, and the interval Newton test.
+    def refine(self, symbols: Mapping[Expr, float], j: np.ndarray | None, seed: int) -> RealPoint | None:
+        """To high precision on independent rows of the Jacobian (None: it has none), and the interval Newton test.
 
         Rows that floating point takes for dependent are tried as independent where the others do not imply them.
         """
@@ -180,8 +180,10 @@ class RealSearch:
         with ctx.workprec(max(ctx.prec, precision())):
             return self._precise(symbols, j, seed)
 
-    def _precise(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
-        _, _, rows, columns = independent_part(j)
+    def _precise(self, symbols: Mapping[Expr, float], j: np.ndarray | None, seed: int) -> RealPoint | None:
+        if j is None:
+            return self._refined(symbols, (), (), seed)
+        rows, columns = independent_part(j)[2:]
         found = self._refined(symbols, rows, columns, seed)
         if (found is not None and found.certified and found.consistent) or len(rows) == len(self.nodes):
             return found

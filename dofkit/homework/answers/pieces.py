@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.characters import GREEK
+from dofkit.expressions.text.words import read_word
 from dofkit.homework.answers.notation import ARROW, script_of, with_differentials
 from dofkit.homework.answers.prose import plain, takes_back, words
 from dofkit.homework.answers.script import Script
@@ -36,15 +37,22 @@ _GROUP = re.compile(r"[(\[]([^()\[\]=<>+*/^\d]+)[)\]]\s*\Z|[(\[]([^()\[\]=<>+*/^
 _INTRODUCED = re.compile(
     r"\A\s*(?:[^\W\d_]+(?:['’]\s*|\s+)){0,6}"
     r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have|follows|folgt|vaut"
-    r"|s['’]\s?écrit|se\s+escribe|si\s+scrive|escreve-se|donne|da|resulta|risulta|becomes|wird)"
-    r"(?:\s+(?:that|zu|als|comme|como|come))?\s*:?\s+(?=\S)", re.IGNORECASE,
+    r"|s['’]\s?écrit|se\s+escribe|si\s+scrive|escreve-se|donne|da|resulta|risulta|becomes|wird|integrates?|[oO]n\s+a|man\s+erh[äa]lt|wir\s+erhalten|we\s+(?:get|have|find|obtain)|on\s+(?:obtient|trouve)"
+    r"|tenemos|abbiamo|temos)"
+    r"(?:\s+(?:that|to|zu|als|comme|como|come))?\s*:?\s+(?=\S)", re.IGNORECASE,
 )  # fmt: skip
+#: That an equation holds at all times, behind it.
+_ALWAYS = re.compile(
+    r"(?<=\S)\s+(?:for\s+(?:all|every)|at\s+all|f[üu]r\s+alle?|zu\s+allen|pour\s+tout|para\s+todo|per\s+ogni|∀|\\forall)"
+    r"\s*(?:t|times?|zeiten|temps|tiempo|tempo)\s*\.?\s*\Z",
+    re.IGNORECASE,
+)
 #: What a family of curves is called, before its equation.
 _CURVES = re.compile(
     r"\A\s*(?:(?:the|die|der|das|les|la|le|las|los|le|gli|i|as|os|family|familie|schar|famille|familia|of|von|de|di|alle)\s+)*"
     r"(?:straight\s+)?(?:lines?|geraden?|droites?|rectas?|rett[ae]|retas?|circles?|kreise?|cercles?|c[ií]rculos?|cerchi|spheres?"
     r"|kugeln?|sph[èe]res?|parabol[ae]s?|parabeln?|hyperbol[ae]s?|hyperbeln?|hip[ée]rbolas?|spirals?|spiralen?|ellipsen?|curves?"
-    r"|kurven?|courbes?|curvas?|curve)(?:schar)?\s+(?=\S)",
+    r"|kurven?|courbes?|curvas?|curve)(?:schar)?\s+(?=[^\s:])",
     re.IGNORECASE,
 )
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
@@ -162,7 +170,7 @@ def _cleaned(script: Script, names: Names) -> Script | None:
         script = script.replaced(re.compile(re.escape(group[0])), " ").stripped()
     script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|\s*\.\s*\Z|!\s*\Z"), "").stripped()
     if _RELATION.search(script.text):
-        script = script.replaced(_NUMBER_AFTER, "").stripped()
+        script = script.replaced(_NUMBER_AFTER, "").replaced(_ALWAYS, "").stripped()
     script = script.replaced(_CURVES, "") if _RELATION.search(script.text) else script
     for lead in (_TITLED, _INTRODUCED):
         match = lead.match(script.text)
@@ -190,6 +198,14 @@ def _known(word: str, names: Names) -> bool:
     return names.lookup.meaning(word) is not None
 
 
+def _readable(word: str, names: Names) -> bool:
+    """Is a word a name, or a product of names, such as `mgl`?"""
+    try:
+        return bool(read_word(word, names.lookup, 1, False))
+    except TextError:
+        return False
+
+
 def _is_lead(text: str, names: Names) -> bool:
     """Do words stand here, none of which is a name? A name with a number, such as g1, titles an equation too."""
     found = re.findall(r"\w+", text)
@@ -209,6 +225,8 @@ def _of_coordinates(text: str, names: Names) -> bool:
 def _is_remark(text: str, names: Names, least: int = 5) -> bool:
     """Words of which none is a name, more than one or one that is known to say nothing."""
     if re.search(r"[=<>≤≥+*/^\\\d±|·⋅×−√½⅓¼¾²³¹⁰-₉]", text):
+        return False
+    if all(_readable(w, names) for w in _WORDS.findall(text)):
         return False
     found = [plain(w) for w in _WORDS.findall(text)]
     unknown = [w for w in found if not _known(w, names)]

@@ -57,6 +57,43 @@ def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
     return AnswerReading(relations, (False,) * len(relations), meant=reading.meant)
 
 
+def with_constants(relations: Sequence[Comparison], own: Sequence[str], scene: Scene) -> list[Comparison]:
+    """Relations without constants of an answer's own that it defines by declared ones: `omega^2 = g/l`."""
+    kept = list(relations)
+    for name in own:
+        symbol = ex.parameter(name)
+        for c in kept:
+            value = _defined(c, symbol, own, scene)
+            if value is not None:
+                table = {symbol: value}
+                kept = [
+                    Comparison(substitute(o.left, table), o.relation, substitute(o.right, table), o.column)
+                    for o in kept
+                    if o is not c
+                ]
+                break
+    return kept
+
+
+def _defined(c: Comparison, symbol: Expr, own: Sequence[str], scene: Scene) -> Expr | None:
+    """What a constant is by a relation of constants that says it, or its square; None for any other relation."""
+    e = c.left - c.right
+    others = e.symbols - {symbol}
+    if c.relation != "=" or symbol not in e.symbols or any(s.args[0] != "parameter" for s in others):
+        return None
+    if any(s.args[1] in own for s in others):
+        return None
+    squared = ex.parameter("square of a name")
+    for named, root in ((e, False), (replace_nodes(e, {symbol**2: squared}), True)):
+        unknown = squared if root else symbol
+        slope = diff(named, unknown)
+        left = {symbol} & named.symbols if root else {symbol} & slope.symbols
+        if not left and unknown not in slope.symbols and never_zero(slope, scene):
+            value = -substitute(named, {unknown: ZERO}) / slope
+            return ex.sqrt(value) if root else value
+    return None
+
+
 def _mentions(e: Expr, name: str) -> bool:
     return any(len(s.args) > 1 and s.args[1] == name for s in e.symbols)
 

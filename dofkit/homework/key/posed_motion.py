@@ -15,13 +15,14 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Comparison, spelled, to_text
 from dofkit.expressions.tree import ZERO, Expr
+from dofkit.homework.answers.energies import with_energies
 from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
 from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import Given
 from dofkit.homework.key.compared_equations import undeclared
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import extended, offered
-from dofkit.homework.key.own_names import renamed
+from dofkit.homework.key.own_names import renamed, with_constants
 from dofkit.scene.added_equations import as_text
 
 #: Names of an answer's own for multipliers.
@@ -62,8 +63,20 @@ class PosedMotion:
 def posed_motions(answer: Given, key: Key, value: bool) -> list[PosedMotion]:
     """Every way to read an answer, as a value or as equations. Raises TextError."""
     vocabulary = AnswerNames(key.names, accelerations=True)
+    answer = with_energies(answer, key.names) if value else answer
     ways = readings_of(answer, vocabulary, _without_lead if value else None)
-    return [_posed(way.claim if way.derived else way, key, value) for way in ways]
+    claims = [way.claim if way.derived else way for way in ways]
+    return [_posed(side, key, value) for way in claims for side in (_sides(way) if value else [way])]
+
+
+def _sides(way: AnswerReading) -> list[AnswerReading]:
+    """Every side of a value told as `A = B`: they should be the same; else the reading itself."""
+    way = _named_value(way)
+    pairs = zip(way.relations, way.relations[1:], strict=False)
+    if any(way.bare) or any(c.relation != "=" for c in way.relations) or any(c.right != d.left for c, d in pairs):
+        return [way]
+    sides = [way.relations[0].left, *(c.right for c in way.relations)]
+    return [way._replace(relations=(Comparison(side, "=", ZERO, 1),), bare=(True,)) for side in sides]
 
 
 def _without_lead(script: Script) -> Script:
@@ -74,7 +87,7 @@ def _without_lead(script: Script) -> Script:
 
 
 def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
-    way = _named_value(way) if value else way
+    way = _defining_constants(way, key)
     multipliers = [n for n in way.own if not value and n not in way.moving and _MULTIPLIER.fullmatch(spelled(n))]
     other = tuple(name for name in way.own if name not in multipliers)
     defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
@@ -97,6 +110,27 @@ def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
         for guess, _ in renamed(way._replace(own=other), key.scene, key.constants)
     )
     return PosedMotion(key, way.relations, way.shown, known, guesses, undeclared(way._replace(own=other), key))
+
+
+def _defining_constants(way: AnswerReading, key: Key) -> AnswerReading:
+    """Without constants of its own that it defines, `omega^2 = g/l`."""
+    still = [n for n in way.own if n not in way.moving]
+    whole = len(way.relations) > 1 and not any(map(_of_constants, way.relations, way.bare))
+    kept = with_constants(way.relations, still, key.scene) if whole else list(way.relations)
+    if len(kept) == len(way.relations):
+        return way
+    named = {n for c in kept for n in _names(c)}
+    bare = [b for c, b in zip(way.relations, way.bare, strict=True) if b]
+    return way._replace(
+        relations=tuple(kept),
+        bare=tuple(bare + [False] * (len(kept) - len(bare))),
+        own=tuple(n for n in way.own if n in named),
+    )
+
+
+def _of_constants(c: Comparison, bare: bool) -> bool:
+    """Is it a value of constants alone, which defines none?"""
+    return bare and all(s.args[0] == "parameter" for s in c.left.symbols)
 
 
 def _named_value(way: AnswerReading) -> AnswerReading:

@@ -14,6 +14,7 @@ from dofkit.homework.result import Result
 from dofkit.homework.review.filled_table import FilledTable, read_table
 from dofkit.homework.review.queue import Queue
 from dofkit.homework.review.rows import ReviewRow
+from dofkit.homework.runs.reviewed_variants import tell_variants
 
 TABLE, PAGE = "review.csv", "review.html"
 
@@ -63,6 +64,7 @@ class RunReview:
         if self.paths is None:
             return
         queue = queue_of(results, prepared)
+        tell_variants(queue, prepared)
         rows = list(queue.rows(self.rows))
         if not rows and self.paths.shared and not self.paths.table.exists():
             return
@@ -74,6 +76,13 @@ class RunReview:
             different = "1 answer waits" if waiting == 1 else f"{waiting} different answers wait"
             again = f"fill in points, then grade again with --reviewed {self.paths.table}"
             print(f"{different} for a person in {self.paths.table}: {again}", file=sys.stderr)
+
+    def write_page(self, results: Path, prepared: Prepared) -> None:
+        """Write the page alone, of results whose table stands elsewhere. Raises OSError."""
+        if self.paths is not None:
+            queue = queue_of(results, prepared)
+            tell_variants(queue, prepared)
+            write_page(queue, queue.rows(self.rows), prepared, self.paths.page, str(self.paths.table))
 
 
 def queue_of(results: Path, prepared: Prepared) -> Queue:

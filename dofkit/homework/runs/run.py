@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
@@ -21,7 +21,7 @@ from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.formats.apart import apart_path
 from dofkit.homework.result import Result
-from dofkit.homework.runs.appeals import JudgedAnswer, judged_answers, write_certificates
+from dofkit.homework.runs.appeals import Appeals
 from dofkit.homework.runs.batch import Orders, ResultLine
 from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
 from dofkit.homework.runs.journal import Journal, fingerprint
@@ -113,7 +113,8 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     if people is not None:
         stream = (named_by(people, one) for one in stream)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
-        one = _Run(form, prepared, orders, crew, seen, roster, people, sources, options.certificates is not None)
+        appeals = None if options.certificates is None or options.check_only else Appeals(prepared)
+        one = _Run(form, prepared, orders, crew, seen, roster, people, sources, appeals)
         if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
@@ -121,7 +122,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     if one.doubted:
         print(f"a person has to say whose they are: {one.doubted} of the submissions have a 'doubt'", file=sys.stderr)
     if options.certificates is not None:
-        write_certificates(prepared, options.certificates, one.answers)
+        (appeals or Appeals(prepared)).write(options.certificates)
     return one.failed == 0
 
 
@@ -143,7 +144,7 @@ class _Run:
     """One run; ``failed`` counts the submissions that could not be graded, ``doubted`` those that may be another's.
 
     ``people``: by whom submissions are told apart, the roster or those who have sheets of their own; ``sources``: what
-    was handed in. ``answers`` are kept for appeals.
+    was handed in. ``appeals``: what may be asked about answers later.
     """
 
     form: Format
@@ -154,10 +155,9 @@ class _Run:
     roster: Roster | None = None
     people: Roster | None = None
     sources: Sequence[str] = ()
-    appeals: bool = False
+    appeals: Appeals | None = None
     failed: int = 0
     doubted: int = 0
-    answers: list[JudgedAnswer] = field(default_factory=list)
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
         """Print results as they come."""
@@ -181,7 +181,8 @@ class _Run:
             self.failed += journal.failed
             for one, lines in self._with_lines(left, False):
                 journal.write(one, lines)
-        self._keep(_results(path) if self.appeals and not self.orders.check_only else ())
+        if self.appeals is not None:
+            self.appeals.gather(_results(path))
         if self.form.name != NATIVE:
             self.form.written(_results(path), self.prepared, out, self.roster, self.sources)
         review.write(path, self.prepared)
@@ -189,14 +190,11 @@ class _Run:
             path.unlink()
         journal.finish()
 
-    def _keep(self, results: Iterable[Result]) -> None:
-        """Keep answers that may be appealed."""
-        self.answers += judged_answers(self.prepared, results)
-
     def _kept(self, lines: Iterator[str]) -> Iterator[str]:
         """Lines, of which answers are kept."""
         for text in lines:
-            self._keep([Result.model_validate_json(text)] if self.appeals and not self.orders.check_only else ())
+            if self.appeals is not None:
+                self.appeals.add(Result.model_validate_json(text))
             yield text
 
     def _with_lines(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[ResultLine]]]:
