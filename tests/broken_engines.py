@@ -156,7 +156,7 @@ def answers(package: Path, scenes: list[str], sound: Mapping[str, Answers] | Non
             known.write_text(json.dumps({scene: told.values for scene, told in sound.items()}), encoding="utf-8")
         environment = {**os.environ, "PYTHONPATH": str(package), "PYTHONDONTWRITEBYTECODE": "1"}
         command = [sys.executable, str(script), "" if sound is None else str(known), *scenes]
-        found = subprocess.run(command, capture_output=True, text=True, env=environment, check=False, timeout=1800)
+        found = subprocess.run(command, capture_output=True, text=True, env=environment, check=False, timeout=4 * 3600)
     if found.returncode:
         raise SystemExit(f"the package in {package} does not run: {found.stderr[-1000:]}")
     lines = [json.loads(line) for line in found.stdout.splitlines() if line.startswith("[")]
